@@ -23,13 +23,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let rows = evidence.divided.map_or(&all, |divided| &divided.split.test);
     if let Some(groups) = evidence.divided.and_then(|divided| divided.groups.as_ref()) {
         let distinct: BTreeSet<_> = rows.iter().map(|&row| &groups[row]).collect();
-        return few(distinct.len(), "groups");
+        return few(distinct.len(), "group");
     }
     if evidence
         .divided
         .is_some_and(|divided| divided.are_independent)
     {
-        return few(rows.len(), "independent samples");
+        return few(rows.len(), "independent sample");
     }
     let unnamed = rows.iter().filter(|&&row| points[row].is_none()).count();
     if unnamed > 0 {
@@ -40,7 +40,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         return vec![Found::overall(Severity::Warning, message)];
     }
     let distinct: BTreeSet<_> = rows.iter().map(|&row| &points[row]).collect();
-    few(distinct.len(), "contact points")
+    few(distinct.len(), "contact point")
 }
 
 /// The finding on `count` clusters of this kind, where there are too few.
@@ -48,6 +48,8 @@ fn few(count: usize, kind: &str) -> Vec<Found> {
     if count == 0 || count >= LEAST {
         return Vec::new();
     }
-    let message = format!("the test part has {count} {kind}, {LEAST} are needed for an interval");
+    let plural = if count == 1 { "" } else { "s" };
+    let message =
+        format!("the test part has {count} {kind}{plural}, {LEAST} are needed for an interval");
     vec![Found::overall(Severity::Warning, message)]
 }

@@ -188,6 +188,20 @@ fn tables_and_json_lines_with_a_column_of_frames_have_one_frame_in_all_files() {
 }
 
 #[test]
+fn columns_that_name_a_frame_in_other_words_have_one_frame_too() {
+    let map =
+        format!("table = \"ft.csv\"\n[columns]\nFz = {{ from = \"fz\", unit = \"N\" }}\n{NO_TIME}");
+    for column in ["reference_frame", "child_frame", "Coordinate_Frame"] {
+        let table = format!("fz,{column}\n1,tool0\n2,tool0\n3,base\n");
+        let folder = lab(&[("ft.csv", &table)]);
+        refused(
+            &planned_with(folder.path(), &map),
+            &["line 4", "`base` here", "`tool0` before"],
+        );
+    }
+}
+
+#[test]
 fn counters_names_of_pictures_and_frames_of_other_columns_are_no_coordinate_frames() {
     let columns = "[columns]\nFz = { from = \"fz\", unit = \"N\" }\n";
     let map = format!("table = \"ft.csv\"\n{columns}{NO_TIME}");

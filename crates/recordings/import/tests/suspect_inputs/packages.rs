@@ -98,5 +98,5 @@ fn a_folder_of_lerobot_whose_version_bears_a_name_is_read_and_the_length_of_a_ve
     );
     let forces = imported(&folder, &map, "Fz");
     assert_eq!(forces.len(), 24);
-    assert_eq!(forces[4], 6.0);
+    assert_eq!(forces[4].to_bits(), 6.0_f64.to_bits());
 }

@@ -14,8 +14,14 @@ use crate::import::map::{FrameNames, ImportMap};
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// End of the name of a column that names a coordinate frame: `header.frame_id`, `/header/frame_id`, `frame_id`.
-const ENDING: &str = "frame_id";
+/// Ends of the name of a column that names a coordinate frame: `header.frame_id`, `/header/frame_id`, `wrench_reference_frame`.
+const ENDINGS: [&str; 5] = [
+    "frame_id",
+    "child_frame",
+    "coordinate_frame",
+    "parent_frame",
+    "reference_frame",
+];
 /// Rows from which on a column with another text in each of them names pictures.
 const NAMES_OF_PICTURES: usize = 8;
 /// Number of frames that a message names.
@@ -101,15 +107,22 @@ fn changed(column: &FrameColumn, known: &StatedFrame, found: &StatedFrame) -> Da
 pub(super) fn columns(table: &ForeignTable) -> Vec<String> {
     let mut names = table.columns();
     names.extend(table.names());
-    names.retain(|name| name.to_ascii_lowercase().ends_with(ENDING));
+    names.retain(|name| without_ending(name).is_some());
     names.sort_unstable();
     names.dedup();
     names
 }
 
+/// The name of a column without the end that says that it names a coordinate frame.
+fn without_ending(column: &str) -> Option<&str> {
+    let lower = column.to_ascii_lowercase();
+    let ending = ENDINGS.into_iter().find(|ending| lower.ends_with(ending))?;
+    Some(&column[..column.len() - ending.len()])
+}
+
 /// Begin of `column` before the name of a frame, and of the columns that are given in it: nothing, `wrench.`.
 fn prefix(column: &str) -> &str {
-    let mut prefix = &column[..column.len() - ENDING.len()];
+    let mut prefix = without_ending(column).unwrap_or(column);
     for part in ["child_", "header.", "header/", "header_"] {
         let split = prefix.len().checked_sub(part.len());
         let split = split.filter(|split| prefix.is_char_boundary(*split));
