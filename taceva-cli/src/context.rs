@@ -23,9 +23,17 @@ impl Context {
         let asked = everywhere
             .jobs
             .and_then(|jobs| NonZeroUsize::new(usize::from(jobs)));
+        let wanted = asked.unwrap_or_else(all_cores);
+        let there = taceva_models::prepare_threads(wanted);
+        if there < wanted.get() && !everywhere.quiet {
+            stderr::say(format_args!(
+                "the system starts {there} of {wanted} threads: this takes longer, with the same result (raise `ulimit -u` or the limit of the container)"
+            ));
+        }
         Context {
             progress: TerminalProgress::new(everywhere.quiet),
-            jobs: asked.unwrap_or_else(all_cores),
+            // The same number on one thread as on many: no result depends on it.
+            jobs: NonZeroUsize::new(there).unwrap_or(NonZeroUsize::MIN),
             verbose: everywhere.verbose > 0,
             quiet: everywhere.quiet,
             plugins: everywhere.plugins.clone(),

@@ -10,6 +10,7 @@ mod model;
 mod models;
 mod settings;
 mod split;
+mod threads;
 mod training;
 
 #[cfg(feature = "ndarray")]
@@ -46,6 +47,7 @@ pub use split::{
     ColumnSplit, FoldGroups, FoldSpec, Folds, Fractions, Part, Split, SplitBlocks, SplitCounts,
     SplitError, SplitInput, SplitKind, SplitManifest, SplitSpec,
 };
+pub use threads::prepare_threads;
 pub use training::card::{
     AngleCard, AutoCard, AutoTrial, ChannelCard, DistanceCard, Form, LibraryCard, ModelCard,
     NetworkCard, PluginCard, Provenance, SampleCounts, Source, SplitCard, Untried, ValidationCard,

@@ -38,6 +38,7 @@ mod sweep;
 mod sweep_scenes;
 mod sweep_tables;
 mod taxels;
+mod threads;
 mod uncertainty;
 mod views;
 mod waiting;

@@ -1,7 +1,8 @@
 //! Work on many cores whose results arrive in order, with bounded memory.
 
 use std::num::NonZeroUsize;
-use std::sync::mpsc::sync_channel;
+use std::sync::mpsc::{channel, sync_channel};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 /// Results a worker may be ahead of the one that is awaited.
@@ -15,7 +16,8 @@ pub fn all_cores() -> NonZeroUsize {
 /// Calls `work` on `0..count` from `jobs` threads and `take` with each result in order, on the calling thread.
 ///
 /// Worker `k` does items `k`, `k + jobs`, … and hands them over through its own bounded queue, so order needs no sorting and
-/// the first error in order is the one that is returned, whatever the number of threads.
+/// the first error in order is the one that is returned, whatever the number of threads. Where the system starts fewer threads than `jobs`, those that it
+/// starts do everything, and the calling thread where it starts none.
 pub fn ordered_map<T: Send, E>(
     count: usize,
     jobs: NonZeroUsize,
@@ -28,18 +30,29 @@ pub fn ordered_map<T: Send, E>(
     }
     let work = &work;
     thread::scope(|scope| {
-        let queues: Vec<_> = (0..jobs)
-            .map(|worker| {
-                let (sender, receiver) = sync_channel(AHEAD);
-                scope.spawn(move || {
-                    // A closed queue means that the taker stopped: nobody wants the rest.
-                    let _ = (worker..count)
-                        .step_by(jobs)
-                        .try_for_each(|item| sender.send(work(item)));
-                });
-                receiver
-            })
-            .collect();
+        let started = (0..jobs).map_while(|worker| {
+            let (sender, receiver) = sync_channel(AHEAD);
+            let (workers, known) = channel::<usize>();
+            let thread = thread::Builder::new().spawn_scoped(scope, move || {
+                let Ok(workers) = known.recv() else { return };
+                // A closed queue means that the taker stopped: nobody wants the rest.
+                let _ = (worker..count)
+                    .step_by(workers)
+                    .try_for_each(|item| sender.send(work(item)));
+            });
+            thread.ok().map(|_| (workers, receiver))
+        });
+        let started: Vec<_> = started.collect();
+        let jobs = started.len();
+        if jobs == 0 {
+            return (0..count).try_for_each(|item| take(item, work(item)));
+        }
+        let queues = started.into_iter().map(|(workers, receiver)| {
+            // A thread that waits for the number of workers has not ended.
+            let _ = workers.send(jobs);
+            receiver
+        });
+        let queues: Vec<_> = queues.collect();
         (0..count).try_for_each(|item| match queues[item % jobs].recv() {
             Ok(result) => take(item, result),
             // The worker panicked; leaving the scope raises its panic here.
@@ -48,18 +61,31 @@ pub fn ordered_map<T: Send, E>(
     })
 }
 
-/// Calls `work` on each part from its own thread; the results are in the order of the parts.
+/// Calls `work` on each part from its own thread, or from the calling one where the system starts none; the results are in the order of the parts.
 pub fn each_part<P: Send, T: Send>(parts: Vec<P>, work: impl Fn(P) -> T + Sync) -> Vec<T> {
     let work = &work;
+    let parts: Vec<_> = parts
+        .into_iter()
+        .map(|part| Mutex::new(Some(part)))
+        .collect();
+    let done = |part: &Mutex<Option<P>>| {
+        let part = part.lock().unwrap_or_else(PoisonError::into_inner).take();
+        work(part.expect("one thread a part"))
+    };
+    let done = &done;
     thread::scope(|scope| {
-        let mut parts = parts.into_iter();
-        let first = parts.next();
-        let running: Vec<_> = parts.map(|part| scope.spawn(move || work(part))).collect();
-        let first = first.map(work);
-        let rest = running.into_iter().map(|thread| {
-            thread
+        let running: Vec<_> = parts
+            .iter()
+            .skip(1)
+            .map(|part| thread::Builder::new().spawn_scoped(scope, move || done(part)))
+            .collect();
+        let first: Vec<T> = parts.first().map(done).into_iter().collect();
+        let rest = parts.iter().skip(1).zip(running);
+        let rest = rest.map(|(part, thread)| match thread {
+            Ok(thread) => thread
                 .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            Err(_) => done(part),
         });
         first.into_iter().chain(rest).collect()
     })

@@ -13,6 +13,7 @@ mod response;
 mod route;
 mod sight;
 mod state;
+mod strangers;
 mod token;
 
 pub use error::PageError;

@@ -1,7 +1,7 @@
 //! The server of a page, while somebody has it.
 
 use std::io;
-use std::net::{Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::JoinHandle;
@@ -10,12 +10,10 @@ use std::time::Duration;
 use crate::access::Access;
 use crate::error::PageError;
 use crate::live::{Live, Shared};
-use crate::response::{self, Status};
-use crate::route::{self, Site, entered};
+use crate::route::{self, Site};
+use crate::strangers::Strangers;
 use crate::token::Token;
 
-/// Connections at most.
-const CONNECTIONS_MAX: usize = 8;
 /// How long a browser that takes nothing may hold its thread.
 const WRITING: Duration = Duration::from_secs(2);
 /// How long the encoder waits for a frame before it looks whether it is over.
@@ -112,8 +110,9 @@ impl Drop for Page {
     }
 }
 
-/// Gives every connection a thread, and those above the most an answer.
+/// Gives every connection a thread. One that has not shown the token may be closed for a newer one, so that the stop button is always answered.
 fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsize>) {
+    let strangers = Arc::new(Strangers::default());
     loop {
         let accepted = listener.accept();
         if site.shared.is_over.load(Ordering::Acquire) {
@@ -130,18 +129,17 @@ fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsiz
         if prepared.is_err() {
             continue;
         }
-        if !entered(connections, CONNECTIONS_MAX) {
-            refuse(stream);
+        let Ok(stranger) = strangers.enter(&stream) else {
             continue;
-        }
-        let served = (Arc::clone(site), Leaves(Arc::clone(connections)));
+        };
+        let served = (Arc::clone(site), Leaves::enter(connections));
         // A thread that does not start is a connection that is closed.
         let _ = std::thread::Builder::new()
             .name("page connection".to_owned())
             .spawn(move || {
                 let (site, _leaves) = served;
                 // A browser that goes ends its connection.
-                let _ = route::serve(stream, &site);
+                let _ = route::serve(stream, stranger, &site);
             });
     }
 }
@@ -149,14 +147,16 @@ fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsiz
 /// Counts a connection off, however it ends.
 struct Leaves(Arc<AtomicUsize>);
 
+impl Leaves {
+    /// Counts a connection on.
+    fn enter(connections: &Arc<AtomicUsize>) -> Leaves {
+        connections.fetch_add(1, Ordering::AcqRel);
+        Leaves(Arc::clone(connections))
+    }
+}
+
 impl Drop for Leaves {
     fn drop(&mut self) {
         self.0.fetch_sub(1, Ordering::AcqRel);
     }
-}
-
-/// Says that there are too many, to a socket whose buffer is empty: that waits for nobody.
-fn refuse(mut stream: TcpStream) {
-    let _ = response::bare(&mut stream, Status::Busy);
-    let _ = stream.shutdown(Shutdown::Write);
 }

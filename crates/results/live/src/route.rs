@@ -13,9 +13,10 @@ use crate::access::Access;
 use crate::live::Shared;
 use crate::request::{self, Request};
 use crate::response::{self, Status};
+use crate::strangers::Stranger;
 
-/// Streams at most: two pages, and connections left for their buttons.
-pub(crate) const STREAMS_MAX: usize = 4;
+/// Streams at most: two pages.
+const STREAMS_MAX: usize = 4;
 /// From one event to the next.
 const EVENTS: Duration = Duration::from_millis(100);
 /// How long a stream waits for a picture before it looks whether it is over.
@@ -34,8 +35,8 @@ pub(crate) struct Site {
     pub(crate) on_stop: Box<dyn Fn() + Send + Sync>,
 }
 
-/// Serves one connection: one request, one answer.
-pub(crate) fn serve(mut stream: TcpStream, site: &Site) -> io::Result<()> {
+/// Serves one connection: one request, one answer. Who reads a stream has shown the token, and is no `stranger` any more.
+pub(crate) fn serve(mut stream: TcpStream, stranger: Stranger, site: &Site) -> io::Result<()> {
     let done = request::read(&mut stream).and_then(|request| {
         site.access.check_origin(&request)?;
         route(&request, site)
@@ -49,8 +50,14 @@ pub(crate) fn serve(mut stream: TcpStream, site: &Site) -> io::Result<()> {
         Ok(Reply::File(kind, body)) => {
             response::whole(&mut stream, Status::Ok, kind, body.as_bytes())
         }
-        Ok(Reply::Frames(_viewer)) => frames(&mut stream, &site.shared),
-        Ok(Reply::Events(_viewer)) => events(&mut stream, &site.shared),
+        Ok(Reply::Frames(_viewer)) => {
+            drop(stranger);
+            frames(&mut stream, &site.shared)
+        }
+        Ok(Reply::Events(_viewer)) => {
+            drop(stranger);
+            events(&mut stream, &site.shared)
+        }
     }
 }
 
@@ -148,7 +155,7 @@ impl Drop for Viewer {
 }
 
 /// Counts one more, unless there are `most` already.
-pub(crate) fn entered(count: &AtomicUsize, most: usize) -> bool {
+fn entered(count: &AtomicUsize, most: usize) -> bool {
     let more = |count: usize| (count < most).then_some(count + 1);
     count
         .fetch_update(Ordering::AcqRel, Ordering::Acquire, more)

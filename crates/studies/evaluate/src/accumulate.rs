@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use taceva_core::{Batch, Column, Field, Labels};
 use taceva_dataset::Dataset;
+use taceva_dataset::internal::each_part;
 use taceva_metrics::{ClusteredBy, Evaluator, MetricPlan};
 
 use crate::error::EvaluateError;
@@ -42,17 +43,7 @@ pub fn accumulate(
         .step_by(block.max(BATCH_ROWS))
         .map(|start| start..rows.min(start + block))
         .collect();
-    let evaluators: Vec<Result<Evaluator, EvaluateError>> = std::thread::scope(|scope| {
-        let threads: Vec<_> = blocks
-            .into_iter()
-            .map(|block| scope.spawn(move || accumulate_block(source, plan, block)))
-            .collect();
-        let joined = threads.into_iter().map(|thread| match thread.join() {
-            Ok(evaluator) => evaluator,
-            Err(panic) => std::panic::resume_unwind(panic),
-        });
-        joined.collect()
-    });
+    let evaluators = each_part(blocks, |block| accumulate_block(source, plan, block));
     let mut total = Evaluator::new(plan);
     for evaluator in evaluators {
         total.merge(evaluator?)?;

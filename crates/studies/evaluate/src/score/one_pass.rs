@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use taceva_core::{ErrorKind, ModelError, Progress};
+use taceva_dataset::internal::each_part;
 use taceva_import::{CsvStream, CsvTable};
 use taceva_metrics::Evaluator;
 
@@ -107,26 +108,13 @@ struct Pass<'a> {
 impl Pass<'_> {
     /// What all rows come to; `None` if they cannot be scored so, or there are none. Sums are exact, so which thread takes which rows changes nothing.
     fn evaluate(&self, threads: usize) -> Result<Option<Evaluator>, EvaluateError> {
-        let evaluators: Vec<Result<Option<Evaluator>, EvaluateError>> =
-            std::thread::scope(|scope| {
-                let threads: Vec<_> = (0..threads)
-                    .map(|_| {
-                        scope.spawn(|| {
-                            let found = self.batches();
-                            if !matches!(found, Ok(Some(_))) {
-                                self.is_over.store(true, Ordering::Relaxed);
-                            }
-                            found
-                        })
-                    })
-                    .collect();
-                let joined = threads.into_iter().map(|thread| {
-                    thread
-                        .join()
-                        .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-                });
-                joined.collect()
-            });
+        let evaluators = each_part((0..threads).collect(), |_| {
+            let found = self.batches();
+            if !matches!(found, Ok(Some(_))) {
+                self.is_over.store(true, Ordering::Relaxed);
+            }
+            found
+        });
         let mut total = Evaluator::new(&self.plan.metrics);
         for evaluator in evaluators {
             match evaluator? {

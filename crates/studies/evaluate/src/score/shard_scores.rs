@@ -9,6 +9,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use taceva_core::{Channel, ErrorKind, ModelError, Progress, shown};
 use taceva_dataset::Digest;
+use taceva_dataset::internal::each_part;
 use taceva_import::{CsvParts, CsvTable};
 use taceva_metrics::Evaluator;
 
@@ -282,21 +283,7 @@ impl ScoreTables {
             progress,
         };
         let share = parts.len().div_ceil(request.jobs.get()).max(1);
-        let evaluators: Vec<Result<Evaluator, EvaluateError>> = std::thread::scope(|scope| {
-            let threads: Vec<_> = parts
-                .chunks(share)
-                .map(|parts| {
-                    let work = &work;
-                    scope.spawn(move || work.parts(parts))
-                })
-                .collect();
-            let joined = threads.into_iter().map(|thread| {
-                thread
-                    .join()
-                    .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-            });
-            joined.collect()
-        });
+        let evaluators = each_part(parts.chunks(share).collect(), |parts| work.parts(parts));
         let mut total = Evaluator::new(&understood.plan.metrics);
         for evaluator in evaluators {
             total.merge(evaluator?)?;
@@ -307,24 +294,8 @@ impl ScoreTables {
 
 /// Both tables, looked through at the same time where two threads are allowed.
 fn both(request: &ScoreRequest) -> Result<ScoreTables, EvaluateError> {
-    let prediction = || TableParts::scan(&request.prediction);
-    if request.jobs == NonZeroUsize::MIN {
-        return Ok(ScoreTables {
-            truth: TableParts::scan(&request.truth)?,
-            prediction: prediction()?,
-        });
-    }
-    std::thread::scope(|scope| {
-        let prediction = scope.spawn(prediction);
-        let truth = TableParts::scan(&request.truth);
-        let prediction = prediction
-            .join()
-            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        Ok(ScoreTables {
-            truth: truth?,
-            prediction: prediction?,
-        })
-    })
+    let [truth, prediction] = tables::both_at_once(request, |path| TableParts::scan(path))?;
+    Ok(ScoreTables { truth, prediction })
 }
 
 /// What the threads of a shard have in common.

@@ -6,6 +6,7 @@ use std::path::Path;
 use taceva_core::shown;
 
 use taceva_core::{Channel, Channels, Unit};
+use taceva_dataset::internal::each_part;
 use taceva_dataset::{Digest, Place};
 use taceva_import::CsvTable;
 
@@ -38,17 +39,22 @@ pub(super) fn read_both(request: &ScoreRequest) -> Result<[(CsvTable, Digest); 2
         let digest = table.digest();
         Ok((table, digest))
     };
+    both_at_once(request, read)
+}
+
+/// Both tables by `read`, at the same time where two threads are allowed.
+pub(super) fn both_at_once<T: Send>(
+    request: &ScoreRequest,
+    read: impl Fn(&Path) -> Result<T, EvaluateError> + Sync,
+) -> Result<[T; 2], EvaluateError> {
+    let paths = [request.truth.as_path(), request.prediction.as_path()];
     if request.jobs == NonZeroUsize::MIN {
-        return Ok([read(&request.truth)?, read(&request.prediction)?]);
+        let [truth, prediction] = paths;
+        return Ok([read(truth)?, read(prediction)?]);
     }
-    std::thread::scope(|scope| {
-        let truth = scope.spawn(|| read(&request.truth));
-        let prediction = read(&request.prediction);
-        let truth = truth
-            .join()
-            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        Ok([truth?, prediction?])
-    })
+    let mut both = each_part(paths.to_vec(), read).into_iter();
+    let mut next = || both.next().expect("two tables");
+    Ok([next()?, next()?])
 }
 
 /// Refuses one file as truth and as prediction: every error would be 0, and say nothing.

@@ -157,7 +157,7 @@ fn header_lines_without_an_end_are_cut_off_by_length_and_by_time() {
 }
 
 #[test]
-fn a_ninth_connection_is_503_and_streams_leave_room_for_the_button() {
+fn a_fifth_stream_is_503_and_the_button_is_answered_beside_it() {
     let opened = Opened::new();
     let streams: Vec<TcpStream> = (0..4).map(|_| opened.stream("/events")).collect();
     let fifth = opened.asked("GET /frames", &opened.own(), "");
@@ -166,23 +166,34 @@ fn a_ninth_connection_is_503_and_streams_leave_room_for_the_button() {
         status(&opened.asked("POST /stop", &opened.own(), "")),
         "204"
     );
-    let idle: Vec<TcpStream> = (0..4).map(|_| opened.connected()).collect();
-    // They have been accepted once the one behind them is answered.
-    let mut ninth = opened.connected();
-    let mut answer = String::new();
-    ninth.read_to_string(&mut answer).expect("answered unasked");
-    assert_eq!(status(&answer), "503");
-    drop((streams, idle));
+    drop(streams);
     let began = Instant::now();
-    loop {
-        let mut again = opened.connected();
-        let request = format!("POST /stop HTTP/1.1\r\n{}\r\n", opened.own());
-        let mut answer = String::new();
-        let asked = again.write_all(request.as_bytes());
-        if asked.is_ok() && again.read_to_string(&mut answer).is_ok() && status(&answer) == "204" {
-            break;
-        }
-        assert!(began.elapsed() < Duration::from_secs(10), "{answer}");
-        std::thread::sleep(Duration::from_millis(50));
+    while status(&opened.asked("GET /nothing", &opened.own(), "")) != "404" {
+        assert!(began.elapsed() < Duration::from_secs(10));
     }
+}
+
+#[test]
+fn sixty_four_slow_connections_never_keep_the_stop_button_from_answering() {
+    const PRESSES: u32 = 100;
+    let opened = Opened::new();
+    let slow = |number: usize| {
+        let mut stream = opened.connected();
+        // Some say nothing, some half a request.
+        let said: &[u8] = [&b""[..], b"POST /stop HTTP/1.1\r\nHost: "][number % 2];
+        stream.write_all(said).expect("sent");
+        stream
+    };
+    let mut beside: Vec<TcpStream> = (0..64).map(slow).collect();
+    for press in 0..PRESSES {
+        let answer = opened.asked("POST /stop", &opened.own(), "");
+        assert_eq!(status(&answer), "204", "press {press}");
+    }
+    assert_eq!(opened.stops.load(Ordering::SeqCst), PRESSES);
+    // The oldest one was closed for a newer one, without a word.
+    let mut answer = Vec::new();
+    let closed = beside[0].read_to_end(&mut answer);
+    assert!(
+        closed.is_err() || answer.is_empty() || status(&String::from_utf8_lossy(&answer)) == "400"
+    );
 }

@@ -1,0 +1,62 @@
+//! Systems that start few threads or none, as the limits of containers do.
+
+use std::fs::{self, Permissions};
+use std::os::unix::fs::PermissionsExt as _;
+use std::os::unix::process::CommandExt as _;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use crate::support::Bench;
+
+/// A user without processes: limits do not hold root.
+const NOBODY: u32 = 65_534;
+
+/// The program where everybody may start it.
+fn program(bench: &Bench) -> PathBuf {
+    let path = bench.path("taceva");
+    fs::copy(env!("CARGO_BIN_EXE_taceva"), &path).expect("copied");
+    fs::set_permissions(bench.path("."), Permissions::from_mode(0o755)).expect("a folder");
+    path
+}
+
+/// Runs `taceva WORDS` for a user who may have `processes`, threads included.
+fn limited(bench: &Bench, words: &str, processes: u32) -> Output {
+    let mut shell = Command::new("sh");
+    shell
+        .arg("-c")
+        .arg(format!("ulimit -u {processes} && exec \"$@\""))
+        .arg("sh")
+        .arg(bench.path("taceva"))
+        .args(words.split_whitespace())
+        .current_dir(bench.path("."));
+    if rustix::process::getuid().is_root() {
+        shell.uid(NOBODY).gid(NOBODY);
+    }
+    shell.output().expect("a shell")
+}
+
+#[test]
+fn a_system_that_starts_no_thread_gives_the_same_report_with_a_word_about_it() {
+    let bench = Bench::new();
+    bench.lab();
+    bench.ok("import lab --map map.toml --out data -q");
+    program(&bench);
+    let words =
+        "evaluate data --model ridge --set size=8 --split by-point --format json --no-cache";
+    let free = bench.ok(&format!("{words} -q"));
+    for processes in [1, 2] {
+        for words in ["check data", words] {
+            let found = limited(&bench, words, processes);
+            let error = String::from_utf8_lossy(&found.stderr);
+            let code = found.status.code();
+            assert!(code == Some(0), "{processes} {words}: {code:?} {error}");
+            assert!(!error.contains("panicked"), "{error}");
+            if processes == 1 {
+                assert!(error.contains("the system starts 0 of "), "{error}");
+            }
+            if words.starts_with("evaluate") {
+                assert_eq!(String::from_utf8_lossy(&found.stdout), free);
+            }
+        }
+    }
+}
