@@ -1,7 +1,7 @@
 //! `taceva capture` on emulated devices, through their sockets.
 
 mod broken;
-mod predicted;
+mod predictions;
 
 use std::time::Duration;
 
