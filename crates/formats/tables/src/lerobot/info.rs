@@ -71,8 +71,14 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
         None | Some(Value::Null) => None,
         Some(_) => Some(pattern("video_path")?),
     };
-    let fps = json.get("fps").and_then(Value::as_f64);
-    let fps = fps.filter(|fps| is_rate(*fps));
+    // What has no video may leave it out.
+    let fps = match json.get("fps") {
+        None | Some(Value::Null) => None,
+        Some(stated) => {
+            let fps = stated.as_f64().filter(|fps| is_rate(*fps));
+            Some(fps.ok_or_else(|| wrong("fps", "expected frames a second".to_owned()))?)
+        }
+    };
     let listed = json.get("features").and_then(Value::as_object);
     let listed = listed.ok_or_else(|| wrong("features", "expected an object".to_owned()))?;
     let mut features = Vec::with_capacity(listed.len());
