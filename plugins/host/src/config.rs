@@ -64,7 +64,13 @@ impl PluginConfig {
     pub fn read(path: &Path) -> Result<PluginConfig, ConfigError> {
         let text = match fs::read_to_string(path) {
             Ok(text) => text,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            // A home that is no folder has no settings either.
+            Err(error)
+                if matches!(
+                    error.kind(),
+                    io::ErrorKind::NotFound | io::ErrorKind::NotADirectory
+                ) =>
+            {
                 return Ok(PluginConfig::default());
             }
             Err(source) => {

@@ -1,6 +1,7 @@
 //! `taceva export`.
 
 use taceva_core::shown;
+use taceva_dataset::internal::quoted;
 use taceva_import::ExportPlan;
 
 use super::{Context, open};
@@ -28,8 +29,8 @@ pub(crate) fn run(args: &Export, context: &Context) -> anyhow::Result<u8> {
             true => writeln!(
                 out,
                 "again    taceva import {0} --map {1} --out DATASET",
-                shown(&args.out),
-                shown(&report.map)
+                quoted(&args.out),
+                quoted(&report.map)
             ),
             false => writeln!(
                 out,

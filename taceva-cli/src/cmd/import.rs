@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
+use taceva_dataset::internal::quoted;
 use taceva_dataset::{DatasetError, settle};
 use taceva_files::parent_of;
 use taceva_import::{Addition, Decoders, ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive};
@@ -172,8 +173,8 @@ fn map_written(
         context.say(format_args!(
             "{}: {state}taceva import {} --map {} --explain",
             shown(target),
-            shown(source),
-            shown(target),
+            quoted(source),
+            quoted(target),
         ));
     }
     Ok(exit::DONE)

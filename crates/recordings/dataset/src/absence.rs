@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::layout;
+use crate::shell::shell_word;
 use crate::text::shown_path;
 
 /// The file of the plans of a run, by which its folder is recognised, and the folder of its recordings.
@@ -72,12 +73,7 @@ fn listed(names: &[String]) -> String {
 
 /// A path as it can be typed in a shell.
 pub fn quoted(path: &Path) -> String {
-    let text = shown_path(path);
-    let is_plain = |letter: char| letter.is_alphanumeric() || "/._-+,@%".contains(letter);
-    match text.chars().all(is_plain) {
-        true => text,
-        false => format!("'{}'", text.replace('\'', "'\\''")),
-    }
+    shell_word(&shown_path(path))
 }
 
 #[cfg(test)]

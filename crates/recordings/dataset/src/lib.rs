@@ -29,6 +29,7 @@ mod replacement;
 mod samples;
 mod sensor_file;
 mod session_table;
+mod shell;
 mod signals;
 #[doc(hidden)]
 pub mod staging;
@@ -74,6 +75,7 @@ pub mod internal {
     pub use crate::file::{check_relative, open_regular, read_capped, write_durable};
     pub use crate::header::{Mapping, Misread, add_left_out};
     pub use crate::parallel::{all_cores, each_part, ordered_map};
+    pub use crate::shell::shell_word;
     pub use crate::signals::{SignalsReader, SignalsWriter};
     pub use crate::store::{Beside, write_table_and_header};
     pub use crate::table::{

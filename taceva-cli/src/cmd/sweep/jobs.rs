@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
+use taceva_dataset::internal::shell_word;
 use taceva_sweep::{
-    SlurmSpec, Submitted, SweepFolder, TaskList, collect, queue_of, scripts, shell_word,
+    SlurmSpec, Submitted, SweepFolder, TaskList, collect, queue_of, scripts,
     submit as submit_scripts,
 };
 

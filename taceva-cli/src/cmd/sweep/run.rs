@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use taceva_sweep::{
-    Condition, Estimate, Grid, SweepFile, SweepFolder, TaskList, collect, shell_word,
-};
+use taceva_dataset::internal::shell_word;
+use taceva_sweep::{Condition, Estimate, Grid, SweepFile, SweepFolder, TaskList, collect};
 
 use super::super::{Context, Usage};
 use super::scenes::{self, Acquisition};

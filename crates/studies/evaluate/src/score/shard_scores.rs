@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::path::Path;
 
@@ -294,7 +293,7 @@ impl ScoreTables {
 
 /// Both tables, looked through at the same time where two threads are allowed.
 fn both(request: &ScoreRequest) -> Result<ScoreTables, EvaluateError> {
-    let [truth, prediction] = tables::both_at_once(request, |path| TableParts::scan(path))?;
+    let [truth, prediction] = tables::both_at_once(request, TableParts::scan)?;
     Ok(ScoreTables { truth, prediction })
 }
 
@@ -369,6 +368,8 @@ impl Work<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::num::NonZeroUsize;
+
     use super::*;
 
     #[test]

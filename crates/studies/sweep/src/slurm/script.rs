@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::shell::shell_word;
+use taceva_dataset::internal::shell_word;
+
 use crate::slurm_spec::SlurmSpec;
 
 /// What scripts have in common.
