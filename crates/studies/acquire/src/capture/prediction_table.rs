@@ -95,15 +95,16 @@ mod tests {
             let sample = sample.with_truth(Readings::from_values([9.0]));
             recorder.append(&sample).expect("recorded");
         }
-        let odd = Channel::named("a,b", Unit::Newton).expect("a name");
-        let mut table = PredictionTable::new(&Channels::new([odd]).expect("one"));
+        let shear = Channel::named("shear_x", Unit::Newton).expect("a name");
+        let mut table = PredictionTable::new(&Channels::new([shear]).expect("one"));
         table.push(Prediction::new(0.3, vec![1.5]).with_distance(0.25));
         table.push(Prediction::new(0.25, vec![7.0]));
         table.push(Prediction::new(0.1, vec![-0.5]));
         let text = String::from_utf8(table.csv(recorder.table())).expect("text");
         assert_eq!(
             text,
-            "sample,t_s,distance,\"a,b\"\nframe-3,0.3,0.25,1.5\nframe-1,0.1,,-0.5\n"
+            "sample,t_s,distance,shear_x\nframe-3,0.3,0.25,1.5\nframe-1,0.1,,-0.5\n"
         );
+        assert_eq!(cell("a,\"b\""), "\"a,\"\"b\"\"\"");
     }
 }
