@@ -7,6 +7,7 @@ mod cell;
 mod codec;
 mod error;
 mod flatbuffer;
+mod growth;
 mod lerobot;
 mod limits;
 mod mcap;

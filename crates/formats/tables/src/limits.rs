@@ -23,3 +23,21 @@ pub(crate) const NAMES: usize = 1 << 16;
 pub(crate) const MESSAGES: usize = 1 << 23;
 /// Elements of lists in one message that become cells.
 pub(crate) const MESSAGE_CELLS: usize = 1 << 20;
+
+/// What a small file may become, and above that so many times what is stored.
+const UNPACKED_BYTES: u64 = 128 << 20;
+const UNPACKED_RATIO: u64 = 200;
+/// The same of cells that a caller asks for at once.
+const LEAST_COLUMN_BYTES: u64 = 96 << 20;
+const COLUMN_RATIO: u64 = 64;
+
+/// Bytes that `stored` ones may become once they are unpacked.
+pub(crate) fn unpacked_bytes(stored: u64) -> u64 {
+    stored.saturating_mul(UNPACKED_RATIO).max(UNPACKED_BYTES)
+}
+
+/// Memory of the cells that a caller asks for at once, of a file of `stored` bytes.
+pub(crate) fn column_bytes(stored: u64) -> u64 {
+    let own = stored.saturating_mul(COLUMN_RATIO);
+    own.clamp(LEAST_COLUMN_BYTES, COLUMN_BYTES)
+}

@@ -157,6 +157,7 @@ impl ParquetTable {
     ) -> Result<(), TableError> {
         let found = Found::new(&self.source, &self.columns, name)?;
         let before = cells.len();
+        let most = limits::column_bytes(self.source.length());
         for group in self.metadata.row_groups() {
             let mut assembly = Assembly::new(&self.source, group, found.column())?;
             let mut left = rows_of(group);
@@ -165,10 +166,9 @@ impl ParquetTable {
                 assembly.read(&self.source, rows, &mut |cell| {
                     let cell = found.inside(&self.source, cells.len() - before, cell)?;
                     *bytes = bytes.saturating_add(cell.bytes());
-                    if *bytes > limits::COLUMN_BYTES {
+                    if *bytes > most {
                         let problem = format!(
-                            "more than {} bytes in memory; ask for a part, as `{name}[0]`",
-                            limits::COLUMN_BYTES
+                            "more than {most} bytes in memory; ask for a part, as `{name}[0]`"
                         );
                         return Err(self.source.too_large(Place::of(name), problem));
                     }

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use crate::bytes::Bytes;
 use crate::codec::{Codec, unpack};
 use crate::error::{Place, TableError, shown};
+use crate::growth::Growth;
 use crate::limits;
 use crate::message::{Channel, Entry, Message, MessageReader, MessageStore, Schema};
 use crate::source::Source;
@@ -212,6 +213,7 @@ struct Records<'a> {
     source: &'a Source,
     file: File,
     kept: Option<(u64, Arc<Vec<u8>>)>,
+    growth: Growth,
 }
 
 impl<'a> Records<'a> {
@@ -220,6 +222,7 @@ impl<'a> Records<'a> {
             source,
             file: source.open()?,
             kept: None,
+            growth: Growth::default(),
         })
     }
 
@@ -308,6 +311,8 @@ impl<'a> Records<'a> {
             }
         };
         let packed = self.data(&head)?;
+        let grown = self.growth.take(packed.len() as u64, u64::from(size));
+        grown.map_err(|problem| self.source.too_large(place(), problem))?;
         let unpacked = unpack(codec, &packed, size as usize);
         let bytes = Arc::new(unpacked.map_err(|problem| self.source.damaged(place(), problem))?);
         self.kept = Some((at, Arc::clone(&bytes)));

@@ -238,7 +238,7 @@ fn a_text_that_a_dictionary_repeats_without_end_is_refused_in_time() {
     let table = ParquetTable::open(&path).expect("opens");
     let message = table.column("text").expect_err("5 GB").to_string();
     assert!(
-        message.contains("`text`: more than 335544320 bytes in memory"),
+        message.contains("`text`: more than 100663296 bytes in memory"),
         "{message}"
     );
     let mut seen = 0;

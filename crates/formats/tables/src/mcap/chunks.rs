@@ -7,6 +7,7 @@ use super::record::{self, HEAD, code};
 use crate::bytes::Bytes;
 use crate::codec::{Codec, unpack};
 use crate::error::{Place, TableError};
+use crate::growth::Growth;
 use crate::limits;
 use crate::source::Source;
 
@@ -18,6 +19,7 @@ pub(super) struct Chunks<'a> {
     source: &'a Source,
     file: File,
     kept: Vec<(u64, Arc<Vec<u8>>)>,
+    growth: Growth,
 }
 
 impl<'a> Chunks<'a> {
@@ -26,6 +28,7 @@ impl<'a> Chunks<'a> {
             source,
             file: source.open()?,
             kept: Vec::new(),
+            growth: Growth::default(),
         })
     }
 
@@ -88,11 +91,9 @@ impl<'a> Chunks<'a> {
         Ok(bytes)
     }
 
-    fn unpack(&self, at: u64, fields: &[u8]) -> Result<Vec<u8>, TableError> {
-        let damaged = |problem: String| {
-            self.source
-                .damaged(Place::byte(at).in_name("chunk"), problem)
-        };
+    fn unpack(&mut self, at: u64, fields: &[u8]) -> Result<Vec<u8>, TableError> {
+        let source = self.source;
+        let damaged = |problem: String| source.damaged(Place::byte(at).in_name("chunk"), problem);
         let (head, begin) =
             record::chunk(fields).ok_or_else(|| damaged("the header is cut short".to_owned()))?;
         let packed = fields.get(begin..).unwrap_or_default();
@@ -113,6 +114,8 @@ impl<'a> Chunks<'a> {
                 .source
                 .too_large(Place::byte(at).in_name("chunk"), problem));
         }
+        let grown = self.growth.take(head.packed, head.unpacked);
+        grown.map_err(|problem| source.too_large(Place::byte(at).in_name("chunk"), problem))?;
         let codec = match head.codec.as_str() {
             "" => Codec::Plain,
             "lz4" => Codec::Lz4Frame,

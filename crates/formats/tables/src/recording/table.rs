@@ -137,18 +137,16 @@ impl TopicTable {
             .filter(|name| !is_time(name))
             .collect();
         let read = self.reader(&of_message)?;
+        let most = limits::column_bytes(self.source().length());
         let too_large = || {
-            let problem = format!(
-                "more than {} bytes in memory; ask for fewer fields",
-                limits::COLUMN_BYTES
-            );
+            let problem = format!("more than {most} bytes in memory; ask for fewer fields");
             self.source()
                 .too_large(Place::of(&self.topic.name), problem)
         };
         let least = (names.len() as u64)
             .saturating_mul(self.rows())
             .saturating_mul(size_of::<Cell>() as u64);
-        if least > limits::COLUMN_BYTES {
+        if least > most {
             return Err(too_large());
         }
         let mut columns = vec![vec![Cell::Null; self.entries.len()]; names.len()];
@@ -180,7 +178,7 @@ impl TopicTable {
                 }
                 Ok(())
             })?;
-            if bytes > limits::COLUMN_BYTES {
+            if bytes > most {
                 return Err(too_large());
             }
         }

@@ -1,0 +1,48 @@
+//! Bytes that chunks become once they are unpacked, held against those that they take in their file.
+
+use crate::limits;
+
+/// What was unpacked in one pass over a file.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Growth {
+    packed: u64,
+    unpacked: u64,
+}
+
+impl Growth {
+    /// Counts a chunk before it is unpacked.
+    ///
+    /// # Errors
+    /// In words that the file is made to cost hours: its chunks become more than any recording does.
+    pub(crate) fn take(&mut self, packed: u64, unpacked: u64) -> Result<(), String> {
+        self.packed = self.packed.saturating_add(packed);
+        self.unpacked = self.unpacked.saturating_add(unpacked);
+        let most = limits::unpacked_bytes(self.packed);
+        match self.unpacked <= most {
+            true => Ok(()),
+            false => Err(format!(
+                "{} bytes unpacked so far, {} times as many as in the file, at most {most} are accepted: write it with less compression",
+                self.unpacked,
+                self.unpacked / self.packed.max(1)
+            )),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// K5.
+    #[test]
+    fn chunks_that_become_far_more_than_they_are_end_a_pass_and_others_do_not() {
+        let mut bomb = Growth::default();
+        let chunks = (0..100).map(|_| bomb.take(4_000, 64 << 20));
+        let accepted = chunks.take_while(Result::is_ok).count();
+        assert_eq!(accepted, 2);
+        let mut recording = Growth::default();
+        for _ in 0..10_000 {
+            recording.take(1 << 20, 100 << 20).expect("usual");
+        }
+    }
+}
