@@ -55,8 +55,8 @@ fn pictures(finger: usize) -> Vec<u8> {
 fn gripper(folder: &Path) -> Dataset {
     let lab = folder.join("lab");
     std::fs::create_dir(&lab).expect("made");
-    let rows = (0..ROWS).map(|row| format!("{},p{row}\n", felt(row)[0] + felt(row)[1]));
-    let table = format!("force,press\n{}", rows.collect::<String>());
+    let rows = (0..ROWS).map(|row| format!("{},p{row},{row}\n", felt(row)[0] + felt(row)[1]));
+    let table = format!("force,press,t\n{}", rows.collect::<String>());
     std::fs::write(lab.join("labels.csv"), table).expect("written");
     let mut map = "map_version = 2\ntable = \"labels.csv\"\n".to_owned();
     for (finger, name) in ["left", "right"].into_iter().enumerate() {
@@ -65,7 +65,7 @@ fn gripper(folder: &Path) -> Dataset {
             "[[frame]]\nname = \"{name}\"\narray = {{ file = \"{name}.npy\" }}\nchannel_order = \"gray\"\nreference = \"unknown\"\n"
         );
     }
-    map += "[columns]\nFz = { from = \"force\", unit = \"N\" }\n[ids]\npoint_id = \"press\"\n[time]\nclock = \"unknown\"\n\
+    map += "[columns]\nFz = { from = \"force\", unit = \"N\" }\n[ids]\npoint_id = \"press\"\n[time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n\
         [sensor]\nmodel = \"gripper\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
     let map = ImportMap::parse("map.toml".as_ref(), &map).expect("a map");
     let plan = ImportPlan::new(&lab, &map).expect("planned");
