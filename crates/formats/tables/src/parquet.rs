@@ -141,7 +141,7 @@ impl ParquetTable {
     ///
     /// # Errors
     /// [`TableError::Missing`] if there is no such column, [`TableError::Mismatch`] if `name` leads into a list that is shorter in
-    /// some row, [`TableError::TooLarge`] if the cells take more than 320 MiB of memory, [`TableError::Damaged`] if pages do not read.
+    /// some row, [`TableError::TooLarge`] if the cells take more memory than 96 to 320 MiB by the size of the file, [`TableError::Damaged`] if pages do not read.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         let mut cells = Vec::new();
         self.read_column(name, &mut 0, &mut cells)?;

@@ -127,7 +127,7 @@ impl TopicTable {
     /// What is in the columns called `names`, a column each, row by row. The file is read once, whatever their number.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such field, [`TableError::TooLarge`] if the cells take more than 320 MiB of memory,
+    /// [`TableError::Missing`] if there is no such field, [`TableError::TooLarge`] if the cells take more memory than 96 to 320 MiB by the size of the file,
     /// [`TableError::Damaged`] if a chunk or a message does not read.
     pub fn columns(&self, names: &[&str]) -> Result<Vec<Vec<Cell>>, TableError> {
         let is_time = |name: &&str| TIMES.iter().any(|(time, _)| time == name);
