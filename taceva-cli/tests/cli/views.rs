@@ -90,3 +90,31 @@ fn a_gripper_is_imported_checked_fitted_and_predicted_by_one_view_or_both() {
         "each sample has one picture, without a name",
     );
 }
+
+#[test]
+fn a_sweep_takes_the_view_that_its_file_names() {
+    let bench = gripper();
+    bench.ok("import lab --map map.toml --out gripper -q");
+    let file = |view: &str| {
+        bench.write(
+            "sweep.toml",
+            &format!(
+                "sweep_version = 1\ndatasets = [\"gripper\"]\n{view}models = [\"ridge\"]\nsplits = [\"by-point\"]\nmetrics = [\"accuracy\"]\n[vary]\nsize = [\"8x8\"]\n"
+            ),
+        );
+    };
+    let tables = ["left", "left+right"].map(|view| {
+        file(&format!("view = \"{view}\"\n"));
+        let folder = format!("swept-{}", view.len());
+        bench.ok(&format!("sweep sweep.toml --out {folder} -q"));
+        fs::read_to_string(bench.path(&folder).join("table.csv")).expect("a table")
+    });
+    assert_ne!(tables[0], tables[1]);
+    file("view = \"up\"\n");
+    let refused = bench.run("sweep sweep.toml --out up -q");
+    assert!(
+        refused.code != 0 && refused.err.contains("no view `up`"),
+        "{}",
+        refused.err
+    );
+}

@@ -32,6 +32,8 @@ pub struct SweepFile {
     pub name: String,
     /// Folders of recordings, and patterns of such, relative to the folder of the file.
     pub datasets: Vec<String>,
+    /// The view of recordings whose samples have several pictures, or several side by side: `left+right`.
+    pub view: Option<String>,
     /// Scenes whose recordings are acquired first: files, relative to the folder of the file, or names of those that are built in.
     pub scenes: Vec<String>,
     /// The models, each with settings of its own.

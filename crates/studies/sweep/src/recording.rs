@@ -6,13 +6,19 @@ use taceva_dataset::{Dataset, Digest};
 
 use crate::error::SweepError;
 
-/// The recording at `path`, and the digest of all that it says: samples, frames and signals, and every byte of its header, which names the sensor,
-/// its serial number, its footprint and whether anything was measured.
+/// The recording at `path`, seen by `view` where samples have several pictures, and the digest of all that it says.
+///
+/// These are samples, frames and signals, and every byte of its header: the sensor, its serial number, its footprint, and whether anything was
+/// measured.
 ///
 /// # Errors
-/// [`SweepError`] if it cannot be opened.
-pub(crate) fn opened(path: &Path) -> Result<(Dataset, Digest), SweepError> {
-    let dataset = Dataset::open(path)?;
+/// [`SweepError`] if it cannot be opened, or has no such view.
+pub(crate) fn opened(path: &Path, view: Option<&str>) -> Result<(Dataset, Digest), SweepError> {
+    let whole = Dataset::open(path)?;
+    let dataset = match view {
+        Some(view) => whole.seen(view)?,
+        None => whole,
+    };
     let header = path.join("dataset.toml");
     let header = std::fs::read(&header).map_err(SweepError::io("read", &header))?;
     let parts = [

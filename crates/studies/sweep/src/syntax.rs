@@ -17,6 +17,8 @@ pub(crate) struct WrittenSweep {
     #[serde(default)]
     pub(crate) datasets: Words,
     #[serde(default)]
+    pub(crate) view: Option<String>,
+    #[serde(default)]
     pub(crate) scenes: Words,
     #[serde(default)]
     pub(crate) models: Vec<toml::Value>,

@@ -28,6 +28,9 @@ pub struct TaskList {
     file: Digest,
     /// What the sweep is called.
     pub name: String,
+    /// The view of recordings whose samples have several pictures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub view: Option<String>,
     /// Metrics and groups by name.
     pub metrics: Vec<String>,
     /// The file that says what is known of the sensor.
@@ -59,6 +62,7 @@ impl TaskList {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
             file: file.digest,
             name: file.name.clone(),
+            view: file.view.clone(),
             metrics: file.metrics.clone(),
             sensor: file.sensor.as_ref().map(absolute).transpose()?,
             sensor_digest: sensor_digest(file)?,

@@ -167,7 +167,7 @@ fn a_chunk_whose_key_lies_off_the_grid_is_named() {
 #[test]
 fn a_small_file_of_hdf5_that_becomes_large_is_refused_before_anything_is_unpacked() {
     for name in ["planes", "extent"] {
-        let packed = fs::read(at(&format!("refused/{name}.h5.gz"))).expect("readable");
+        let packed = fs::read(at(format!("refused/{name}.h5.gz"))).expect("readable");
         let inflated = miniz_oxide::inflate::decompress_to_vec(&packed[10..packed.len() - 8]);
         let (_folder, path) = file("run.h5", &inflated.expect("deflated"));
         let file = ArrayFile::open(&path, ArrayFormat::Hdf5).expect("opens");

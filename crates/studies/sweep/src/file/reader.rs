@@ -91,6 +91,7 @@ impl SweepFile {
             digest: Digest::of(text.as_bytes()),
             name: written.name,
             datasets,
+            view: written.view,
             scenes,
             models,
             seeds,

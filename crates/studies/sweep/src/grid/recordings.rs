@@ -37,8 +37,8 @@ impl Named {
     }
 
     /// The digest of the recording at `path`, or what stands for it.
-    fn digest(&self, path: &Path) -> Result<Digest, SweepError> {
-        match (opened(path), self.planned) {
+    fn digest(&self, path: &Path, view: Option<&str>) -> Result<Digest, SweepError> {
+        match (opened(path, view), self.planned) {
             (Err(SweepError::Dataset(DatasetError::NoDataset { .. })), Some(planned)) => {
                 Ok(planned)
             }
@@ -99,7 +99,7 @@ pub(super) fn open(file: &SweepFile, all: &[Named]) -> Result<Vec<Recording>, Sw
     for one in all {
         // Absolute, since a job of a scheduler begins elsewhere.
         let path = std::path::absolute(&one.path).map_err(SweepError::io("find", &one.path))?;
-        let digest = one.digest(&path)?;
+        let digest = one.digest(&path, file.view.as_deref())?;
         let alike = recordings.iter().find(|other| other.digest == digest);
         if let Some(other) = alike {
             let problem = format!(
