@@ -27,7 +27,7 @@ pub struct CheckRequest {
     pub jobs: NonZeroUsize,
 }
 
-/// Says what [`check`] would look for; reads no frame.
+/// Says what [`check`](fn@crate::check) would look for; reads no frame.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a code that does not exist.
