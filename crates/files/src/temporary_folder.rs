@@ -40,7 +40,10 @@ impl TemporaryFolder {
     /// Those of the file system.
     pub fn create(parent: &Path, prefix: &str) -> io::Result<TemporaryFolder> {
         for _ in 0..CREATIONS {
-            let folder = tempfile::Builder::new().prefix(prefix).tempdir_in(parent)?;
+            let mut builder = tempfile::Builder::new();
+            #[cfg(unix)]
+            builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+            let folder = builder.prefix(prefix).tempdir_in(parent)?;
             let path = folder.path().join(MARKER);
             let marker = OpenOptions::new()
                 .write(true)

@@ -21,11 +21,11 @@ fn program(bench: &Bench) -> PathBuf {
 
 /// Runs `taceva WORDS` for a user who may have `processes`, threads included.
 fn limited(bench: &Bench, words: &str, processes: u32) -> Output {
-    let mut shell = Command::new("sh");
+    let mut shell = Command::new("bash");
     shell
         .arg("-c")
         .arg(format!("ulimit -u {processes} && exec \"$@\""))
-        .arg("sh")
+        .arg("bash")
         .arg(bench.path("taceva"))
         .args(words.split_whitespace())
         .current_dir(bench.path("."));
