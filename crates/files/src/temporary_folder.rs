@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 /// The file by which a folder is known to be one of ours; it is locked as long as its process lives.
 const MARKER: &str = ".taceva-temporary";
-/// How often a folder is made anew that vanished before it was locked.
+/// Times that a folder is made anew which vanished before it was locked.
 const CREATIONS: u32 = 16;
 
 /// A folder of a random name that nobody else may enter, removed when it is let go.
@@ -65,7 +65,7 @@ impl TemporaryFolder {
         ))
     }
 
-    /// Where it lies.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
@@ -94,7 +94,7 @@ fn clear(parent: &Path, prefix: &str, own: &Path) {
     }
 }
 
-/// Whether both folders belong to one owner.
+/// True if both folders belong to one owner.
 #[cfg(unix)]
 fn is_of_owner(path: &Path, own: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

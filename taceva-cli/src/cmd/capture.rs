@@ -62,9 +62,9 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     }
     let shown = model.as_ref().zip(page.as_ref());
     let shown = shown.map(|(model, page)| LivePredictions::new(model, page.live(), context));
-    let heard = |frame: &_, prediction: &_, tally: &_| {
+    let heard = |frame: &_, prediction: &_, counts: &_| {
         if let Some(shown) = &shown {
-            shown.show(frame, prediction, tally);
+            shown.show(frame, prediction, counts);
         }
     };
     let predictor = model
@@ -117,7 +117,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
         });
     }
     if let (Some(shown), Some(predictor)) = (&shown, &predictor) {
-        shown.summarise(&predictor.tally(), context);
+        shown.summarise(&predictor.counts(), context);
         if let Some(problem) = predictor.failure() {
             stderr::say(format_args!(
                 "the model failed and predicted no more: {problem}; frames and forces were recorded all the same"

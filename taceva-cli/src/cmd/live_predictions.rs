@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use taceva_acquire::{Latencies, LiveModel, Prediction, PredictionTally};
+use taceva_acquire::{Latencies, LiveModel, Prediction, PredictionCounts};
 use taceva_core::{Channel, Frame, Unit, shown};
 use taceva_drivers::MonotonicClock;
 use taceva_live::{Live, Overlay, PredictedFrames, PredictedValue};
@@ -58,7 +58,7 @@ impl<'a> LivePredictions<'a> {
     }
 
     /// Shows a prediction.
-    pub(super) fn show(&self, frame: &Frame, prediction: &Prediction, tally: &PredictionTally) {
+    pub(super) fn show(&self, frame: &Frame, prediction: &Prediction, counts: &PredictionCounts) {
         let channels = self.model.channels().iter().zip(&prediction.values);
         let values = channels.clone().map(|(channel, value)| {
             PredictedValue::new(channel.name(), *value, channel.unit().symbol())
@@ -69,7 +69,7 @@ impl<'a> LivePredictions<'a> {
             _ => overlay,
         };
         self.page.predicted(frame, overlay);
-        let frames = PredictedFrames::new(tally.seen, tally.dropped, tally.outside);
+        let frames = PredictedFrames::new(counts.seen, counts.dropped, counts.outside);
         self.page.predicted_frames(frames);
         *lock(&self.latest) = in_words(channels, prediction);
     }
@@ -80,8 +80,8 @@ impl<'a> LivePredictions<'a> {
     }
 
     /// Says what became of the frames, however the work ended.
-    pub(super) fn summarise(&self, tally: &PredictionTally, context: &Context) {
-        for line in summary(self.model, tally, &lock(&self.sent)) {
+    pub(super) fn summarise(&self, counts: &PredictionCounts, context: &Context) {
+        for line in summary(self.model, counts, &lock(&self.sent)) {
             context.say(format_args!("{line}"));
         }
     }
@@ -117,16 +117,16 @@ fn in_words<'c>(
     format!("predicted {}{outside}", values.join(", "))
 }
 
-fn summary(model: &LiveModel, tally: &PredictionTally, sent: &Latencies) -> Vec<String> {
+fn summary(model: &LiveModel, counts: &PredictionCounts, sent: &Latencies) -> Vec<String> {
     let mut lines = vec![format!(
         "predictions by {}: {} frames seen, {} shown, {} dropped for newer ones",
         by(model),
-        tally.seen,
-        tally.predicted,
-        tally.dropped
+        counts.seen,
+        counts.predicted,
+        counts.dropped
     )];
-    if tally.latencies.count() > 0 {
-        lines.push(format!("predicted {}", soon(&tally.latencies)));
+    if counts.latencies.count() > 0 {
+        lines.push(format!("predicted {}", soon(&counts.latencies)));
     }
     match sent.count() {
         0 => lines.push("no picture went to a browser".to_owned()),
@@ -136,11 +136,11 @@ fn summary(model: &LiveModel, tally: &PredictionTally, sent: &Latencies) -> Vec<
         )),
     }
     #[expect(clippy::cast_precision_loss, reason = "counts, for people to read")]
-    let share = |outside: u64| 100.0 * outside as f64 / tally.predicted.max(1) as f64;
-    lines.push(match tally.outside {
+    let share = |outside: u64| 100.0 * outside as f64 / counts.predicted.max(1) as f64;
+    lines.push(match counts.outside {
         Some(outside) => format!(
             "{outside} of {} ({:.1} %) lay outside what the model has seen",
-            tally.predicted,
+            counts.predicted,
             share(outside)
         ),
         None => "how many lay outside what the model has seen is not known".to_owned(),

@@ -44,9 +44,9 @@ pub(crate) fn run(args: &Preview, context: &Context) -> anyhow::Result<u8> {
         ));
     }
     let status = StatusLine::new(context.quiet);
-    let heard = |frame: &_, prediction: &_, tally: &_| {
+    let heard = |frame: &_, prediction: &_, counts: &_| {
         if let Some(shown) = &shown {
-            shown.show(frame, prediction, tally);
+            shown.show(frame, prediction, counts);
             status.show(&shown.line());
         }
     };
@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Preview, context: &Context) -> anyhow::Result<u8> {
     });
     status.clear();
     if let (Some(shown), Some(predictor)) = (&shown, &predictor) {
-        shown.summarise(&predictor.tally(), context);
+        shown.summarise(&predictor.counts(), context);
     }
     done?;
     Ok(exit::DONE)

@@ -36,7 +36,7 @@ use labels::Labels;
 pub use latencies::Latencies;
 pub use live_model::LiveModel;
 pub use prediction::Prediction;
-pub use predictor::{LivePredictor, PredictionTally};
+pub use predictor::{LivePredictor, PredictionCounts};
 pub use preview::preview;
 use streams::Streams;
 

@@ -9,7 +9,7 @@ mod viewer;
 
 pub use capture::{
     CaptureRequest, CaptureStage, CaptureState, Captured, Latencies, LiveDevices, LiveModel,
-    LivePredictor, LiveSpec, Onlookers, Prediction, PredictionTally, capture, close_capture,
+    LivePredictor, LiveSpec, Onlookers, Prediction, PredictionCounts, capture, close_capture,
     preview,
 };
 pub use error::AcquireError;

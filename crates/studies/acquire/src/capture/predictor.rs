@@ -22,7 +22,7 @@ const LOOK: Duration = Duration::from_millis(50);
 /// Counts of the frames that a predictor was offered.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
-pub struct PredictionTally {
+pub struct PredictionCounts {
     /// Frames that came while it predicted.
     pub seen: u64,
     /// Frames that were predicted.
@@ -36,7 +36,7 @@ pub struct PredictionTally {
 }
 
 /// A listener to predictions, each with its frame and the counts so far.
-type Heard<'a> = &'a (dyn Fn(&Frame, &Prediction, &PredictionTally) + Sync);
+type Heard<'a> = &'a (dyn Fn(&Frame, &Prediction, &PredictionCounts) + Sync);
 
 /// Predicts frames on a thread of its own. It holds one frame, the newest, and nobody waits for it: a capture is as fast as without it.
 pub struct LivePredictor<'a> {
@@ -47,7 +47,7 @@ pub struct LivePredictor<'a> {
     offered: Mutex<Offered>,
     /// A frame came, or was taken away, or it is over.
     changed: Condvar,
-    tally: Mutex<PredictionTally>,
+    counts: Mutex<PredictionCounts>,
     table: Option<Mutex<PredictionTable>>,
     failure: OnceLock<String>,
 }
@@ -70,7 +70,7 @@ impl<'a> LivePredictor<'a> {
     /// A predictor by `model`; `heard` is called with each prediction, its frame and what became of all frames, on the thread of the predictor.
     pub fn new(
         model: &'a LiveModel,
-        heard: &'a (dyn Fn(&Frame, &Prediction, &PredictionTally) + Sync),
+        heard: &'a (dyn Fn(&Frame, &Prediction, &PredictionCounts) + Sync),
     ) -> LivePredictor<'a> {
         LivePredictor {
             model,
@@ -78,9 +78,9 @@ impl<'a> LivePredictor<'a> {
             extractor: OnceLock::new(),
             offered: Mutex::default(),
             changed: Condvar::new(),
-            tally: Mutex::new(PredictionTally {
+            counts: Mutex::new(PredictionCounts {
                 outside: model.knows_distance().then_some(0),
-                ..PredictionTally::default()
+                ..PredictionCounts::default()
             }),
             table: None,
             failure: OnceLock::new(),
@@ -103,8 +103,8 @@ impl<'a> LivePredictor<'a> {
     }
 
     /// Counts of the frames so far.
-    pub fn tally(&self) -> PredictionTally {
-        lock(&self.tally).clone()
+    pub fn counts(&self) -> PredictionCounts {
+        lock(&self.counts).clone()
     }
 
     /// The reason why it predicts no more, if the model failed.
@@ -148,9 +148,9 @@ impl<'a> LivePredictor<'a> {
         });
         drop(offered);
         self.changed.notify_all();
-        let mut tally = lock(&self.tally);
-        tally.seen += 1;
-        tally.dropped += u64::from(older.is_some());
+        let mut counts = lock(&self.counts);
+        counts.seen += 1;
+        counts.dropped += u64::from(older.is_some());
     }
 
     /// Predicts what is offered until it is [over](LivePredictor::end).
@@ -165,7 +165,7 @@ impl<'a> LivePredictor<'a> {
             match predicted {
                 Ok(prediction) => self.take(&newest, prediction),
                 Err(problem) => {
-                    lock(&self.tally).dropped += 1;
+                    lock(&self.counts).dropped += 1;
                     // The first failure is the one that is told.
                     drop(self.failure.set(problem));
                     return;
@@ -222,24 +222,24 @@ impl<'a> LivePredictor<'a> {
 
     /// Counts and keeps a prediction, and passes it on.
     fn take(&self, newest: &Newest, prediction: Prediction) {
-        let tally = self.counted(newest, &prediction);
-        (self.heard)(&newest.frame, &prediction, &tally);
+        let counts = self.counted(newest, &prediction);
+        (self.heard)(&newest.frame, &prediction, &counts);
         if let Some(mut table) = self.table() {
             table.push(prediction);
         }
     }
 
-    fn counted(&self, newest: &Newest, prediction: &Prediction) -> PredictionTally {
-        let mut tally = lock(&self.tally);
-        tally.predicted += 1;
-        if let (Some(outside), Some(true)) = (&mut tally.outside, prediction.is_outside()) {
+    fn counted(&self, newest: &Newest, prediction: &Prediction) -> PredictionCounts {
+        let mut counts = lock(&self.counts);
+        counts.predicted += 1;
+        if let (Some(outside), Some(true)) = (&mut counts.outside, prediction.is_outside()) {
             *outside += 1;
         }
         if newest.is_timed {
             let took_s = MonotonicClock.now_s() - newest.stamp_s;
-            tally.latencies.add(took_s);
+            counts.latencies.add(took_s);
         }
-        tally.clone()
+        counts.clone()
     }
 }
 

@@ -59,10 +59,10 @@ fn model() -> LiveModel {
 }
 
 /// Offers `count` frames `every` so often, of brightness 0, 1, 2 …, to a predictor whose listener takes `listens`.
-fn offered(count: u8, every: Duration, listens: Duration) -> (Vec<Prediction>, PredictionTally) {
+fn offered(count: u8, every: Duration, listens: Duration) -> (Vec<Prediction>, PredictionCounts) {
     let model = model();
     let heard = Mutex::new(Vec::new());
-    let listener = |_: &Frame, prediction: &Prediction, _: &PredictionTally| {
+    let listener = |_: &Frame, prediction: &Prediction, _: &PredictionCounts| {
         std::thread::sleep(listens);
         lock(&heard).push(prediction.clone());
     };
@@ -83,16 +83,19 @@ fn offered(count: u8, every: Duration, listens: Duration) -> (Vec<Prediction>, P
         }
         predictor.end();
     });
-    let tally = predictor.tally();
-    (heard.into_inner().expect("whole"), tally)
+    let counts = predictor.counts();
+    (heard.into_inner().expect("whole"), counts)
 }
 
 #[test]
 fn a_model_slower_than_its_camera_drops_older_frames_keeps_the_last_and_delays_nobody() {
-    let (predictions, tally) = offered(40, Duration::from_millis(5), Duration::from_millis(40));
-    assert_eq!((tally.seen, tally.latencies.count()), (40, tally.predicted));
-    assert_eq!(tally.predicted + tally.dropped, 40);
-    assert!(tally.dropped > 10, "{tally:?}");
+    let (predictions, counts) = offered(40, Duration::from_millis(5), Duration::from_millis(40));
+    assert_eq!(
+        (counts.seen, counts.latencies.count()),
+        (40, counts.predicted)
+    );
+    assert_eq!(counts.predicted + counts.dropped, 40);
+    assert!(counts.dropped > 10, "{counts:?}");
     let stamps: Vec<f64> = predictions
         .iter()
         .map(|prediction| prediction.stamp_s)
@@ -100,13 +103,13 @@ fn a_model_slower_than_its_camera_drops_older_frames_keeps_the_last_and_delays_n
     assert!(stamps.is_sorted(), "{stamps:?}");
     let last = predictions.last().expect("some");
     assert!((last.values[0] - 39.0 / 255.0).abs() < 0.01, "{last:?}");
-    assert_eq!(tally.outside, Some(0));
+    assert_eq!(counts.outside, Some(0));
 }
 
 #[test]
 fn what_is_not_real_waits_for_the_model_and_every_frame_is_predicted() {
     let model = model();
-    let heard = |_: &Frame, _: &Prediction, _: &PredictionTally| {
+    let heard = |_: &Frame, _: &Prediction, _: &PredictionCounts| {
         std::thread::sleep(Duration::from_millis(10));
     };
     let predictor = LivePredictor::new(&model, &heard).with_table();
@@ -122,38 +125,38 @@ fn what_is_not_real_waits_for_the_model_and_every_frame_is_predicted() {
         }
         predictor.end();
     });
-    let tally = predictor.tally();
-    assert_eq!((tally.seen, tally.predicted, tally.dropped), (10, 10, 0));
+    let counts = predictor.counts();
+    assert_eq!((counts.seen, counts.predicted, counts.dropped), (10, 10, 0));
     assert_eq!(
-        tally.latencies.count(),
+        counts.latencies.count(),
         0,
         "its stamps are of another clock"
     );
     // Training ended at a brightness of 127.
     assert!(
-        tally
+        counts
             .outside
             .is_some_and(|outside| (1..6).contains(&outside)),
-        "{tally:?}"
+        "{counts:?}"
     );
 }
 
 #[test]
 fn frames_that_come_after_the_end_wait_for_nobody() {
     let model = model();
-    let heard = |_: &Frame, _: &Prediction, _: &PredictionTally| {};
+    let heard = |_: &Frame, _: &Prediction, _: &PredictionCounts| {};
     let predictor = LivePredictor::new(&model, &heard);
     predictor.end();
     for _ in 0..3 {
         predictor.offer(&frame(1), 0.0, DriverSource::Simulated);
     }
-    assert_eq!(predictor.tally().seen, 0);
+    assert_eq!(predictor.counts().seen, 0);
 }
 
 #[test]
 fn a_frame_of_another_size_midway_ends_the_predictions_with_both_sizes() {
     let model = model();
-    let heard = |_: &Frame, _: &Prediction, _: &PredictionTally| {};
+    let heard = |_: &Frame, _: &Prediction, _: &PredictionCounts| {};
     let predictor = LivePredictor::new(&model, &heard);
     predictor.begin(INFO, None).expect("fits");
     let wider = FrameInfo { width: 10, ..INFO };
@@ -171,5 +174,5 @@ fn a_frame_of_another_size_midway_ends_the_predictions_with_both_sizes() {
     );
     let error = model.check(wider).expect_err("another size").to_string();
     assert!(error.contains("10×6") && error.contains("8×6"), "{error}");
-    assert_eq!(predictor.tally().predicted, 1);
+    assert_eq!(predictor.counts().predicted, 1);
 }
