@@ -28,6 +28,8 @@ fn limited(bench: &Bench, words: &str, processes: u32) -> Output {
         .arg("bash")
         .arg(bench.path("taceva"))
         .args(words.split_whitespace())
+        .env("HOME", bench.path("."))
+        .env_remove("XDG_CONFIG_HOME")
         .current_dir(bench.path("."));
     if rustix::process::getuid().is_root() {
         shell.uid(NOBODY).gid(NOBODY);

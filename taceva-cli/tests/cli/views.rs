@@ -83,7 +83,6 @@ fn a_gripper_is_imported_checked_fitted_and_predicted_by_one_view_or_both() {
     let report = bench.json("check gripper");
     let findings = report.to_string();
     assert!(!findings.contains("TAC044\",\"name"), "{findings}");
-    bench.record("drawn", 16);
     bench.refused(
         "fit drawn --model ridge --view left --out m.model",
         2,
