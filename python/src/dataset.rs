@@ -60,7 +60,7 @@ fn native(mut bytes: Vec<u8>, number: Number) -> Vec<u8> {
 #[pymethods]
 impl Recording {
     /// Opens the folder at `path`, and checks its seal.
-    /// Of samples with several pictures, those of `view` are seen.
+    /// Opens the pictures of `view`, where samples have several.
     #[new]
     #[pyo3(signature = (path, view=None))]
     fn open(py: Python<'_>, path: PathBuf, view: Option<String>) -> PyResult<Recording> {

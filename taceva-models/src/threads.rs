@@ -29,7 +29,7 @@ pub fn prepare_threads(wanted: NonZeroUsize) -> usize {
     there.min(wanted.get())
 }
 
-/// How many threads the system starts beside this one, of `most`.
+/// Number of threads that the system starts beside this one, at most `most`.
 fn startable(most: usize) -> usize {
     thread::scope(|scope| {
         let started = (0..most).map_while(|_| {

@@ -37,7 +37,7 @@ impl TemporaryFolder {
     /// No name is taken over: what is there already stays, be it a link, a folder of somebody else, or one without our marker.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// [`io::Error`] of the file system.
     pub fn create(parent: &Path, prefix: &str) -> io::Result<TemporaryFolder> {
         for _ in 0..CREATIONS {
             let mut builder = tempfile::Builder::new();

@@ -10,8 +10,8 @@ use taceva_core::{
     Readings, Sample,
 };
 use taceva_metrics::{
-    Evaluation, Evaluator, Flag, Interval, MetricPlan, SensorFacts, Settings, State, Value,
-    catalogue,
+    Evaluation, Evaluator, Flag, Interval, MetricPlan, SensorFacts, Settings, State,
+    UndefinedReason, Value, catalogue,
 };
 
 fn said(value: &Value) -> String {

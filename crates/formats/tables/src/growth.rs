@@ -2,7 +2,7 @@
 
 use crate::limits;
 
-/// What was unpacked in one pass over a file.
+/// Bytes that were unpacked in one pass over a file.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Growth {
     packed: u64,

@@ -24,7 +24,7 @@ pub(crate) const MESSAGES: usize = 1 << 23;
 /// Elements of lists in one message that become cells.
 pub(crate) const MESSAGE_CELLS: usize = 1 << 20;
 
-/// What a small file may become, and above that so many times what is stored.
+/// Bytes that a small file may become unpacked; a larger one may become so many times its stored size.
 const UNPACKED_BYTES: u64 = 128 << 20;
 const UNPACKED_RATIO: u64 = 200;
 /// The same of cells that a caller asks for at once.

@@ -168,7 +168,8 @@ impl ParquetTable {
                     *bytes = bytes.saturating_add(cell.bytes());
                     if *bytes > most {
                         let problem = format!(
-                            "more than {most} bytes in memory; ask for a part, as `{name}[0]`"
+                            "more than {most} bytes in memory, of a file of {}; write it in several files, or ask for a part of a list, as `{name}[0]`",
+                            self.source.length()
                         );
                         return Err(self.source.too_large(Place::of(name), problem));
                     }

@@ -155,7 +155,7 @@ pub(crate) fn kind_of_whole(bytes: &[u8]) -> Result<ImageKind, String> {
 fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let text = |error: png::DecodingError| error.to_string();
     let most = png::Limits {
-        bytes: checked_length(limits::DECODED_BYTES)?,
+        bytes: most_of(bytes),
     };
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), most);
     // Palettes become colours, and fewer than 8 bits become 8.
@@ -169,7 +169,7 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let mut reader = decoder.read_info().map_err(text)?;
     let length = reader.output_buffer_size();
     let length = length.ok_or("an image larger than the address space")?;
-    let mut pixels = vec![0; checked_length(length as u64)?];
+    let mut pixels = vec![0; checked_length(length as u64, bytes)?];
     reader.next_frame(&mut pixels).map_err(text)?;
     let (format, pixels) = match reader.output_color_type() {
         (ColorType::Grayscale, BitDepth::Eight) => (PixelFormat::Gray8, pixels),
@@ -251,7 +251,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let length = info
         .byte_len()
         .ok_or("an image larger than the address space")?;
-    checked_length(length as u64)?;
+    checked_length(length as u64, bytes)?;
     let mut pixels = vec![0; length];
     decoder.decode_into(&mut pixels).map_err(text)?;
     Ok((info, pixels))
@@ -261,8 +261,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
 fn decode_scan_a_component(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let text = |error: jpeg_decoder::Error| error.to_string();
     let mut decoder = Decoder::new(bytes);
-    let most = checked_length(limits::DECODED_BYTES)?;
-    decoder.set_max_decoding_buffer_size(most);
+    decoder.set_max_decoding_buffer_size(most_of(bytes));
     decoder.read_info().map_err(text)?;
     let found = decoder.info().ok_or("no size in the file")?;
     let format = match found.pixel_format {
@@ -282,14 +281,25 @@ fn decode_scan_a_component(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String>
     Ok((info, pixels))
 }
 
-fn checked_length(bytes: u64) -> Result<usize, String> {
-    if bytes > limits::DECODED_BYTES {
-        return Err(format!(
-            "{bytes} bytes when decoded, more than the {} that are accepted",
-            limits::DECODED_BYTES
-        ));
+/// Bytes that the image in `file` may take once it is decoded.
+fn most_of(file: &[u8]) -> usize {
+    usize::try_from(limits::decoded_bytes(file.len())).unwrap_or(usize::MAX)
+}
+
+/// The length of the image in `file` in memory.
+///
+/// # Errors
+/// In words, if that is more than [`most_of`] the file.
+fn checked_length(bytes: u64, file: &[u8]) -> Result<usize, String> {
+    let length = usize::try_from(bytes).map_err(|_| "an image larger than the address space")?;
+    match length <= most_of(file) {
+        true => Ok(length),
+        false => Err(format!(
+            "{bytes} bytes when decoded, more than the {} that are accepted of a file of {} bytes: write it with less compression",
+            most_of(file),
+            file.len()
+        )),
     }
-    usize::try_from(bytes).map_err(|_| "an image larger than the address space".to_owned())
 }
 
 /// The 16-bit numbers of a PNG, which are big-endian, as frames hold them.

@@ -14,6 +14,17 @@ pub const PACK_BYTES: u64 = 1 << 30;
 pub const IMAGE_SIDE: u32 = 16_384;
 /// A decoded image.
 pub const DECODED_BYTES: u64 = 256 << 20;
+/// A decoded image whatever its file; a larger one may take [`DECODED_RATIO`] times its file. So several at once stay below 300 MiB where files are small.
+const DECODED_LEAST: u64 = 32 << 20;
+/// Bytes of a decoded image for each of its file.
+const DECODED_RATIO: u64 = 200;
+
+/// Bytes that an image may take once it is decoded, of a file of `stored` bytes.
+pub fn decoded_bytes(stored: usize) -> u64 {
+    let own = (stored as u64).saturating_mul(DECODED_RATIO);
+    own.clamp(DECODED_LEAST, DECODED_BYTES)
+}
+
 /// The payload of one record of a journal.
 pub const RECORD_BYTES: u32 = 1 << 20;
 /// Rows of a dataset.

@@ -128,7 +128,7 @@ impl MapDraft {
     }
 }
 
-/// Whether a map has no line that an import could read labels, pictures or taxels by.
+/// True if a map has no line that an import could read labels, pictures or taxels by.
 fn is_empty(map: &str) -> bool {
     const READ: [&str; 5] = [
         "[frame]",

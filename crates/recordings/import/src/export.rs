@@ -54,7 +54,7 @@ const MAP: &str = "map.toml";
 pub struct ExportReport {
     /// How many samples there are.
     pub samples: u64,
-    /// How many pictures there are: of each view one for each sample.
+    /// Number of pictures: of each view one for each sample.
     pub pictures: u64,
     /// How many pictures were encoded anew, so that their bytes are not those of the dataset; their pixels are the same.
     pub encoded_anew: u64,

@@ -3,7 +3,8 @@
 use std::fs;
 
 use crate::lab::{Lab, MAP, jpeg, png, rgb_png};
-use taceva_dataset::Dataset;
+use taceva_dataset::internal::decode;
+use taceva_dataset::{ChannelOrder, Dataset};
 
 #[test]
 fn a_missing_image_names_the_row_and_the_column() {
@@ -71,6 +72,30 @@ fn a_picture_bomb_is_refused_before_it_is_unpacked() {
     lab.is_refused_with(&["line 2, column `file`", "0.png"]);
     lab.write("source/images/0.png", &bomb(16_384, 16_384 + 1));
     lab.is_refused_with(&["line 2, column `file`"]);
+}
+
+/// K5.
+#[test]
+fn a_small_picture_that_becomes_very_many_pixels_is_refused_and_a_flat_one_of_a_camera_is_not() {
+    let lab = Lab::new();
+    lab.write("source/images/0.png", &flat(8_000, 8_000));
+    lab.is_refused_with(&[
+        "line 2, column `file`",
+        "64000000 bytes when decoded",
+        "write it with less compression",
+    ]);
+    let camera = flat(3_840, 2_160);
+    let (_, frame) = decode(&camera, ChannelOrder::Gray).expect("a flat picture");
+    assert_eq!(frame.info().width, 3_840);
+}
+
+/// A black picture.
+fn flat(width: u32, height: u32) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let picture = image::GrayImage::new(width, height);
+    let written = picture.write_to(&mut bytes, image::ImageFormat::Png);
+    written.expect("encoded");
+    bytes.into_inner()
 }
 
 /// A PNG that promises many pixels in few bytes.

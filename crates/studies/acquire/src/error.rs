@@ -74,7 +74,7 @@ pub enum AcquireError {
     /// A fitted model that cannot predict what the camera shows.
     #[error("model {}: {problem}", taceva_core::shown(path))]
     Model {
-        /// Its file.
+        /// File of the model.
         path: PathBuf,
         /// Why.
         problem: String,

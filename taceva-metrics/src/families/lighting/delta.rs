@@ -5,6 +5,7 @@ use super::sums::LightingSums;
 use crate::evaluate::family::Intervals;
 use crate::exact::merge::Merge;
 use crate::score::Interval;
+use crate::score::least::LEAST_CLUSTERS;
 use crate::score::range::Range;
 use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::jackknife::{self, LeftOut};
@@ -111,6 +112,12 @@ impl<'a> Moves<'a> {
         range: Range,
     ) -> Interval {
         let terms: Vec<&Term<'_>> = terms.into_iter().collect();
+        let scenes = terms.iter().map(|term| term.scene).chain([self.reference]);
+        let clusters = scenes.map(|scene| self.clusters_of(scene)).min();
+        let clusters = clusters.unwrap_or_default();
+        if clusters < LEAST_CLUSTERS {
+            return Interval::Undefined(UndefinedReason::TooFewClusters { have: clusters });
+        }
         let count = terms.iter().fold(0.0, |count, _| count + 1.0);
         let value = terms.iter().map(|term| term.value).sum::<f64>() / count;
         let left_out: Vec<LeftOut> = self
@@ -121,12 +128,8 @@ impl<'a> Moves<'a> {
                 value: self.moved(&terms, others),
             })
             .collect();
-        let scenes = terms.iter().map(|term| term.scene).chain([self.reference]);
-        let clusters = scenes.map(|scene| self.clusters_of(scene)).min();
         match jackknife::standard_error(0.0, &left_out) {
-            Ok(error) => {
-                jackknife::delta_interval(value, range, error * error, clusters.unwrap_or_default())
-            }
+            Ok(error) => jackknife::delta_interval(value, range, error * error, clusters),
             Err(reason) => Interval::Undefined(reason),
         }
     }

@@ -97,6 +97,29 @@ fn places_that_err_alike_under_both_lights_make_the_interval_narrow() {
 }
 
 #[test]
+fn a_scene_of_four_places_has_no_interval_whatever_the_places_of_the_others() {
+    for few in ["normal", "S1"] {
+        let samples: Vec<Sample> = (0_usize..20)
+            .flat_map(|point| {
+                let error = [1.0, 2.0, 3.0, 4.0, 5.0][point % 5];
+                let scenes = [("normal", 100.0, error), ("S1", 300.0, 2.1 * error)];
+                let seen = scenes
+                    .into_iter()
+                    .filter(move |(scene, ..)| *scene != few || point < 4);
+                seen.map(move |(scene, light, error)| lit(point, scene, light, error))
+            })
+            .collect();
+        let evaluation = evaluate(&["r_light"], &samples);
+        let score = evaluation.score("r_light", "Fz").expect("a score");
+        assert_eq!(
+            score.interval,
+            Interval::Undefined(UndefinedReason::TooFewClusters { have: 4 }),
+            "{few}"
+        );
+    }
+}
+
+#[test]
 fn little_light_and_smaller_errors_are_flagged() {
     let samples = [lit(0, "normal", 100.0, 0.5), lit(0, "S1", 102.0, 0.25)];
     let evaluation = evaluate(&["r_light"], &samples);

@@ -9,7 +9,7 @@ use super::problem;
 use crate::error::Problem;
 use crate::store::chunks_of;
 
-/// What an index says.
+/// Content of an index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ChunkIndex {
     /// Chunks that were written.

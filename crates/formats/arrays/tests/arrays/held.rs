@@ -1,4 +1,4 @@
-//! What a file holds is what is read: sums of members, keys of chunks, sizes once unpacked.
+//! Damage and excess in files of arrays: sums of members, keys of chunks, sizes once unpacked.
 
 use std::fs;
 use std::path::{Path, PathBuf};

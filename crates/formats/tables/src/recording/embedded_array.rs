@@ -14,7 +14,7 @@ const MOST_NUMBERS: u64 = 1 << 16;
 /// The numbers of an object that is an array, lists in lists by its shape; none of another object.
 ///
 /// # Errors
-/// Why the bytes are no such array.
+/// The reason in words if the bytes are no such array.
 pub(super) fn cell(members: &Map<String, Value>) -> Result<Option<Cell>, String> {
     let bytes = BYTES.iter().find_map(|name| members.get(*name)?.as_str());
     let (Some(bytes), Some(kind), Some(shape)) = (bytes, kind(members), shape(members)) else {
@@ -48,7 +48,7 @@ pub(super) fn cell(members: &Map<String, Value>) -> Result<Option<Cell>, String>
     })
 }
 
-/// Whether a cell states the type and shape of an array and holds none of its numbers.
+/// True if a cell states the type and shape of an array and holds none of its numbers.
 pub(super) fn is_summary(cell: &Cell) -> bool {
     let Cell::Struct(members) = cell else {
         return false;
@@ -78,7 +78,7 @@ fn shape(members: &Map<String, Value>) -> Option<Vec<u64>> {
 /// A number out of its bytes.
 type NumberReader = fn(&[u8]) -> Cell;
 
-/// How many bytes a number of such a type takes, and what reads one; none of types that are not read.
+/// Width in bytes and reader of a number of such a type; `None` for a type that is not read.
 fn reader(kind: &str) -> Option<(usize, NumberReader)> {
     fn bytes<const N: usize>(bytes: &[u8]) -> [u8; N] {
         bytes.try_into().unwrap_or([0; N])

@@ -1,4 +1,4 @@
-//! What of a bag is whole that was cut or not closed.
+//! Whole messages of a bag that was cut or not closed.
 
 use super::record::{self, op};
 use super::{MAGIC, Records};
@@ -31,7 +31,7 @@ fn whole_messages(source: &Source) -> u64 {
     messages + messages_of(&cut_chunk(&mut records, at).unwrap_or_default())
 }
 
-/// What is there of the chunk at `at` that the file ends in, where it is not compressed.
+/// Bytes of the chunk at `at` in which the file ends, if it is not compressed.
 fn cut_chunk(records: &mut Records<'_>, at: u64) -> Option<Vec<u8>> {
     let length = records.source.length();
     let four = |records: &mut Records<'_>, at: u64| {

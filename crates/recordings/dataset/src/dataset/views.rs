@@ -34,7 +34,7 @@ impl Dataset {
 
     /// The same dataset, whose frames are those of the view `view`, or of several side by side: `left+right`.
     ///
-    /// Its digest is a function of that of the dataset and of the view. Labels are the same. Of several views no file is the picture: entries of
+    /// The digest is a function of that of the dataset and of the view. Labels are the same. Of several views no file is the picture: entries of
     /// the table then have no bytes.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 use tiff::{ColorType, TiffError};
 
-use super::{checked_length, without_alpha};
+use super::{checked_length, most_of, without_alpha};
 use crate::limits;
 
 /// The picture in a TIFF file: what it is, and its pixels, colours side by side, numbers of 16 bits little-endian.
@@ -16,7 +16,7 @@ use crate::limits;
 /// and so are several pictures in one file.
 pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let mut allowed = Limits::default();
-    let most = usize::try_from(limits::DECODED_BYTES).unwrap_or(usize::MAX);
+    let most = most_of(bytes);
     allowed.decoding_buffer_size = most;
     allowed.intermediate_buffer_size = most;
     let mut decoder = Decoder::new(Cursor::new(bytes))
@@ -50,7 +50,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     };
     check_pieces(&mut decoder, bytes.len() as u64)?;
     let values = u64::from(width) * u64::from(height) * samples;
-    let length = checked_length(values * format.bytes_per_sample() as u64)?;
+    let length = checked_length(values * format.bytes_per_sample() as u64, bytes)?;
     let pixels = match decoder.read_image().map_err(text)? {
         DecodingResult::U8(pixels) => pixels,
         DecodingResult::U16(numbers) => numbers.into_iter().flat_map(u16::to_le_bytes).collect(),

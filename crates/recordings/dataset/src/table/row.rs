@@ -77,7 +77,7 @@ impl FrameEntry {
 pub struct RowFrame {
     /// The picture as it came, relative to the folder of its lab.
     pub source_frame: Option<String>,
-    /// Its mean luma, in steps of an 8-bit camera.
+    /// Mean luma, in steps of an 8-bit camera.
     pub intensity: Option<f64>,
     /// The picture.
     pub frame: Option<FrameEntry>,

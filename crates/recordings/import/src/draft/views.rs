@@ -12,7 +12,7 @@ const SIDES: [&str; 26] = [
 /// One of several names that differ in their side alone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Sided {
-    /// Its position among the names.
+    /// Position among the names.
     pub(super) at: usize,
     /// The name of the view.
     pub(super) view: String,
@@ -25,7 +25,7 @@ struct Stretch<'a> {
     start: usize,
 }
 
-/// Those of `names` that differ in one side or number alone, in their order; none where fewer than two do.
+/// Names among `names` that differ in one side or number alone, in their order; none where fewer than two do.
 pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
     let mut groups: Vec<(String, Vec<Sided>)> = Vec::new();
     for (at, name) in names.iter().enumerate() {

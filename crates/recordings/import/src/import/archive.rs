@@ -35,7 +35,7 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 pub struct UnpackedArchive {
     folder: PathBuf,
     archive: PathBuf,
-    /// Where its files were written, within `temporary`.
+    /// Folder of the unpacked files, within `temporary`.
     content: PathBuf,
     /// Removed with the archive.
     _temporary: TemporaryFolder,

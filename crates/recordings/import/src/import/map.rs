@@ -71,7 +71,7 @@ pub use drop::{DropRules, Placeholder};
 pub struct ImportMap {
     /// Table of labels, or a pattern with `*`, relative to the source folder.
     pub table: String,
-    /// Where the frames are, of each view where a row has several; without one the dataset has none.
+    /// Sources of the frames, one for each view; empty for a dataset without frames.
     pub frames: Vec<FrameMap>,
     /// The channels, in order.
     pub channels: Channels,
@@ -91,7 +91,7 @@ pub struct ImportMap {
     pub(crate) form: TableForm,
     /// The coordinate frame whose rows of the table are taken alone.
     pub(crate) frame_id: Option<String>,
-    /// Whether elements of HDF5 that were never written are taken as the fill value.
+    /// True if elements of HDF5 that were never written are taken as the fill value.
     pub(crate) is_filled: bool,
     /// Labels in the path of the table, of the file of a row, or of a cell.
     pub(crate) path: Option<PathPattern>,

@@ -62,7 +62,7 @@ pub(super) fn count(
     Ok(())
 }
 
-/// Whether the array lies in a file of HDF5. Writers of zarr leave chunks out that hold the fill value alone, those of HDF5 do not.
+/// True if the array lies in a file of HDF5. Writers of zarr leave chunks out that hold the fill value alone, those of HDF5 do not.
 fn is_of_hdf5(array: &str) -> bool {
     let ends = array.match_indices('/').map(|(at, _)| at);
     let mut files = ends.filter_map(|end| ArrayFormat::of(Path::new(&array[..end])));

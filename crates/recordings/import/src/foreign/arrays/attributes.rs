@@ -35,7 +35,7 @@ pub(super) fn absent_chunks<'n>(
     Ok(counted)
 }
 
-/// Whether `name` is a data frame of pandas.
+/// True if `name` is a data frame of pandas.
 pub(super) fn is_data_frame(file: &ArrayFile, name: &str) -> bool {
     file.attribute(name, "pandas_type").is_some()
 }

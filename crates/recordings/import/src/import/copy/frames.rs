@@ -21,9 +21,9 @@ const HELD_BYTES: usize = 16 << 20;
 /// Copied frames.
 #[derive(Debug, Default)]
 pub(in crate::import) struct CopiedFrames {
-    /// Those of rows that have one picture.
+    /// Frames of rows that have one picture.
     pub(in crate::import) frames: Option<FramesInfo>,
-    /// Those of each view, where rows have several.
+    /// Frames of each view, where rows have several.
     pub(in crate::import) views: Vec<ViewInfo>,
     /// Folders that they lie in.
     pub(in crate::import) folders: Vec<String>,

@@ -1,4 +1,4 @@
-//! Where the frames are, as it is written: one table, or a list of them with a name each.
+//! Sources of frames as a map writes them: one table, or a list of tables with a name each.
 
 use std::fmt;
 

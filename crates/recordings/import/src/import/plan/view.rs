@@ -18,7 +18,7 @@ pub(super) struct ViewReading<'a> {
     pub(super) depth: Option<DepthPixels>,
     /// The files with pictures in them that rows named.
     pub(super) opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
-    /// Those of which a row has the picture of its own number, as the map names them, each with the table of these rows.
+    /// Pictures that rows have by their own number, as the map names them, each with the table of these rows.
     pub(super) counted: BTreeMap<String, PathBuf>,
     pub(super) frames: Vec<PlannedFrame>,
     pub(super) references: References,
