@@ -18,7 +18,9 @@ pub(crate) mod evaluate;
 pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod import;
+pub(crate) mod init;
 mod live_predictions;
+pub(crate) mod man;
 pub(crate) mod merge;
 mod on_page;
 mod operator;
@@ -41,7 +43,7 @@ use taceva_dataset::Dataset;
 use taceva_evaluate::{DataPart, EvaluateError, FitRequest};
 use taceva_models::{Model, ModelSettings, Models};
 
-use crate::args::{Output, PartArg, ScoringArgs, SettingArgs, SplitArgs, ViewArgs};
+use crate::args::{Output, PartArg, START, ScoringArgs, SettingArgs, SplitArgs, ViewArgs};
 use crate::{exit, output};
 
 pub(crate) use crate::context::Context;
@@ -75,6 +77,21 @@ pub(crate) fn check_isa() -> anyhow::Result<()> {
         Ok(_) => Ok(()),
         Err(error) => Err(Usage::error(format!("TACEVA_ISA: {error}"))),
     }
+}
+
+/// `taceva` without a command: the ways in.
+pub(crate) fn start() -> anyhow::Result<u8> {
+    output::write(None, |out| {
+        writeln!(
+            out,
+            "taceva: how well does a vision-based tactile sensor measure?\n\n{START}\n"
+        )?;
+        writeln!(
+            out,
+            "taceva --help lists every command; taceva COMMAND --help explains one, with examples."
+        )
+    })?;
+    Ok(exit::DONE)
 }
 
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {

@@ -5,6 +5,7 @@ use std::num::NonZeroUsize;
 use taceva_evaluate::{Cache, EvaluateError, Plan, Work};
 
 use crate::args::{Everywhere, PluginArgs};
+use crate::invocation::Invocation;
 use crate::progress::TerminalProgress;
 use crate::stderr;
 
@@ -13,12 +14,13 @@ pub(crate) struct Context {
     pub(crate) progress: TerminalProgress,
     pub(crate) jobs: NonZeroUsize,
     pub(crate) plugins: PluginArgs,
+    pub(crate) invocation: Invocation,
     pub(crate) verbose: bool,
     pub(crate) quiet: bool,
 }
 
 impl Context {
-    pub(crate) fn new(everywhere: &Everywhere) -> Context {
+    pub(crate) fn new(everywhere: &Everywhere, invocation: Invocation) -> Context {
         let all_cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         let asked = everywhere
             .jobs
@@ -37,6 +39,7 @@ impl Context {
             verbose: everywhere.verbose > 0,
             quiet: everywhere.quiet,
             plugins: everywhere.plugins.clone(),
+            invocation,
         }
     }
 

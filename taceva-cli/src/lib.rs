@@ -11,6 +11,7 @@ mod context;
 mod date;
 mod disk_space;
 mod exit;
+mod invocation;
 mod output;
 mod process_limits;
 mod progress;
@@ -24,7 +25,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 use anyhow::Error;
-use clap::Parser;
+use clap::FromArgMatches as _;
 use taceva_acquire::AcquireError;
 use taceva_core::{ErrorKind, ModelError};
 use taceva_dataset::DatasetError;
@@ -34,6 +35,7 @@ use taceva_sweep::SweepError;
 
 use args::{Cli, Command};
 use cmd::Context;
+use invocation::Invocation;
 
 /// Serves as the child process of another `taceva` and ends, if this process was started for that; returns otherwise. A `main` that does not
 /// begin with it has no child processes: plugins in libraries are refused, unless an interpreter was named for them
@@ -62,14 +64,18 @@ pub fn main_with(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone
         ));
         return exit::BAD_INPUT;
     }
-    let cli = match typed(arguments) {
+    let words: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    let cli = match typed(&words) {
         Ok(cli) => cli,
         Err(code) => return code,
     };
     progress::listen_for_signals();
     process_limits::refuse_to_end_at_the_limit_of_file_sizes();
-    let context = Context::new(&cli.everywhere);
-    let done = cmd::check_isa().and_then(|()| run(&cli.command, &context));
+    let context = Context::new(&cli.everywhere, Invocation::new(&words));
+    let done = cmd::check_isa().and_then(|()| match &cli.command {
+        Some(command) => run(command, &context),
+        None => cmd::start(),
+    });
     done.unwrap_or_else(|error| {
         complain(&error);
         code_of(&error)
@@ -78,6 +84,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone
 
 fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
     match command {
+        Command::Init(args) => cmd::init::run(args, context),
         Command::Import(args) => cmd::import::run(args, context),
         Command::Check(args) => cmd::check::run(args, context),
         Command::Export(args) => cmd::export::run(args, context),
@@ -103,6 +110,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Plugin(which) => cmd::plugin::run(which, context),
         Command::Doctor(args) => cmd::doctor::run(args, context),
         Command::Completions(args) => cmd::completions::run(args),
+        Command::Man(args) => cmd::man::run(args, context),
     }
 }
 
@@ -154,17 +162,20 @@ fn missing_dataset(error: &Error) -> Option<&Path> {
 }
 
 /// The parsed arguments; help goes to standard output, and wrong arguments end the program.
-fn typed(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Cli, u8> {
-    Cli::try_parse_from(arguments).map_err(|error| {
-        if error.use_stderr() {
-            // The error quotes the arguments, whose control characters are escaped.
-            stderr::write(&error.render().to_string());
-            return exit::USAGE;
-        }
-        // This fails if the reader has closed the pipe.
-        drop(error.print());
-        exit::DONE
-    })
+fn typed(words: &[OsString]) -> Result<Cli, u8> {
+    let matches = Cli::documented().try_get_matches_from(words);
+    matches
+        .and_then(|matches| Cli::from_arg_matches(&matches))
+        .map_err(|error| {
+            if error.use_stderr() {
+                // The error quotes the arguments, whose control characters are escaped.
+                stderr::write(&error.render().to_string());
+                return exit::USAGE;
+            }
+            // This fails if the reader has closed the pipe.
+            drop(error.print());
+            exit::DONE
+        })
 }
 
 /// The exit code of an error.

@@ -39,10 +39,10 @@ pub(crate) struct Fit {
     pub(crate) force: bool,
 }
 
-/// With --model, the model is fitted on the training part, its settings are chosen on the validation part, and the test
-/// part is scored. With --with, a fitted model is used: on its own dataset only the part it has not seen is scored.
+/// The model is fitted on the training part, its settings are chosen on the validation part, and the test part is scored. Without --model that is
+/// `fast`, a small network (`ridge` for signals of taxels). With --with, a fitted model is used: on its own dataset only the part it has not seen is scored.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("which").required(true).args(["with", "name"]))]
+#[command(group = ArgGroup::new("which").args(["with", "name"]))]
 pub(crate) struct Evaluate {
     /// The dataset to evaluate; several recordings of one kind of sensor are taken as one
     #[arg(required = true, value_name = "DATASET")]

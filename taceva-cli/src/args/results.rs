@@ -31,10 +31,9 @@ pub(crate) struct Compare {
     pub(crate) output: Output,
 }
 
-/// Needs are words (shear, no shear, normal force, depth, deep contact, soft contact, firm contact, planar, fast, ambient light, …) and
-/// numbers (rate >= 50 Hz, force <= 1 N, localisation 0.3 mm, …), separated by commas. Hard needs exclude a sensor, soft ones rank.
+/// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft ones rank.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("asked").required(true).args(["need", "needs"]))]
+#[command(after_help = needs_help(), group = ArgGroup::new("asked").required(true).args(["need", "needs"]))]
 pub(crate) struct Choose {
     /// The needs; may be repeated
     #[arg(long, value_name = "NEEDS")]
@@ -49,6 +48,14 @@ pub(crate) struct Choose {
     pub(crate) page: PageArgs,
     #[command(flatten)]
     pub(crate) output: Output,
+}
+
+/// The needs that `--need` knows.
+fn needs_help() -> String {
+    format!(
+        "Needs, separated by commas:\n{}",
+        taceva_report::Need::vocabulary()
+    )
 }
 
 /// An example of a file of limits.

@@ -3,6 +3,7 @@
 pub(super) mod bench;
 mod stages;
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use taceva_core::shown;
 
@@ -78,9 +79,8 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     });
     let mut reports = reports.with_context(|| match progress::is_stopped() {
         true => format!(
-            "stopped; continue with taceva run {} --resume --out {}",
-            args.scene.scene,
-            shown(&path)
+            "stopped; continue with: {}",
+            resumption(args, &path, context)
         ),
         false if existing != Existing::Resume && folder.remove_if_untouched() => {
             format!("nothing was recorded, {} is not kept", shown(&path))
@@ -111,6 +111,20 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     context.say(format_args!("reports are in {}", shown(&folder.reports())));
     context.say(format_args!("look at    {}", shown(&page)));
     Ok(exit::DONE)
+}
+
+/// The command line that goes on with the run in `path`.
+fn resumption(args: &Run, path: &Path, context: &Context) -> String {
+    let resume = (!args.resume).then_some(OsStr::new("--resume"));
+    let out = args
+        .folder
+        .is_none()
+        .then_some([OsStr::new("--out"), path.as_os_str()]);
+    let options: Vec<&OsStr> = resume
+        .into_iter()
+        .chain(out.into_iter().flatten())
+        .collect();
+    context.invocation.with(&options, "--force")
 }
 
 /// `taceva run --air`.

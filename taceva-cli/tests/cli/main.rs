@@ -13,6 +13,8 @@ mod features;
 mod foreign_forms;
 mod gratings;
 mod guide;
+mod help;
+mod init;
 mod journey;
 mod library_models;
 mod plan;

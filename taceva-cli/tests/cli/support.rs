@@ -88,6 +88,23 @@ impl Bench {
         }
     }
 
+    /// Runs `taceva WORDS` with these lines on its standard input.
+    pub(crate) fn answered(&self, words: &str, answers: &str) -> Ran {
+        self.write("answers.txt", answers);
+        let answers = fs::File::open(self.path("answers.txt")).expect("it was written");
+        let output = self
+            .command(words)
+            .stdin(answers)
+            .output()
+            .expect("the program starts");
+        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        Ran {
+            code: output.status.code().expect("not ended by a signal"),
+            out: text(output.stdout),
+            err: text(output.stderr),
+        }
+    }
+
     /// Runs, and expects success.
     pub(crate) fn ok(&self, words: &str) -> String {
         let ran = self.run(words);
@@ -115,7 +132,11 @@ impl Bench {
     /// The line that `text` says allows what was refused, carried out by a shell as a person would paste it.
     pub(crate) fn paste(&self, text: &str) -> Ran {
         let (_, line) = text.rsplit_once("allow it: ").expect(text);
-        let line = line.lines().next().expect("a line").trim();
+        self.shell(line.lines().next().expect("a line").trim())
+    }
+
+    /// A command line, carried out by a shell in this folder as a person would type it.
+    pub(crate) fn shell(&self, line: &str) -> Ran {
         let program = Path::new(env!("CARGO_BIN_EXE_taceva"));
         let mut path = program.parent().expect("a folder").as_os_str().to_owned();
         path.push(":");
@@ -127,6 +148,7 @@ impl Bench {
             .filter_map(|(key, value)| Some((key, value?)));
         let mut shell = Command::new("sh");
         shell.args(["-c", line]).envs(variables).env("PATH", path);
+        shell.current_dir(self.folder.path());
         let output = shell.output().expect("a shell");
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
         Ran {

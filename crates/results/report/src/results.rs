@@ -10,7 +10,7 @@ pub use model_bench::{
 pub(crate) use standing::by_published_r2;
 
 use taceva_metrics::catalogue;
-use taceva_results::{EvaluationReport, OverSeeds, ResultsError, Samples, Score, Skip};
+use taceva_results::{EvaluationReport, OverSeeds, Provenance, ResultsError, Samples, Score, Skip};
 
 /// Definition of numbers that were published without one.
 pub(crate) const PUBLISHED: &str = "published";
@@ -55,17 +55,21 @@ pub struct Made {
     pub presses: u64,
     /// The digest of the table of truth, where two tables were scored.
     pub truth: Option<String>,
+    /// The part that was scored, if the model was fitted on it or its settings were chosen on it.
+    pub seen_part: Option<String>,
 }
 
 impl From<EvaluationReport> for Study {
     fn from(report: EvaluationReport) -> Study {
         let provenance = provenance::entries(&report.provenance);
         let presses = report.provenance.press_counts();
+        let seen_part = seen_part(&report.provenance);
         let samples = report.provenance.samples.into_iter();
         let made = Made {
             presses: presses.values().sum(),
             samples: samples.map(|(part, count)| (part, count as u64)).collect(),
             truth: report.provenance.tables.get("truth").cloned(),
+            seen_part,
             ..match report.provenance.model {
                 Some(model) => Made {
                     model: Some(model.name),
@@ -89,6 +93,14 @@ impl From<EvaluationReport> for Study {
             samples: report.samples,
         }
     }
+}
+
+/// The scored part, where the model has seen it.
+fn seen_part(provenance: &Provenance) -> Option<String> {
+    let model = provenance.model.as_ref()?;
+    let is_own = provenance.dataset.as_ref() == Some(&model.fitted_on);
+    let part = provenance.part.as_ref().filter(|part| *part != "test");
+    part.filter(|_| is_own).cloned()
 }
 
 impl Study {

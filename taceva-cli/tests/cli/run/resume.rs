@@ -16,7 +16,14 @@ struct Started {
 
 impl Started {
     fn new(bench: &Bench, folder: &str) -> Started {
-        let mut command = bench.command(&format!("run small.toml --out {folder} -q"));
+        Started::of(
+            bench.command(&format!("run small.toml --out {folder} -q")),
+            bench,
+            folder,
+        )
+    }
+
+    fn of(mut command: Command, bench: &Bench, folder: &str) -> Started {
         let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
         Started {
             child: child.expect("starts"),
@@ -88,7 +95,10 @@ fn a_gel_that_is_softened_by_use_is_brought_back_to_where_it_was() {
 #[test]
 fn a_signal_stops_a_run_between_motions_and_it_says_how_to_go_on() {
     let bench = with_small();
-    let mut stopped = Started::new(&bench, "stopped");
+    bench.write("my plugins/none.txt", "no plugin");
+    let mut command = bench.command("run small.toml --out stopped -q --plugin-dir");
+    command.arg("my plugins");
+    let mut stopped = Started::of(command, &bench, "stopped");
     stopped.reaches(10_000);
     let id = stopped.child.id().to_string();
     let sent = Command::new("kill").args(["-TERM", &id]).status();
@@ -96,9 +106,12 @@ fn a_signal_stops_a_run_between_motions_and_it_says_how_to_go_on() {
     let ended = stopped.child.wait_with_output().expect("ended");
     assert_eq!(ended.status.code(), Some(5));
     let message = String::from_utf8(ended.stderr).expect("UTF-8");
-    assert!(message.contains("--resume --out stopped"), "{message}");
+    let (_, line) = message.split_once("continue with: ").expect(&message);
+    let (line, _) = line.split_once(": ").unwrap_or((line.trim(), ""));
+    assert!(line.contains("--plugin-dir 'my plugins'"), "{line}");
     assert!(reports(&bench.path("stopped")).is_empty());
-    bench.ok("run small.toml --out stopped --resume -q");
+    let resumed = bench.shell(line);
+    assert_eq!(resumed.code, 0, "{line}: {}", resumed.err);
     bench.ok("run small.toml --out whole -q");
     assert_eq!(
         reports(&bench.path("stopped")),

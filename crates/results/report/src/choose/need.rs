@@ -86,6 +86,28 @@ impl Need {
         Need::parse(&written.needs.join(","))
     }
 
+    /// All needs that can be written, a line each: words with the properties by which they rank or exclude, then quantities with their units.
+    ///
+    /// ```
+    /// assert!(taceva_report::Need::vocabulary().contains("force <number> N"));
+    /// ```
+    pub fn vocabulary() -> String {
+        let words = WORDS.iter().map(|word| {
+            let bounds = word.bounds.iter().map(|(property, is_least, value)| {
+                let (property, is_least, value) = (*property, *is_least, *value);
+                format!("excludes unless {}", Bound { property, is_least, value })
+            });
+            let ranks = word.ranks.iter().map(|property| format!("ranks by {property}"));
+            let meaning: Vec<String> = bounds.chain(ranks).collect();
+            format!("  {:<26} {}", word.names.join(" | "), meaning.join(", "))
+        });
+        let quantities = QUANTITIES.iter().map(|quantity| {
+            let need = format!("{} <number> {}", quantity.name, quantity.unit);
+            format!("  {need:<26} bounds {}", quantity.property)
+        });
+        words.chain(quantities).collect::<Vec<_>>().join("\n")
+    }
+
     /// Every property that it uses.
     pub fn properties(&self) -> impl Iterator<Item = Property> {
         let bounds = self.bounds.iter().map(|bound| bound.property);

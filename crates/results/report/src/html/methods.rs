@@ -15,7 +15,7 @@ use crate::scores::ScoreTable;
 use crate::short_digests::short_digests;
 
 /// The study whose metrics these are, as its publisher names it.
-const STUDY: &str = "@article{taceva-study,\n  author  = {Cong and others},\n  title   = {{TacEva}},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
+const STUDY: &str = "@article{taceva-study,\n  author  = {Cong, Qingzheng and Oh, Steven and Fan, Wen and Luo, Shan and Althoefer, Kaspar and Zhang, Dandan},\n  title   = {{TacEva}: A Performance Evaluation Framework for Vision-Based Tactile Sensors},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
 
 /// The paragraph and the entries, each with a button that copies it, and the sensors in a table.
 pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
@@ -39,7 +39,7 @@ fn copied(id: &str, what: &str, body: &Markup) -> Markup {
 fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     let mut out = format!(
         "We evaluated {} ({}) with TacEva {}.",
-        counted(studies.len(), "vision-based tactile sensor"),
+        evaluated(studies),
         listed(&names(studies)),
         listed(
             &values(studies, "taceva").unwrap_or_else(|| vec!["of an unknown version".to_owned()])
@@ -52,6 +52,16 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     out += &gratings(studies);
     out += &statistics::statistics(studies, table);
     out + &scope(studies)
+}
+
+/// The number of results, and of sensors where that is another.
+fn evaluated(studies: &[Study]) -> String {
+    let units = studies.iter().map(|study| (&study.sensor, &study.serial, &study.gel));
+    let units = units.collect::<BTreeSet<_>>().len();
+    match units == studies.len() {
+        true => counted(units, "tactile sensor"),
+        false => format!("{} of {}", counted(studies.len(), "result"), counted(units, "tactile sensor")),
+    }
 }
 
 /// Where samples come from.
@@ -79,23 +89,15 @@ fn origin(studies: &[Study]) -> String {
     out
 }
 
+/// Presses of the recordings, and places of the scored samples.
 fn pressed(studies: &[Study]) -> String {
     let presses = span(studies, |study| whole(study.made.presses));
     let points = span(studies, points);
-    match (presses, points) {
-        (Some(presses), Some(points)) => {
-            format!(
-                " Each recording holds {presses} presses at {points} places, those of every part of its protocol."
-            )
-        }
-        (Some(presses), None) => {
-            format!(" Each recording holds {presses} presses, those of every part of its protocol.")
-        }
-        (None, Some(points)) => format!(
-            " Each recording holds presses at {points} places, those of every part of its protocol."
-        ),
-        (None, None) => String::new(),
-    }
+    let presses = presses.map(|presses| {
+        format!(" A protocol made {presses} presses for each recording, those without a usable sample included.")
+    });
+    let points = points.map(|points| format!(" Scored samples lie at {points} contact points."));
+    presses.into_iter().chain(points).collect()
 }
 
 /// How samples were divided, with their numbers.
@@ -104,7 +106,7 @@ fn divided(studies: &[Study]) -> String {
         return String::new();
     };
     let mut out = format!(
-        " Samples for training were divided by the split {}",
+        " Samples were divided by the split {}",
         listed(&splits)
     );
     if let Some(seeds) = values(studies, "seed") {
@@ -159,7 +161,7 @@ fn model(studies: &[Study]) -> String {
             .iter()
             .map(|(key, value)| format!("{key} = {value}"))
             .collect();
-        let mut words = format!(" Labels were predicted from pictures by the model {name}");
+        let mut words = format!(" Labels were predicted by the model {name}");
         if of.len() < studies.len() {
             let names: Vec<String> = of.iter().map(|study| study.sensor.clone()).collect();
             words += &format!(" for {}", listed(&names));
@@ -176,11 +178,25 @@ fn model(studies: &[Study]) -> String {
     let sentences: String = models.into_iter().map(sentence).collect();
     match sentences.is_empty() {
         true => sentences,
-        false => {
-            sentences
-                + " Every score that is formed from predictions is of samples that the model had not seen; scores of the gel alone, such as sensitivity, uniformity and hysteresis, are of all samples of their part of the protocol."
-        }
+        false => sentences + &unseen(studies),
     }
+}
+
+/// The samples that predictions are scored on.
+fn unseen(studies: &[Study]) -> String {
+    let seen = studies.iter().filter_map(|study| {
+        let part = study.made.seen_part.as_ref()?;
+        Some(format!("{} (part {part})", study.sensor))
+    });
+    let seen: Vec<String> = seen.collect();
+    let predicted = match seen.is_empty() {
+        true => " Every score that is formed from predictions is of samples that the model had not seen;".to_owned(),
+        false => format!(
+            " Scores of {} are of samples that the model had seen, which is no test;",
+            listed(&seen)
+        ),
+    };
+    predicted + " scores that use no predictions, such as sensitivity, uniformity and hysteresis, are of all samples that they apply to."
 }
 
 /// What intervals and p values do not contain.
@@ -228,9 +244,8 @@ fn bibtex(studies: &[Study]) -> String {
     );
     let mut entries = vec![
         format!(
-            "@software{{taceva,\n  title   = {{{{TacEva}}: how well does a vision-based tactile sensor measure?}},\n  version = {{{}}},\n  url     = {{{}}}\n}}",
-            plain(&version),
-            env!("CARGO_PKG_REPOSITORY")
+            "@software{{taceva,\n  title   = {{{{TacEva}}: how well does a vision-based tactile sensor measure?}},\n  version = {{{}}}\n}}",
+            plain(&version)
         ),
         STUDY.to_owned(),
     ];

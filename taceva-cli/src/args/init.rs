@@ -1,0 +1,46 @@
+//! Arguments of `taceva init`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+/// Questions are answered by a line each; Enter takes the default in brackets. Answers may also come from a file or a pipe. Every file is checked as
+/// the command that reads it does, and the next commands are printed.
+#[derive(Debug, Args)]
+pub(crate) struct Init {
+    #[command(subcommand)]
+    pub(crate) subject: Option<InitSubject>,
+}
+
+/// The file to begin with.
+#[derive(Debug, Subcommand)]
+pub(crate) enum InitSubject {
+    /// A map for a folder of pictures and labels: drafted from the files, then completed by questions
+    Recording(InitRecording),
+    /// A scene of the simulated bench
+    Scene(InitTarget),
+    /// A rig file: robot, force transducer, camera, limits
+    Rig(InitTarget),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct InitRecording {
+    /// The folder of the recording
+    #[arg(value_name = "FOLDER")]
+    pub(crate) folder: PathBuf,
+    #[command(flatten)]
+    pub(crate) target: InitTarget,
+}
+
+#[derive(Debug, Default, Args)]
+pub(crate) struct InitTarget {
+    /// The file to write [default: map.toml, scene.toml or rig.toml in the working folder]
+    #[arg(long = "out", value_name = "FILE")]
+    pub(crate) path: Option<PathBuf>,
+    /// Ask nothing and take every default
+    #[arg(long, short)]
+    pub(crate) yes: bool,
+    /// Replace a file that exists already
+    #[arg(long)]
+    pub(crate) force: bool,
+}

@@ -1,0 +1,68 @@
+//! `taceva init`: the files that people write, by questions with defaults.
+
+mod interview;
+mod recording;
+mod rig;
+mod scene;
+
+use std::path::{Path, PathBuf};
+
+use taceva_core::shown;
+use taceva_dataset::internal::quoted;
+
+use super::{Context, Usage};
+use crate::args::{Init, InitSubject, InitTarget};
+use crate::{exit, output};
+use interview::Interview;
+
+pub(crate) fn run(args: &Init, context: &Context) -> anyhow::Result<u8> {
+    let none = InitTarget::default();
+    match &args.subject {
+        Some(InitSubject::Recording(args)) => recording::write(
+            &args.folder,
+            &args.target,
+            &mut Interview::new(&args.target),
+        ),
+        Some(InitSubject::Scene(target)) => {
+            scene::write(target, &mut Interview::new(target), context)
+        }
+        Some(InitSubject::Rig(target)) => rig::write(target, &mut Interview::new(target), context),
+        None => {
+            let interview = &mut Interview::new(&none);
+            let kinds = ["recording", "scene", "rig"];
+            interview.say("recording: a folder of pictures and labels; scene: simulated sensors, no data needed; rig: your robot, transducer and camera");
+            match interview
+                .choose("which of them is there", &kinds, Some("recording"))?
+                .as_str()
+            {
+                "scene" => scene::write(&none, interview, context),
+                "rig" => rig::write(&none, interview, context),
+                _ => {
+                    let is_folder = |answer: &str| match Path::new(answer).is_dir() {
+                        true => Ok(()),
+                        false => Err(format!("{} is no folder", shown(answer))),
+                    };
+                    let folder = interview.ask("the folder of the recording", None, is_folder)?;
+                    recording::write(Path::new(&folder), &none, interview)
+                }
+            }
+        }
+    }
+}
+
+/// The file to write: the one that was named, or `default`; refused where it exists already.
+fn target(args: &InitTarget, default: &str) -> anyhow::Result<PathBuf> {
+    let path = args.path.clone().unwrap_or_else(|| PathBuf::from(default));
+    output::check_free(&path, args.force)?;
+    Ok(path)
+}
+
+/// Writes the file and prints the commands that come next.
+fn finish(path: &Path, text: &str, next: &[String]) -> anyhow::Result<u8> {
+    output::write(Some(path), |out| out.write_all(text.as_bytes()))?;
+    output::write(None, |out| {
+        writeln!(out, "wrote {}; next:", quoted(path))?;
+        next.iter().try_for_each(|line| writeln!(out, "  {line}"))
+    })?;
+    Ok(exit::DONE)
+}

@@ -1,0 +1,186 @@
+//! Questions at the terminal, and answers to them.
+
+use std::io::BufRead;
+
+use super::Usage;
+use crate::args::InitTarget;
+use crate::stderr;
+
+/// Asks questions on standard error and reads answers from standard input.
+pub(super) struct Interview<R = std::io::StdinLock<'static>> {
+    answers: R,
+    takes_defaults: bool,
+}
+
+impl Interview {
+    /// Reads from standard input; with `--yes` nothing is asked.
+    pub(super) fn new(args: &InitTarget) -> Interview {
+        Interview {
+            answers: std::io::stdin().lock(),
+            takes_defaults: args.yes,
+        }
+    }
+}
+
+impl<R: BufRead> Interview<R> {
+    /// Prints a line that explains the next questions.
+    pub(super) fn say(&self, words: &str) {
+        if !self.takes_defaults {
+            stderr::write(&format!("{words}\n"));
+        }
+    }
+
+    /// Returns true if nothing is asked.
+    pub(super) fn takes_defaults(&self) -> bool {
+        self.takes_defaults
+    }
+
+    /// The answer to `question` that `check` accepts; an empty line is the default. A refused answer is asked for again.
+    ///
+    /// # Errors
+    /// [`Usage`] if answers end, or if `--yes` meets a question without default.
+    pub(super) fn ask(
+        &mut self,
+        question: &str,
+        default: Option<&str>,
+        check: impl Fn(&str) -> Result<(), String>,
+    ) -> anyhow::Result<String> {
+        if self.takes_defaults {
+            return default.map(str::to_owned).ok_or_else(|| {
+                Usage::error(format!("no default for: {question}; run it without --yes"))
+            });
+        }
+        loop {
+            let offered = default.map_or_else(String::new, |default| format!(" [{default}]"));
+            stderr::write(&format!("{question}{offered}: "));
+            let mut line = String::new();
+            if self.answers.read_line(&mut line)? == 0 {
+                stderr::write("\n");
+                return Err(Usage::error(format!(
+                    "standard input ended before an answer to: {question}; --yes takes defaults"
+                )));
+            }
+            let typed = line.trim();
+            let answer = match (typed, default) {
+                ("", Some(default)) => default,
+                ("", None) => {
+                    stderr::write("an answer is needed here\n");
+                    continue;
+                }
+                (typed, _) => typed,
+            };
+            match check(answer) {
+                Ok(()) => return Ok(answer.to_owned()),
+                Err(problem) => stderr::write(&format!("{problem}\n")),
+            }
+        }
+    }
+
+    /// One of `choices`.
+    ///
+    /// # Errors
+    /// As [`Interview::ask`].
+    pub(super) fn choose(
+        &mut self,
+        question: &str,
+        choices: &[impl AsRef<str>],
+        default: Option<&str>,
+    ) -> anyhow::Result<String> {
+        let words: Vec<&str> = choices.iter().map(AsRef::as_ref).collect();
+        let known = words.join(", ");
+        let check = |answer: &str| match words.contains(&answer) {
+            true => Ok(()),
+            false => Err(format!("expected one of {known}")),
+        };
+        self.ask(&format!("{question} ({known})"), default, check)
+    }
+
+    /// A number within `[least, most]`.
+    ///
+    /// # Errors
+    /// As [`Interview::ask`].
+    pub(super) fn number(
+        &mut self,
+        question: &str,
+        default: Option<&str>,
+        [least, most]: [f64; 2],
+    ) -> anyhow::Result<f64> {
+        let read = |answer: &str| {
+            answer
+                .parse::<f64>()
+                .ok()
+                .filter(|n| (least..=most).contains(n))
+        };
+        let check = |answer: &str| match read(answer) {
+            Some(_) => Ok(()),
+            None => Err(format!("expected a number from {least} to {most}")),
+        };
+        let answer = self.ask(question, default, check)?;
+        read(&answer).ok_or_else(|| Usage::error(format!("{question}: {answer} is no such number")))
+    }
+
+    /// A whole number within `[least, most]`.
+    ///
+    /// # Errors
+    /// As [`Interview::ask`].
+    pub(super) fn count(
+        &mut self,
+        question: &str,
+        default: &str,
+        [least, most]: [u32; 2],
+    ) -> anyhow::Result<u32> {
+        let read = |answer: &str| {
+            answer
+                .parse::<u32>()
+                .ok()
+                .filter(|n| (least..=most).contains(n))
+        };
+        let check = |answer: &str| match read(answer) {
+            Some(_) => Ok(()),
+            None => Err(format!("expected a whole number from {least} to {most}")),
+        };
+        let answer = self.ask(question, Some(default), check)?;
+        read(&answer).ok_or_else(|| Usage::error(format!("{question}: {answer} is no such number")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Interview;
+
+    fn interview(answers: &'static str, takes_defaults: bool) -> Interview<&'static [u8]> {
+        Interview {
+            answers: answers.as_bytes(),
+            takes_defaults,
+        }
+    }
+
+    #[test]
+    fn a_refused_answer_is_asked_for_again_and_an_empty_one_is_the_default() {
+        let mut asked = interview("many\n0\n\n", false);
+        assert_eq!(
+            asked.count("points", "200", [1, 9]).expect("the third"),
+            200
+        );
+        let mut asked = interview("both\nrig\n", false);
+        let chosen = asked
+            .choose("which", &["scene", "rig"], None)
+            .expect("the second");
+        assert_eq!(chosen, "rig");
+    }
+
+    #[test]
+    fn answers_that_end_and_questions_without_default_are_refused() {
+        let ended = interview("", false).number("depth", None, [0.0, 1.0]);
+        assert!(ended.expect_err("no answer").to_string().contains("depth"));
+        let silent = interview("", true).number("depth", None, [0.0, 1.0]);
+        assert!(
+            silent
+                .expect_err("no default")
+                .to_string()
+                .contains("--yes")
+        );
+        let taken = interview("", true).number("depth", Some("0.5"), [0.0, 1.0]);
+        assert!((taken.expect("the default") - 0.5).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,128 @@
+//! A rig file: devices by their drivers, axes and limits.
+
+use taceva_core::{DriverKind, DriverSource};
+use taceva_dataset::internal::quoted;
+use taceva_drivers::{Devices, ListedDriver, devices};
+use taceva_protocol::RigFile;
+
+use super::{Context, Interview, Usage, finish, target};
+use crate::args::InitTarget;
+
+pub(super) fn write(
+    args: &InitTarget,
+    interview: &mut Interview,
+    context: &Context,
+) -> anyhow::Result<u8> {
+    let path = target(args, "rig.toml")?;
+    let listed = devices(&context.drivers(None)?);
+    let robot = device(&listed, DriverKind::Robot, "robot", interview)?;
+    let carries = interview.choose(
+        "the robot carries the",
+        &["indenter", "sensor"],
+        Some("indenter"),
+    )?;
+    let force = device(&listed, DriverKind::Force, "force transducer", interview)?;
+    let sensor = device(
+        &listed,
+        DriverKind::Sensor,
+        "camera of the sensor",
+        interview,
+    )?;
+    interview.say("limits protect the gel: the robot is halted where one is passed");
+    let depth = interview.number("greatest depth, in mm", None, [0.01, 50.0])?;
+    let normal = interview.number("greatest normal force, in N", None, [0.01, 1000.0])?;
+    let speed = interview.number("greatest speed, in mm/s", Some("20"), [0.1, 500.0])?;
+    let text = format!(
+        "# The devices of one place. taceva is no safety function: emergency stop and guards must hold without it (docs/rig.md).
+rig_version = 1
+
+[robot]
+driver = {robot:?}
+carries = {carries:?}
+origin_mm = [0.0, 0.0, 0.0]      # `taceva rig teach` writes this: the tip at the middle of the untouched gel, in the base frame
+axes = [\"x\", \"y\", \"z\"]           # and this: which axis of the base the sensor's x, y and z are
+
+[force]
+driver = {force:?}
+axes = [\"x\", \"y\", \"z\"]           # which axis of the transducer each is; Fz above 0 presses into the gel
+
+[sensor]
+driver = {sensor:?}
+
+[limits]
+Pz_max_mm = {depth:?}
+Fz_max_N = {normal:?}
+speed_max_mm_s = {speed:?}
+"
+    );
+    RigFile::parse(&path.display().to_string(), &text)?;
+    let rig = quoted(&path);
+    finish(
+        &path,
+        &text,
+        &[
+            format!("taceva rig teach {rig}     jog the robot to three places: origin and axes"),
+            format!(
+                "taceva rig check {rig}     raise the tip by a centimetre before: rates, gaps, noise, one halt"
+            ),
+            format!("taceva init scene; taceva plan scene.toml --rig {rig}"),
+        ],
+    )
+}
+
+/// The selector of a device: its driver and the arguments that it needs.
+fn device(
+    listed: &Devices,
+    kind: DriverKind,
+    what: &str,
+    interview: &mut Interview,
+) -> anyhow::Result<String> {
+    let of_kind: Vec<&ListedDriver> = listed
+        .drivers
+        .iter()
+        .filter(|driver| driver.kind == kind && driver.source == DriverSource::Real)
+        .collect();
+    let keys: Vec<&str> = of_kind.iter().map(|driver| driver.key.as_str()).collect();
+    let is_of_kind =
+        |selector: &str| keys.contains(&selector.split(':').next().unwrap_or(selector));
+    let present: Vec<&str> = listed
+        .found
+        .iter()
+        .map(|found| found.selector.as_str())
+        .filter(|selector| is_of_kind(selector))
+        .collect();
+    for driver in &of_kind {
+        interview.say(&format!("  {:<18} {}", driver.key, driver.title));
+    }
+    for selector in &present {
+        interview.say(&format!("  present: {selector}"));
+    }
+    let check = |answer: &str| match is_of_kind(answer) {
+        true => Ok(()),
+        false => Err(format!("expected one of {}", keys.join(", "))),
+    };
+    let answer = interview.ask(
+        &format!("driver of the {what}"),
+        present.first().copied(),
+        check,
+    )?;
+    if answer.contains(':') {
+        return Ok(answer);
+    }
+    let driver = of_kind.into_iter().find(|driver| driver.key == answer);
+    let driver = driver.ok_or_else(|| Usage::error(format!("{answer} is no {what}")))?;
+    let mut arguments = Vec::new();
+    for argument in driver.arguments.iter().filter(|argument| argument.required) {
+        let question = format!("{}: {} ({})", argument.key, argument.help, argument.takes);
+        let is_one_word = |answer: &str| match answer.contains([';', '"', '\n']) {
+            true => Err("without ; or quotation marks".to_owned()),
+            false => Ok(()),
+        };
+        let value = interview.ask(&question, None, is_one_word)?;
+        arguments.push(format!("{}={value}", argument.key));
+    }
+    Ok(match arguments.is_empty() {
+        true => answer,
+        false => format!("{answer}:{}", arguments.join(";")),
+    })
+}

@@ -1,0 +1,86 @@
+//! A scene of the simulated bench.
+
+use std::path::Path;
+
+use taceva_acquire::{Overrides, PlannedScene, SceneText};
+use taceva_core::{DriverKind, DriverSource};
+use taceva_dataset::internal::quoted;
+use taceva_drivers::{ListedDriver, devices};
+
+use super::{Context, Interview, finish, target};
+use crate::args::InitTarget;
+
+/// The devices of the simulated bench beside its sensors.
+const BENCH: &str =
+    "[robot]\ndriver = \"sim/robot\"\n\n[force]\ndriver = \"sim/force-transducer\"\n";
+
+pub(super) fn write(
+    args: &InitTarget,
+    interview: &mut Interview,
+    context: &Context,
+) -> anyhow::Result<u8> {
+    let path = target(args, "scene.toml")?;
+    let drivers = context.drivers(None)?;
+    let listed = devices(&drivers);
+    let is_simulated_sensor = |driver: &&ListedDriver| {
+        driver.kind == DriverKind::Sensor && driver.source == DriverSource::Simulated
+    };
+    let sensors: Vec<String> = listed
+        .drivers
+        .iter()
+        .filter(is_simulated_sensor)
+        .map(|driver| driver.key.clone())
+        .collect();
+    let name = interview.ask("name of the study", Some("my study"), |_| Ok(()))?;
+    let known = sensors.join(", ");
+    let is_known = |answer: &str| {
+        let mut words = answer.split(',').map(str::trim);
+        match words.find(|word| !sensors.iter().any(|sensor| sensor == word)) {
+            None => Ok(()),
+            Some(other) => Err(format!(
+                "`{other}` is no simulated sensor, expected some of {known}"
+            )),
+        }
+    };
+    let question = format!("sensors, separated by commas ({known})");
+    let chosen = interview.ask(&question, sensors.first().map(String::as_str), is_known)?;
+    let points = interview.count("contact points", "200", [4, 100_000])?;
+    let presses = interview.count("presses at each, to different depths", "4", [1, 1000])?;
+    let models = ["ridge", "fast", "default", "best", "auto"];
+    let model = interview.choose("model", &models, Some("fast"))?;
+    let wanted = interview.choose("metrics", &["all", "accuracy"], Some("accuracy"))?;
+    let seed = interview.count("seed of all random numbers", "7", [0, u32::MAX])?;
+    let mut text = format!(
+        "# A study on the simulated bench: nothing of it is measured. `taceva plan` says what it would do.\nscene_version = 1\nname = {name:?}\nseed = {seed}\n\n"
+    );
+    let sensors: Vec<&str> = chosen.split(',').map(str::trim).collect();
+    if let [sensor] = sensors.as_slice() {
+        text += &format!("[sensor]\ndriver = {sensor:?}\n\n");
+    }
+    text += &format!(
+        "{BENCH}\n[model]\nname = {model:?}                  # ridge, fast, default, best, auto …: taceva fit --help\n\n[metrics]\nwant = [{wanted:?}]\n\n[protocol.calibration]\npoints = {points}\nindentations = {presses}\n"
+    );
+    if sensors.len() > 1 {
+        for sensor in sensors {
+            let short = sensor.rsplit('/').next().unwrap_or(sensor);
+            text +=
+                &format!("\n[[study]]\nname = {short:?}\n[study.sensor]\ndriver = {sensor:?}\n");
+        }
+    }
+    // Whatever `run` would refuse is refused here.
+    let scene = SceneText {
+        name: path.display().to_string(),
+        text: text.clone(),
+        folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+    };
+    PlannedScene::with(scene, &drivers, &Overrides::default())?;
+    let path_word = quoted(&path);
+    finish(
+        &path,
+        &text,
+        &[
+            format!("taceva plan {path_word}"),
+            format!("taceva run {path_word}"),
+        ],
+    )
+}

@@ -1,0 +1,135 @@
+//! Files that people write, begun by questions.
+
+use std::fs;
+
+use crate::support::Bench;
+
+fn read(bench: &Bench, name: &str) -> String {
+    fs::read_to_string(bench.path(name)).expect(name)
+}
+
+/// A lab's folder whose table says neither unit nor sensor.
+fn lab() -> Bench {
+    let bench = Bench::new();
+    bench.lab();
+    let labels = read(&bench, "lab/labels.csv");
+    let labels = labels.replace("place_mm", "Px").replace("force_N", "Fz");
+    bench.write("lab/labels.csv", &labels);
+    bench
+}
+
+#[test]
+fn a_recording_gets_a_map_by_questions_that_imports_and_evaluates() {
+    let bench = lab();
+    // A unit that is none is asked for again.
+    let ran = bench.answered(
+        "init recording lab --out lab.toml",
+        "mm\nnewton\nN\nmy gel\n",
+    );
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    assert!(ran.err.contains("unknown unit `newton`"), "{}", ran.err);
+    let map = read(&bench, "lab.toml");
+    assert!(
+        !map.lines()
+            .any(|line| !line.starts_with('#') && line.contains("\"?\"")),
+        "{map}"
+    );
+    for line in ran
+        .out
+        .lines()
+        .filter(|line| line.starts_with("  taceva import"))
+    {
+        let imported = bench.shell(line.trim());
+        assert_eq!(imported.code, 0, "{line}: {}", imported.err);
+    }
+    let evaluated = bench.json("evaluate my-dataset --set epochs=2");
+    let model = evaluated["provenance"]["model"].to_string();
+    assert!(model.contains("cnn"), "{model}");
+}
+
+#[test]
+fn a_recording_without_answers_keeps_its_open_places_with_yes() {
+    let bench = lab();
+    let said = bench.ok("init recording lab --yes");
+    assert!(said.contains("fill in the 3 places"), "{said}");
+    assert!(read(&bench, "map.toml").contains("unit = \"?\""));
+    bench.refused(
+        "init recording lab --yes",
+        3,
+        "map.toml exists already; --force replaces it",
+    );
+}
+
+#[test]
+fn answers_that_end_are_refused_with_the_question() {
+    let bench = lab();
+    let ran = bench.answered("init recording lab", "mm\n");
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert!(
+        ran.err
+            .contains("standard input ended before an answer to: unit of Fz"),
+        "{}",
+        ran.err
+    );
+    assert!(!bench.path("map.toml").exists());
+}
+
+#[test]
+fn a_scene_of_defaults_is_planned_and_of_two_sensors_has_a_study_each() {
+    let bench = Bench::new();
+    bench.ok("init scene --yes --out one.toml");
+    assert!(
+        bench.ok("plan one.toml").contains("800"),
+        "200 points, 4 presses each"
+    );
+    let answers = "two gels\nsim/gelsight, sim/gelsight-wm\n20\n2\nridge\nall\n1\n";
+    let ran = bench.answered("init scene --out two.toml", answers);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert_eq!(read(&bench, "two.toml").matches("[[study]]").count(), 2);
+    bench.ok("plan two.toml");
+    let wrong = bench.answered("init scene --out three.toml", "x\nsim/none\n");
+    assert!(
+        wrong.err.contains("`sim/none` is no simulated sensor"),
+        "{}",
+        wrong.err
+    );
+}
+
+#[test]
+fn a_rig_asks_for_devices_their_addresses_and_limits() {
+    let bench = Bench::new();
+    let answers = "ufactory/xarm\n192.168.1.200\nindenter\nati/netft\n192.168.1.1\ncamera/v4l2\n/dev/video0\n-1\n1.5\n2\n\n";
+    let ran = bench.answered("init rig --out lab.toml", answers);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    let rig = read(&bench, "lab.toml");
+    for line in [
+        "driver = \"ufactory/xarm:host=192.168.1.200\"",
+        "driver = \"ati/netft:host=192.168.1.1\"",
+        "driver = \"camera/v4l2:device=/dev/video0\"",
+        "Pz_max_mm = 1.5",
+        "speed_max_mm_s = 20.0",
+    ] {
+        assert!(rig.contains(line), "no `{line}` in\n{rig}");
+    }
+    assert!(
+        ran.err.contains("expected a number from 0.01 to 50"),
+        "{}",
+        ran.err
+    );
+    bench.ok("init scene --yes --out scene.toml");
+    let planned = bench.run("plan scene.toml --rig lab.toml");
+    assert!(!planned.err.contains("lab.toml, line"), "{}", planned.err);
+    bench.refused(
+        "init rig --yes --out other.toml",
+        2,
+        "no default for: driver of the robot",
+    );
+}
+
+#[test]
+fn without_a_subject_it_asks_which() {
+    let bench = Bench::new();
+    let ran = bench.answered("init", "scene\n\n\n\n\n\n\n\n");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(bench.path("scene.toml").exists());
+}
