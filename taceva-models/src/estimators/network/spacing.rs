@@ -36,7 +36,7 @@ impl NetworkEstimator {
     /// # Shapes
     /// `spacings`: `[samples]`.
     /// # Errors
-    /// [`ModelError`] if there are no pictures or not as many as spacings, or as [`Estimator::fit`](taceva_core::Estimator::fit).
+    /// [`ModelError`] without pictures or for another number of spacings; otherwise as [`Estimator::fit`](taceva_core::Estimator::fit).
     pub fn fit_spacings(
         &self,
         pictures: &Features,
