@@ -30,7 +30,7 @@ use super::statistics::Statistics;
 /// let spec = FeatureSpec::from_settings(&settings)?;
 /// let extractor = Extractor::new(spec, info, Some((&even([80, 80, 80])?).into()))?;
 /// let features = extractor.extract_all([&even([90, 80, 80])?])?;
-/// // It leans towards that lamp by two thirds of that, and across by nothing; its mean is that of its luma, without any spread.
+/// // The slope towards the lamp is two thirds of the change, across it 0. The mean is that of luma, without spread.
 /// let expected = [0.125 * 2.0 / 3.0, 0.0, 0.125 / 3.0, (80.0 + 0.299 * 10.0) / 255.0, 0.0];
 /// for (found, expected) in features.values().iter().zip(expected) {
 ///     assert!((found - expected).abs() < 1e-4, "{found} for {expected}");
@@ -111,8 +111,8 @@ impl Extractor {
     /// Signals: their own unit. Pixels, statistics and their differences: full scale is 1. Displacements of markers: marker spacings.
     /// Slopes: a unit that depends on the elevation of the lamps.
     /// # Errors
-    /// [`FeatureError::Kind`] if the frame is of another size or format, [`FeatureError::Input`] if it is none, or signals are of another
-    /// grid; [`FeatureError::Buffer`] if `into` has another length.
+    /// [`FeatureError::Kind`] for a frame of another size or format, [`FeatureError::Input`] for the wrong kind of input or signals of
+    /// another grid; [`FeatureError::Buffer`] if the length of `into` is wrong.
     pub fn extract<'a>(
         &self,
         input: impl Into<Input<'a>>,

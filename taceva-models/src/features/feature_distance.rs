@@ -32,7 +32,7 @@ const ROUNDING: f64 = 1e-5;
 /// use taceva_core::{FeatureShape, Features, SilentProgress};
 /// use taceva_models::FeatureDistance;
 ///
-/// // Two numbers that rise together, and a third that never changes.
+/// // Two features that rise together, and a constant one.
 /// let rows = (0..60).flat_map(|row| { let at = (row % 10) as f32; [at, 2.0 * at, 5.0] });
 /// let training = Features::new(FeatureShape::flat(3), rows.collect())?;
 /// let distance = FeatureDistance::fit(&training, None, &SilentProgress)?.expect("enough samples");
@@ -58,9 +58,9 @@ pub struct FeatureDistance {
 /// Limits of the two numbers behind a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DistanceLimits {
-    /// Along the directions, in standard deviations of the part.
+    /// Limit along the directions, in standard deviations of the part.
     pub(crate) along: f64,
-    /// Beside them, in units of the features.
+    /// Limit beside the directions, in units of the features.
     pub(crate) beside: f64,
 }
 

@@ -15,7 +15,7 @@ const SPACING_MIN_PX: f64 = 5.0;
 const FINER: f64 = 0.8;
 /// Neighbours that determine the local spacing of a marker.
 const NEIGHBOURS: usize = 6;
-/// Spots that make a grid at least: of fewer any arrangement is taken.
+/// Fewest spots that must form a grid. Fewer spots may have any arrangement.
 const GRID_MIN: usize = 9;
 /// Largest median of the relative excess distance of the third nearest spot over the nearest in a grid. It is 0 in square and
 /// hexagonal grids, and about 0.5 for random spots.

@@ -16,8 +16,8 @@ const NEIGHBOURS: usize = 8;
 const SEEDS: usize = 4;
 /// Largest displacement of a seed, in spacings.
 const SEED_REACH: f64 = 1.6;
-/// What a displacement of one spacing counts against a marker that is not seen: a regular grid looks the same when it is moved by a whole
-/// spacing but for its rim, and where even that is hidden, less movement is likelier.
+/// Cost of a displacement of one spacing, relative to an unseen marker. A regular grid moved by one spacing differs only at
+/// its rim. Where even the rim is hidden, less movement is likelier.
 const MOVEMENT: f64 = 0.02;
 /// Share of unseen markers up to which the first match is accepted.
 const ENOUGH: f64 = 0.03;
