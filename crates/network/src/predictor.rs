@@ -193,8 +193,8 @@ fn pass_all(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Option<
     seen
 }
 
-/// Passes a few pictures at a time through all `stages`, so that the activations of early stages, large pictures with few weights,
-/// stay in a cache.
+/// Passes a few pictures at a time through all `stages`. Activations of early stages, large pictures with few weights, then stay in
+/// a cache.
 fn pass_few_at_a_time(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Planes {
     let layout = stages.last().map_or(pass.input.layout(), Folded::output);
     let few = (PICTURES_IN_CACHE / (layout.len() * size_of::<f32>())).max(1);

@@ -35,8 +35,8 @@ use crate::training::problem::Problem;
 ///
 /// Otherwise the other models continue to the next fold. Models drop out if the best is ahead by three standard errors of the
 /// difference, by group. They also drop out if another model is as good with a tenth of their work. The remaining model of least
-/// error is taken, or the baseline unless that model is better by more than two standard errors. The network is taken instead if on
-/// the first fold it is better by more than two standard errors and a twentieth of the squared error.
+/// error is taken, or the baseline unless that model is better by more than two standard errors. The network replaces it if it is
+/// better on the first fold, by more than two standard errors and a twentieth of the squared error.
 ///
 /// The budget counts work, not time: seconds of a core with 10⁹ multiplications per second. A model is tried if its trial and final
 /// fit fit into the remaining budget. Work depends on the numbers of samples, features and channels. The same recording therefore

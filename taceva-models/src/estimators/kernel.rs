@@ -1,6 +1,6 @@
 //! Kernel models: compare a sample with landmarks among the training samples by exp(−‖x − x'‖² / 2ℓ²D).
 //!
-//! D is the summed variance of the features over the training part, so that a length ℓ means the same for bright and dark pictures,
+//! D is the summed variance of the features over the training part. A length ℓ therefore means the same for bright and dark pictures,
 //! many features and few. Nyström's form on landmarks replaces a kernel of all training samples. Every linear method here can learn
 //! from its features: ridge regression on them is kernel ridge regression.
 

@@ -20,7 +20,7 @@ use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 
 /// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² for each channel, with an unpenalised intercept b.
 ///
-/// λ is the strength × the mean eigenvalue of the centred Gram matrix, so that a strength means the same for bright and dark pictures,
+/// λ is the strength × the mean eigenvalue of the centred Gram matrix. A strength therefore means the same for bright and dark pictures,
 /// many and few. Each channel gets one of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴: the strength of least squared error on the validation
 /// part. Without one, groups of the training part are left out in turn, or single samples. Leaving out is exact, by blocks of the
 /// hat matrix, and needs no refit. A strength of 0 is least squares, refined to the last digits; it needs more samples than features.

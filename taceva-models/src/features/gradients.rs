@@ -20,10 +20,10 @@ const ACROSS: f32 = 0.577_350_27;
 /// Slopes of each cell towards 0° and 90°, and the change of light that slopes do not explain.
 ///
 /// # The light
-/// Three lamps shine at a low angle on a matt surface: red at 0°, green at 120° and blue at 240°. On a surface with the small slope
-/// `g` (∂z/∂x, ∂z/∂y), lamp `c` with direction `d_c` and elevation `e` changes the light by the factor `1 - cot(e) g·d_c` (Lambert's law
-/// to first order). Let `r_c = (frame - reference) / reference` for colour `c`, and `s` a change common to all three. Then
-/// `r_c = p·d_c + s` has one solution, which is computed for each pixel and averaged over the cell:
+/// Three lamps shine at a low angle on a matt surface: red at 0°, green at 120° and blue at 240°. Let `g` be the small slope of the
+/// surface, (∂z/∂x, ∂z/∂y). Lamp `c` with direction `d_c` and elevation `e` changes the light by the factor `1 - cot(e) g·d_c`
+/// (Lambert's law to first order). Let `r_c = (frame - reference) / reference` for colour `c`, and `s` a change common to all three.
+/// Then `r_c = p·d_c + s` has one solution, which is computed for each pixel and averaged over the cell:
 ///
 /// `p_x = 2/3 (r_red - (r_green + r_blue) / 2)`, `p_y = (r_green - r_blue) / √3`, `s = (r_red + r_green + r_blue) / 3`.
 ///

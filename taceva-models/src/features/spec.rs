@@ -190,7 +190,7 @@ impl FeatureSpec {
         }
     }
 
-    /// Features of signals of `info`: one cell per taxel, whatever the grid was.
+    /// Features of signals of `info`: one cell per taxel. Ignores the requested grid.
     #[must_use]
     pub fn of_signals(self, info: SignalInfo) -> FeatureSpec {
         FeatureSpec {

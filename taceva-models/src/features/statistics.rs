@@ -14,8 +14,8 @@ const QUANTILES: [usize; 5] = [5, 25, 50, 75, 95];
 /// Values per cell and colour: mean, standard deviation and quantiles.
 const NUMBERS: usize = 2 + QUANTILES.len();
 
-/// Statistics of each colour of each cell: mean, standard deviation (divided by n), and the quantiles of 5, 25, 50, 75 and 95 % by nearest
-/// rank: the least pixel value that at least so many hundredths of the pixels do not exceed.
+/// Statistics of each colour of each cell: mean, standard deviation (divided by n), and the quantiles of 5, 25, 50, 75 and 95 %. A
+/// quantile of q % is the nearest rank: the least pixel value that at least q % of the pixels do not exceed.
 ///
 /// A pixel belongs to one cell, which has columns `floor(i W / width) .. floor((i + 1) W / width)`, and rows alike. Sums are integers, so
 /// every statistic depends only on the values of the cell's pixels, not on their order. The statistics describe the distribution of

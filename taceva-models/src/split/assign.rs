@@ -161,7 +161,7 @@ fn sections<'a>(input: &'a SplitInput<'a>) -> impl Iterator<Item = (Range<usize>
     })
 }
 
-/// Assigns whole clusters at random. All clusters have equal weight, whatever their number of rows. With one row per cluster, this is
+/// Assigns whole clusters at random. All clusters have equal weight, regardless of their rows. With one row per cluster, this is
 /// the random split. Clusters are numbered by their first row, so a seed assigns rows, not names.
 ///
 /// A cluster keeps the part of its first section. Random draws restart with each recording, which is therefore split as if alone.

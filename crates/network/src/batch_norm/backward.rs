@@ -1,4 +1,4 @@
-//! The gradients of batch normalisation and of the ReLU behind it.
+//! Gradients of batch normalisation followed by ReLU.
 
 use rayon::prelude::*;
 

@@ -208,7 +208,7 @@ mod tests {
         }
     }
 
-    /// The race of these models, of which those that come last are looks at the network.
+    /// Race after the first fold, with entrants and the looks at the network.
     fn race_of(entrants: Vec<Entrant>, network: Vec<Entrant>, then: impl FnOnce(&mut Race<'_>)) {
         let samples = 8_u8;
         let shape = taceva_core::FeatureShape::flat(1);

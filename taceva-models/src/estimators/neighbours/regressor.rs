@@ -221,7 +221,7 @@ mod tests {
         let rows = [0.0, 1.0, 3.0, -3.0, 1.0];
         let labels = [10.0, 2.0, 8.0, 6.0, 4.0];
         let label = |sample: usize| labels[sample];
-        // 1.0 stands there twice.
+        // 1.0 occurs twice.
         let near = nearest(&[1.0], &rows, 3);
         assert!((weighted(&near, 3, label) - 3.0).abs() < 1e-15);
         // From 0.5: 0.0, 1.0 and 1.0 are all 0.5 away.

@@ -222,7 +222,7 @@ mod tests {
         assert_eq!(of(&["appearance=light"], 64, 1), light);
         assert_eq!(of(&["appearance=auto"], 64, 3), light);
         assert_eq!(of(&["appearance=auto"], 64, 1), (3.0, true, 2, 0.1));
-        // Where nobody asks, colours change nothing.
+        // Without the setting, colours change nothing.
         assert_eq!(of(&[], 64, 3), of(&[], 64, 1));
     }
 
