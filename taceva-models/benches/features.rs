@@ -1,4 +1,4 @@
-//! How long a frame takes to become features.
+//! Time of extracting features from a frame.
 
 use divan::Bencher;
 use taceva_core::{Frame, FrameInfo, PixelFormat};

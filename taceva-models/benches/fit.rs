@@ -1,4 +1,4 @@
-//! How long fitting and predicting take, by samples × features; six channels.
+//! Time of fitting and predicting six channels, by samples × features.
 
 use divan::Bencher;
 use taceva_core::{

@@ -10,13 +10,13 @@ use taceva_core::{
 
 use crate::training::fit::{ModelEstimator, ModelFit};
 
-/// A matrix of features, a sample a row, as models take it. An owned matrix of `f32` in standard layout is taken over without a copy; a view, or
-/// another layout, is copied once.
+/// Converts a matrix of features, one sample per row, to [`Features`]. An owned `f32` matrix in standard layout is moved without a
+/// copy. A view or another layout is copied once.
 ///
 /// # Shapes
-/// `matrix`: samples × features; each sample is a flat list.
+/// `matrix`: samples × features. Each sample becomes a flat list.
 /// # Errors
-/// [`ModelError`] if there are samples, but no features.
+/// [`ModelError`] if there are samples but no features.
 ///
 /// ```
 /// use ndarray::array;
@@ -47,15 +47,15 @@ pub fn features_of<'a>(matrix: impl Into<CowArray<'a, f32, Ix2>>) -> Result<Feat
 
 /// Fitting on arrays, for every estimator.
 pub trait EstimatorArrays {
-    /// Learns to predict `targets` from `features`; both have a row a sample. Settings that are left open are chosen on the training samples.
+    /// Fits a model that predicts `targets` from `features`, one sample per row. Open settings are chosen on the training samples.
     ///
     /// # Shapes
-    /// `features`: samples × features, copied once; `targets`: samples × channels, in the order of `channels`, copied only if it is not in
+    /// `features`: samples × features, copied once; `targets`: samples × channels, in the order of `channels`, copied only if not in
     /// standard layout.
     /// # Units
-    /// Targets are in the unit of their channel: mm for positions, N for forces.
+    /// Targets have the unit of their channel: mm for positions, N for forces.
     /// # Errors
-    /// [`ModelError`] if the shapes do not fit each other, nothing can be learnt from them, or `progress` was cancelled.
+    /// [`ModelError`] if shapes do not match, the data cannot be learnt from, or `progress` was cancelled.
     ///
     /// ```
     /// use ndarray::Array2;
@@ -108,14 +108,14 @@ impl<E: ModelEstimator + ?Sized> EstimatorArrays for E {
 
 /// Prediction of arrays, for every fitted model.
 pub trait RegressorArrays {
-    /// Predicts every sample of `features`.
+    /// Predicts all samples of `features`.
     ///
     /// # Shapes
-    /// `features`: samples × features, copied once; the result: samples × channels, in the order of the model's channels.
+    /// `features`: samples × features, copied once; returns samples × channels, in the order of the model's channels.
     /// # Units
-    /// Those of the channels: mm for positions, N for forces.
+    /// Units of the channels: mm for positions, N for forces.
     /// # Errors
-    /// [`ModelError`] if the samples are of another length than those that the model was fitted on, or a prediction is not finite.
+    /// [`ModelError`] if the number of features differs from the fitted model, or a prediction is not finite.
     ///
     /// ```
     /// use ndarray::{Array2, array};

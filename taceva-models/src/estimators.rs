@@ -1,4 +1,4 @@
-//! The models that are fitted, a file or folder each.
+//! Fitted models, one file or folder each.
 
 pub(crate) mod auto;
 pub(crate) mod baseline;

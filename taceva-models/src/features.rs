@@ -1,4 +1,4 @@
-//! From frames and signals to features.
+//! Extraction of features from frames and signals.
 
 mod area;
 mod cell_features;

@@ -1,4 +1,4 @@
-//! Model files: what is written, what is read back, and how a file gets to its place.
+//! Model files: writing, reading and atomic replacement.
 
 mod bytes;
 mod disk;

@@ -1,4 +1,4 @@
-//! A fitted model with all that is needed to use it and to know where it comes from.
+//! Fitted models with their provenance.
 
 mod angles;
 mod bounds;
@@ -22,26 +22,26 @@ use crate::linalg::invalid;
 use crate::training::card::{AngleCard, ChannelCard, DistanceCard, ModelCard, ValidationCard};
 use crate::training::regressor::ModelRegressor;
 
-/// A fitted model: from pixels, or from signals, to the channels, in their units.
+/// Fitted model from pixels or signals to channels, in their units.
 ///
-/// Where every step after the extraction is linear, scaling, principal components and weights are kept as one set of weights;
-/// a network keeps what it does to pictures beside its own.
+/// If every step after the extraction is linear, scaling, principal components and weights are stored as one set of weights.
+/// A network stores its preprocessing with its weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub(crate) card: ModelCard,
     pub(crate) regressor: ModelRegressor,
     pub(crate) channels: LearntChannels,
-    /// The distance of features from those of the training part.
+    /// Distance of features from the training part.
     pub(crate) distance: Option<FeatureDistance>,
 }
 
 impl Model {
-    /// Fits `input.estimator`, and the principal components before it, if any are asked for.
+    /// Fits `input.estimator`, after principal components if requested.
     ///
-    /// Of an angle with a period sine and cosine are learnt; predictions are angles again.
+    /// For an angle with a period, the estimator learns sine and cosine. Predictions are angles again.
     ///
     /// # Errors
-    /// [`ModelError`] if the parts do not fit each other, nothing can be learnt from them, or `progress` was cancelled.
+    /// [`ModelError`] if the parts do not match, the data cannot be learnt from, or `progress` was cancelled.
     pub fn fit(input: FitInput<'_>, progress: &dyn Progress) -> Result<Model, ModelError> {
         let targets = input.training.targets;
         let asked = targets.channels;
@@ -61,7 +61,7 @@ impl Model {
         let held = input
             .validation
             .map(|set| channels.labels(set.targets.values));
-        // Of a shorter life, as the labels are.
+        // Shortens the lifetime to that of the labels.
         let mut input = input;
         input.training.targets = Targets::new(&channels.learnt, &values);
         if let Some((set, held)) = input.validation.as_mut().zip(held.as_ref()) {
@@ -70,7 +70,7 @@ impl Model {
         Model::fit_learnt(input, angles, asked, progress)
     }
 
-    /// Fits the channels of `input`, of which the asked ones follow.
+    /// Fits the learnt channels of `input`. `asked` are the channels of predictions.
     fn fit_learnt(
         input: FitInput<'_>,
         angles: Vec<AngleCard>,
@@ -146,31 +146,31 @@ impl Model {
         })
     }
 
-    /// What it is and where it comes from.
+    /// Description and provenance.
     pub fn card(&self) -> &ModelCard {
         &self.card
     }
 
-    /// This model, with a card that says how its features were chosen.
+    /// Records the choice of features in the card.
     #[must_use]
     pub fn with_features_chosen(mut self, how: FeatureChoice) -> Model {
         self.card.feature_choice = Some(how);
         self
     }
 
-    /// This model, with a card that says how models fitted alike were validated.
+    /// Records the validation of equally fitted models in the card.
     #[must_use]
     pub fn with_validation(mut self, validation: ValidationCard) -> Model {
         self.card.provenance.validation = Some(validation);
         self
     }
 
-    /// What it predicts.
+    /// Predicted channels.
     pub fn channels(&self) -> &Channels {
         &self.channels.asked
     }
 
-    /// The best constant answer of each channel: the mean label of the training part, of an angle with a period the mean direction.
+    /// Best constant prediction of each channel: the mean training label, or the mean direction of an angle with a period.
     pub fn constants(&self) -> impl Iterator<Item = (&str, f64)> {
         let learnt = self.card.channels.iter();
         let means = learnt.map(|channel| (channel.name.as_str(), channel.mean));
@@ -179,25 +179,25 @@ impl Model {
         means.chain(angles.map(|angle| (angle.name.as_str(), angle.mean)))
     }
 
-    /// What predicts the learnt channels from the features of pixels, or from signals that are divided by their spread.
+    /// Regressor from features of pixels, or from signals divided by their spread, to the learnt channels.
     pub fn regressor(&self) -> &ModelRegressor {
         &self.regressor
     }
 
-    /// Whether its predictions depend on what is seen; if not, no frame need be decoded, and no signals read, for it.
+    /// True if predictions depend on features. Otherwise no frame must be decoded and no signals read.
     pub fn reads_features(&self) -> bool {
         self.regressor.reads_features()
     }
 
-    /// Whether it looks at frames: not a model whose predictions depend on nothing that is seen, or on signals.
+    /// True if predictions depend on frames.
     pub fn reads_frames(&self) -> bool {
         self.reads_features() && matches!(self.card.input, InputInfo::Frame(_))
     }
 
-    /// Takes the features that this model was fitted on from frames, or signals, of `info`.
+    /// Builds the extractor of this model's features for frames or signals of `info`.
     ///
     /// # Errors
-    /// [`FeatureError`] if the model was fitted on frames of another kind or signals of another grid, or needs a `reference` and gets none.
+    /// [`FeatureError`] for frames of another kind or signals of another grid than the model's, or without a needed `reference`.
     pub fn extractor(
         &self,
         info: impl Into<InputInfo>,
@@ -212,28 +212,28 @@ impl Model {
         }
     }
 
-    /// The prediction for every sample of `features`, within the [bounds](Model::label_bounds) of its channel.
+    /// Predicts every sample of `features`, within the [bounds](Model::label_bounds) of each channel.
     ///
     /// # Shapes
     /// `[samples, channels]`.
     /// # Units
-    /// Those of the channels.
+    /// Units of the channels.
     /// # Errors
-    /// [`ModelError`] if the features are of another shape, or a prediction is not finite.
+    /// [`ModelError`] if the shape of the features differs, or a prediction is not finite.
     pub fn predict(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let mut predictions = self.predict_unbounded(features)?;
         self.label_bounds().bound(&mut predictions);
         Ok(predictions)
     }
 
-    /// The prediction for every sample of `features` as the model gives it, however far from the labels of the training part.
+    /// Predicts every sample of `features` without bounds.
     ///
     /// # Shapes
     /// `[samples, channels]`.
     /// # Units
-    /// Those of the channels.
+    /// Units of the channels.
     /// # Errors
-    /// As [`predict`](Model::predict).
+    /// Errors of [`predict`](Model::predict).
     pub fn predict_unbounded(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let even = self.even(features)?;
         let learnt = self.learnt(even.as_ref().unwrap_or(features))?;
@@ -243,24 +243,24 @@ impl Model {
         })
     }
 
-    /// The prediction of the learnt channels.
+    /// Predicts the learnt channels.
     fn learnt(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let mut predictions = vec![0.0; features.samples() * self.channels.learnt.len()];
         self.regressor.predict(features, &mut predictions)?;
         Ok(predictions)
     }
 
-    /// The distance of samples from the training part, and its limit.
+    /// Distance of samples from the training part, with its limit.
     ///
-    /// `None` of a model that looks at nothing, was fitted on fewer than 20 samples, or is of before models said so.
+    /// `None` for a model that uses no features, was fitted on fewer than 20 samples, or comes from an older file.
     pub fn feature_distance(&self) -> Option<&FeatureDistance> {
         self.distance.as_ref()
     }
 
-    /// The [distance](FeatureDistance) of every sample of `features`, 1 at the limit, where the model knows it.
+    /// [Distance](FeatureDistance) of every sample of `features`, 1 at the limit. `None` if the model has no distance.
     ///
     /// # Errors
-    /// [`ModelError`] if the features are of another shape.
+    /// [`ModelError`] if the shape of the features differs.
     pub fn distances(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
         let Some(distance) = &self.distance else {
             return Ok(None);
@@ -269,14 +269,14 @@ impl Model {
         distance.of_all(even.as_ref().unwrap_or(features)).map(Some)
     }
 
-    /// The standard deviation of every prediction, before bounds; `None` for a model that does not know it.
+    /// Standard deviation of every prediction, before bounds. `None` if the model does not estimate it.
     ///
     /// # Shapes
     /// `[samples, channels]`.
     /// # Units
-    /// Those of the channels.
+    /// Units of the channels.
     /// # Errors
-    /// [`ModelError`] if the features are of another shape.
+    /// [`ModelError`] if the shape of the features differs.
     pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
         let even = self.even(features)?;
         let features = even.as_ref().unwrap_or(features);
@@ -289,7 +289,7 @@ impl Model {
         }))
     }
 
-    /// Signals divided by their spread over the training part; `None` of frames, whose features are as they are.
+    /// Divides signals by their spread over the training part. `None` for frames.
     fn even(&self, features: &Features) -> Result<Option<Features>, ModelError> {
         let Some(spread) = &self.card.spread else {
             return Ok(None);
@@ -304,13 +304,13 @@ impl Model {
     }
 }
 
-/// The same samples, seen as `features` where there are others.
+/// Replaces the features of a training set, if there are others.
 fn with_features<'s>(mut set: TrainingSet<'s>, features: Option<&'s Features>) -> TrainingSet<'s> {
     set.features = features.unwrap_or(set.features);
     set
 }
 
-/// The channels that a card lists as learnt, and those that follow from its angles.
+/// Learnt channels of a card, with the predicted channels derived from its angles.
 pub(crate) fn learnt_channels_of(
     card: &ModelCard,
     learnt: &Channels,
@@ -339,7 +339,7 @@ pub(crate) fn learnt_channels_of(
     }
 }
 
-/// The channels that a card lists.
+/// Channels listed in a card.
 pub(crate) fn channels_of(card: &ModelCard) -> Result<Channels, ModelError> {
     let named = |channel: &ChannelCard| Channel::named(&channel.name, channel.unit);
     let list: Result<Vec<Channel>, _> = card.channels.iter().map(named).collect();

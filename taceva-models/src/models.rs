@@ -1,4 +1,4 @@
-//! The models of a program: those that are built in, those of other libraries, and those that plugins offer.
+//! Models of a program: built-in models, library models and plugin models.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -15,7 +15,7 @@ use crate::settings::{ModelSettings, SettingError};
 use crate::training::fit::ModelEstimator;
 use crate::training::info::ModelInfo;
 
-/// The models that people can choose, by name. It is a value that a program makes and passes on, as its drivers are: nothing of it is global.
+/// Models by name. A program creates this value and passes it on, like its drivers. There is no global state.
 ///
 /// ```
 /// use taceva_models::{Models, ModelSettings};
@@ -31,12 +31,12 @@ pub struct Models {
 }
 
 impl Models {
-    /// The models that are built in.
+    /// Built-in models.
     pub fn builtin() -> Models {
         Models::default()
     }
 
-    /// These models and those that `offered` makes, by their keys. Keys have a `/` and names that are built in have none.
+    /// Adds the plugin models of `offered` under their keys. Keys contain a `/`, built-in names do not.
     #[must_use]
     pub fn with(mut self, offered: impl IntoIterator<Item = Arc<dyn EstimatorFactory>>) -> Models {
         let named = offered.into_iter();
@@ -45,7 +45,7 @@ impl Models {
         self
     }
 
-    /// These models and `libraries`' own: `auto` tries them too, and files of them are read.
+    /// Adds library models. `auto` tries them too, and their files can be read.
     #[must_use]
     pub fn with_libraries(
         mut self,
@@ -55,16 +55,16 @@ impl Models {
         self
     }
 
-    /// Every model that is compiled into the program, the plainest first, those of libraries last.
+    /// All compiled models, the plainest first, library models last.
     pub fn compiled(&self) -> impl Iterator<Item = &'static ModelInfo> + '_ {
         let of_libraries = self.libraries.iter().map(|model| &model.info);
         ALL.iter().chain(of_libraries)
     }
 
-    /// The model called `name`.
+    /// Finds the model `name`.
     ///
     /// # Errors
-    /// [`UnknownModel`] with the nearest name, or with the plugin that it would be of.
+    /// [`UnknownModel`] with the most similar name, or with the missing plugin or feature.
     pub fn find(&self, name: &str) -> Result<ChosenModel, UnknownModel> {
         if let Some(factory) = self.offered(name) {
             return Ok(ChosenModel::Offered(Arc::clone(factory)));
@@ -84,7 +84,7 @@ impl Models {
         })
     }
 
-    /// The model that `name` means, itself or as a [`Preset`], and its settings: those of the preset that `given` does not set, and all of `given`.
+    /// Resolves `name`, a model or a [`Preset`], and its settings. `given` settings override those of the preset.
     ///
     /// ```
     /// use taceva_models::{Models, ModelSettings};
@@ -96,7 +96,7 @@ impl Models {
     /// ```
     ///
     /// # Errors
-    /// As [`find`](Models::find).
+    /// Errors of [`find`](Models::find).
     pub fn asked(
         &self,
         name: &str,
@@ -108,13 +108,13 @@ impl Models {
         }
     }
 
-    /// The model of a library called `name`, where this program has it.
+    /// Finds the library model `name`.
     pub(crate) fn library(&self, name: &str) -> Option<&'static LibraryModel> {
         let mut libraries = self.libraries.iter().copied();
         libraries.find(|model| model.info.name == name)
     }
 
-    /// What makes and loads the models called `key`, where a plugin does.
+    /// Finds the plugin estimator `key`.
     pub(crate) fn offered(&self, key: &str) -> Option<&Arc<dyn EstimatorFactory>> {
         self.offered.get(key)
     }
@@ -128,21 +128,21 @@ impl fmt::Debug for Models {
     }
 }
 
-/// A model that was chosen by its name, not fitted yet.
+/// A model chosen by name, not fitted yet.
 #[derive(Clone)]
 pub enum ChosenModel {
-    /// One that is built in.
+    /// Built-in model.
     BuiltIn(&'static ModelInfo),
-    /// One of another library.
+    /// Library model.
     Library(&'static LibraryModel),
-    /// The one that does best, of those that are built in and these of libraries.
+    /// Automatic choice among built-in models and these library models.
     Auto(Arc<[&'static LibraryModel]>),
-    /// One that a plugin offers.
+    /// Plugin model.
     Offered(Arc<dyn EstimatorFactory>),
 }
 
 impl ChosenModel {
-    /// Its entry in the registry; `None` for one that a plugin offers.
+    /// Registry entry. `None` for a plugin model.
     fn info(&self) -> Option<&'static ModelInfo> {
         match self {
             ChosenModel::BuiltIn(info) => Some(info),
@@ -152,7 +152,7 @@ impl ChosenModel {
         }
     }
 
-    /// The word people type.
+    /// Name on the command line.
     pub fn name(&self) -> &str {
         match self {
             ChosenModel::BuiltIn(info) => info.name,
@@ -162,18 +162,18 @@ impl ChosenModel {
         }
     }
 
-    /// Whether its predictions depend on what is seen; if not, no frame need be decoded for it.
+    /// True if predictions depend on features. Otherwise no frame must be decoded.
     pub fn reads_features(&self) -> bool {
         self.info().is_none_or(|info| info.features.is_some())
     }
 
-    /// What it sees of a frame where nothing else is asked for.
+    /// Default features.
     pub fn features(&self) -> FeatureSpec {
         let own = self.info().and_then(|info| info.features);
         own.unwrap_or_default()
     }
 
-    /// The finer features that it looks at too where nothing else is asked for: those that networks see, of the one that chooses among models.
+    /// Default finer features: those of networks for an automatic choice, otherwise `None`.
     pub fn closer_features(&self) -> Option<FeatureSpec> {
         match self {
             ChosenModel::Auto(_) => Auto::CLOSER,
@@ -181,7 +181,7 @@ impl ChosenModel {
         }
     }
 
-    /// The keys of what can be set.
+    /// Keys of all settings.
     pub fn setting_keys(&self) -> Vec<&str> {
         if let ChosenModel::Offered(factory) = self {
             let settings = factory.settings().iter();
@@ -191,7 +191,7 @@ impl ChosenModel {
         settings.iter().map(|info| info.key).collect()
     }
 
-    /// The model as `settings` ask for, not fitted yet.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -220,7 +220,7 @@ impl From<&'static ModelInfo> for ChosenModel {
     }
 }
 
-/// The name, and the build or the release where that is not the program's: what decides which model it is.
+/// Formats the name, with build or release if it is not that of the program: everything that identifies the model.
 impl fmt::Debug for ChosenModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,4 +1,4 @@
-//! Settings as people type them: `key=value` words, checked against what a consumer knows.
+//! Settings as `key=value` words, checked against known keys.
 
 mod error;
 mod suggestion;
@@ -9,21 +9,21 @@ pub use suggestion::Suggestion;
 use std::collections::BTreeMap;
 use std::str::FromStr;
 
-/// One thing that may be set: its key, what it means and what it accepts, for help texts.
+/// Description of one setting, for help texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SettingInfo {
-    /// The word before `=`.
+    /// Key: the word before `=`.
     pub key: &'static str,
-    /// What the word after `=` may be.
+    /// Accepted values.
     pub accepts: &'static str,
-    /// What holds when it is not set.
+    /// Default.
     pub default: &'static str,
-    /// What it changes.
+    /// Meaning.
     pub about: &'static str,
 }
 
 impl SettingInfo {
-    /// For models that choose settings on the validation part, where there is one.
+    /// Refit on training and validation parts, for models that choose settings on the validation part.
     pub(crate) const REFIT: SettingInfo = SettingInfo {
         key: "refit",
         accepts: "true or false",
@@ -32,14 +32,14 @@ impl SettingInfo {
     };
 }
 
-/// Keys with their values as typed, each key once.
+/// Settings as typed, with unique keys.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ModelSettings {
     values: BTreeMap<String, String>,
 }
 
 impl ModelSettings {
-    /// The settings written as `key=value` words.
+    /// Parses `key=value` words.
     ///
     /// ```
     /// use taceva_models::ModelSettings;
@@ -49,7 +49,7 @@ impl ModelSettings {
     /// ```
     ///
     /// # Errors
-    /// [`SettingError::Form`] without `=`, [`SettingError::Twice`] for a key given twice.
+    /// [`SettingError::Form`] without `=`, [`SettingError::Twice`] for a repeated key.
     pub fn parse<'a>(
         words: impl IntoIterator<Item = &'a str>,
     ) -> Result<ModelSettings, SettingError> {
@@ -65,19 +65,19 @@ impl ModelSettings {
         Ok(ModelSettings { values })
     }
 
-    /// The value of `key` as typed.
+    /// Value of `key` as typed. `None` if it is not set.
     pub fn get(&self, key: &str) -> Option<&str> {
         self.values.get(key).map(String::as_str)
     }
 
-    /// The settings as `key=value` words, by key.
+    /// Settings as `key=value` words, sorted by key.
     pub fn words(&self) -> impl Iterator<Item = String> + '_ {
         self.values
             .iter()
             .map(|(key, value)| format!("{key}={value}"))
     }
 
-    /// These settings, and those of `others` whose keys are not set.
+    /// Adds settings of `others` whose keys are not set.
     pub(crate) fn or(mut self, others: &[(&str, &str)]) -> ModelSettings {
         for (key, value) in others {
             let entry = self.values.entry((*key).to_owned());
@@ -86,12 +86,12 @@ impl ModelSettings {
         self
     }
 
-    /// Keys and values, by key.
+    /// Keys and values, sorted by key.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&String, &String)> {
         self.values.iter()
     }
 
-    /// The settings in two: those with one of the keys of `known`, and the others.
+    /// Splits the settings into those with a key of `known` and the others.
     pub fn partition(self, known: &[SettingInfo]) -> (ModelSettings, ModelSettings) {
         let is_known = |key: &String| known.iter().any(|info| info.key == key);
         let (inside, outside) = self.values.into_iter().partition(|(key, _)| is_known(key));
@@ -101,19 +101,19 @@ impl ModelSettings {
         )
     }
 
-    /// Refuses every key outside `known`.
+    /// Rejects keys outside `known`.
     ///
     /// # Errors
-    /// [`SettingError::Unknown`] with the nearest known key.
+    /// [`SettingError::Unknown`] with the most similar known key.
     pub fn check_keys(&self, known: &[SettingInfo]) -> Result<(), SettingError> {
         let keys: Vec<&str> = known.iter().map(|info| info.key).collect();
         self.check_names(&keys)
     }
 
-    /// Refuses every key outside `known`.
+    /// Rejects keys outside `known`.
     ///
     /// # Errors
-    /// As [`check_keys`](ModelSettings::check_keys).
+    /// Errors of [`check_keys`](ModelSettings::check_keys).
     pub fn check_names(&self, known: &[&str]) -> Result<(), SettingError> {
         match self.values.keys().find(|key| !known.contains(&&key[..])) {
             None => Ok(()),
@@ -124,10 +124,10 @@ impl ModelSettings {
         }
     }
 
-    /// The value of `key` read by `read`, or `default` where it is not set.
+    /// Parses the value of `key` with `read`, or returns `default` if it is not set.
     ///
     /// # Errors
-    /// [`SettingError::Value`] if `read` gives nothing; it names what `info` accepts.
+    /// [`SettingError::Value`] with the accepted values if `read` returns `None`.
     pub fn value<T>(
         &self,
         info: &SettingInfo,
@@ -146,13 +146,13 @@ impl ModelSettings {
 }
 
 impl ModelSettings {
-    /// What [`SettingInfo::REFIT`] is set to.
+    /// Value of [`SettingInfo::REFIT`].
     pub(crate) fn refit(&self) -> Result<bool, SettingError> {
         self.value(&SettingInfo::REFIT, true, |text| text.parse().ok())
     }
 }
 
-/// Reads a number within `range`.
+/// Parses a number within `range`.
 pub(crate) fn number<T: FromStr + PartialOrd>(
     text: &str,
     range: impl std::ops::RangeBounds<T>,

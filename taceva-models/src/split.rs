@@ -1,4 +1,4 @@
-//! Which samples a model learns from, which settings are chosen by, and which it is tested on.
+//! Splits of samples into training, validation and test parts.
 
 mod assign;
 mod error;

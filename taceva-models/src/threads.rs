@@ -1,13 +1,13 @@
-//! Threads that models compute with, also where the system starts few or none.
+//! Threads for models, also on systems that allow few or none.
 
 use std::num::NonZeroUsize;
 use std::sync::mpsc::channel;
 use std::thread;
 
-/// Prepares the threads that models compute with: as many as the system starts, of at most one a core.
+/// Prepares the thread pool of models: at most one thread per core, limited by the system.
 ///
-/// Returns how many of `wanted` threads the system starts beside the calling one; containers may allow few or none. Where there are too few for
-/// each core, models share those, and where there are none the calling thread computes alone. Without this call a model panics there.
+/// Returns how many of `wanted` threads the system can start beside the calling one. Containers may allow few or none. With fewer than
+/// cores, models share these threads; with none, the calling thread computes alone. Without this call, a model panics in that case.
 ///
 /// ```
 /// use std::num::NonZeroUsize;
@@ -23,13 +23,13 @@ pub fn prepare_threads(wanted: NonZeroUsize) -> usize {
             0 => pool.use_current_thread(),
             _ => pool,
         };
-        // One that is there already stays.
+        // Keeps an existing pool.
         let _ = pool.build_global();
     }
     there.min(wanted.get())
 }
 
-/// Number of threads that the system starts beside this one, at most `most`.
+/// Number of threads that the system can start beside this one, at most `most`.
 fn startable(most: usize) -> usize {
     thread::scope(|scope| {
         let started = (0..most).map_while(|_| {
@@ -37,7 +37,7 @@ fn startable(most: usize) -> usize {
             let thread = thread::Builder::new().spawn_scoped(scope, move || waits.recv());
             thread.ok().map(|_| over)
         });
-        // All at once, as work has them.
+        // Starts all at once, as in actual work.
         let started: Vec<_> = started.collect();
         started.len()
     })

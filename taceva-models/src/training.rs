@@ -1,4 +1,4 @@
-//! What every fit has in common: checked samples, scaled labels, settings that are tried, and what comes of it.
+//! Parts shared by all fits: checked samples, scaled labels, trials of settings, and results.
 
 pub(crate) mod card;
 pub(crate) mod checkpoint;

@@ -1,4 +1,4 @@
-//! How `auto` chooses: by evidence that is worth its work, and never by a clock.
+//! Choice by `auto`: from evidence worth its work, never by a clock.
 
 use taceva_core::{Features, SilentProgress};
 use taceva_models::{
@@ -72,7 +72,7 @@ fn card(model: &Model) -> &AutoCard {
     model.card().auto.as_ref().expect("chosen")
 }
 
-/// Why a model was not tried.
+/// Reason for not trying a model.
 fn reason<'m>(model: &'m Model, name: &str) -> &'m str {
     let mut untried = card(model).untried.iter();
     let found = untried.find(|untried| untried.model == name);
@@ -166,7 +166,7 @@ fn models_that_are_clearly_beaten_are_not_tried_again() {
 fn networks_see_finer_features_where_there_are_such_and_others_do_not() {
     let coarse = crate::blobs::recording(240, 6);
     let finer = hidden(240, 1);
-    // Of the coarse features nothing can be learnt, since the labels are those of the finer.
+    // Nothing can be learnt from the coarse features, because the labels are those of the finer ones.
     let coarse = Recording {
         labels: finer.labels.clone(),
         ..coarse

@@ -1,4 +1,4 @@
-//! What is promised of checkpoints.
+//! Promises of checkpoints.
 
 use std::error::Error;
 use std::fs;
@@ -52,7 +52,7 @@ impl Recording {
 /// Stops the work after so many steps.
 struct Patience {
     left: AtomicUsize,
-    /// Whether a stage has begun that has not advanced yet: its first advance is what was made before.
+    /// True for a stage that began but has not advanced. Its first advance covers the steps made before.
     is_new: AtomicBool,
 }
 
@@ -123,7 +123,7 @@ fn after_each_step(path: &Path) -> Checkpoints {
     }
 }
 
-/// What a training of `cnn` leaves that was stopped after `steps`.
+/// Leaves the checkpoint of a training of `cnn` that was stopped after `steps`.
 fn leave(path: &Path, steps: usize) {
     let patience = Patience::of(steps);
     let stopped = fit(

@@ -1,4 +1,4 @@
-//! What every registered model promises, from its training samples to its file.
+//! Promises of every registered model, from its training samples to its file.
 
 pub(crate) mod case;
 pub(crate) mod cases;

@@ -87,7 +87,7 @@ fn another_light_a_stronger_press_a_dead_row_and_noise_lie_outside() {
 
 #[test]
 fn a_group_is_held_out_whole_so_that_new_groups_are_no_novelty() {
-    // Ten pictures of each of 30 places, which hardly differ: another place is new to whoever holds out single pictures.
+    // Ten similar pictures of each of 30 places. With single held-out pictures, another place looks new.
     let mut random = SplitMix64::new(5);
     let mut samples = |places: u32| -> (Features, Vec<u32>) {
         let mut values = Vec::new();

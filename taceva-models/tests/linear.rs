@@ -1,4 +1,4 @@
-//! What every linear estimator promises.
+//! Promises of every linear estimator.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -280,7 +280,7 @@ fn learning_from_validation_too_equals_learning_from_both_at_once() {
         let rows: Vec<usize> = (0..recording.features.samples()).collect();
         let (first, last) = rows.split_at(rows.len() / 2);
         let (first, last) = (recording.select(first), recording.select(last));
-        // Of a scale that does not depend on the part, and a penalty that does not: components have none.
+        // Components have no penalty and here no scale, so neither depends on the part.
         let words = ["components=5", "scale=none"];
         let estimator = model("pls", &words);
         let refitted = estimator

@@ -1,4 +1,4 @@
-//! What each model promises on top of what every estimator does.
+//! Promises of single models beyond those of every estimator.
 
 use crate::linear_recordings::{Recording, both_shapes, distance, fit, model, predict, recording};
 use taceva_core::{Features, SilentProgress};

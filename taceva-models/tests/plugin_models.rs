@@ -14,7 +14,7 @@ use taceva_models::{
 
 static KEY: DriverKey = DriverKey::fixed("org.example.first/first");
 
-/// What the maker does wrong.
+/// Fault of the plugin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Way {
     Right,

@@ -1,4 +1,4 @@
-//! What every split promises, whatever the recording.
+//! Promises of every split for any recording.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -106,7 +106,7 @@ fn a_seed_gives_the_same_parts_for_ever() {
         ..SplitInput::default()
     };
     let split = spec("random").assign(&input, 7).expect("enough samples");
-    // From an independent implementation in another language, written down once: whoever changes the generator or the shuffle changes every published split.
+    // From an independent implementation in another language. A change of the generator or the shuffle changes every published split.
     assert_eq!(
         (split.train, split.validation, split.test),
         (vec![0, 1, 3, 4, 5, 8, 9], vec![2, 6], vec![7])

@@ -1,5 +1,5 @@
-//! Whether the form of convolutions changes what is learnt: a network trains from the same seeds in both forms on pictures of a blob, whose
-//! place and size are the labels, and losses and held-out scores are printed beside their spread over seeds.
+//! Compares trainings with different forms of convolutions. A network trains from the same seeds in both forms on pictures of a blob, whose
+//! position and size are the labels. Losses and held-out scores are printed beside their spread over seeds.
 //!
 //! `cargo run --release -p taceva-network --example forms [-- NETWORK [SEEDS [STEPS [SIDE [THREADS]]]]]`; `resnet18`, 5, 200, 32 and 1 are the
 //! defaults. NETWORK is `resnet10`, `resnet18`, `resnet34` or `cnn` (in which no convolution has two forms, so that nothing differs). SIDE is

@@ -1,8 +1,8 @@
-//! What it costs to divide work between two threads of a pool: microseconds from asking until both halves of nothing are done.
+//! Cost of dividing work between two threads of a pool: microseconds from the request until both empty halves are done.
 //!
-//! `cargo run --release -p taceva-network --example waking [-- REPEATS]`. Of each row the median and the ninth decile; the processor time is
-//! that of all threads, less that of the pause. The other thread looks for work for a while before it sleeps, so that what counts is the
-//! pause since it had some: in a network that is the time by which one half of a layer takes longer than the other.
+//! `cargo run --release -p taceva-network --example waking [-- REPEATS]`. Each row has the median and the ninth decile. The processor time
+//! is that of all threads minus that of the pause. The other thread looks for work for a while before it sleeps, so what counts is the
+//! pause since its last work. In a network, that is the time by which one half of a layer takes longer than the other.
 
 #![expect(
     clippy::print_stdout,

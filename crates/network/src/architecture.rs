@@ -25,15 +25,15 @@ use crate::picture::Picture;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Architecture {
-    /// Pictures it takes.
+    /// Shape of an input picture.
     pub input: Picture,
-    /// What lies between the pictures and the features.
+    /// Layers from picture to features.
     pub body: Body,
-    /// Numbers it gives for each picture.
+    /// Numbers predicted for each picture.
     pub outputs: usize,
 }
 
-/// What turns a picture into features.
+/// Layers from picture to features.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Body {
@@ -45,9 +45,9 @@ pub enum Body {
     Residual(Depth),
     /// Convolutions one after the other, each followed by batch normalisation and ReLU.
     Plain {
-        /// The convolutions, the first reads the picture.
+        /// The convolutions in order; the first one reads the picture.
         layers: Vec<PlainLayer>,
-        /// How the last pictures become features.
+        /// Reduction of the last pictures to features.
         pooling: Pooling,
     },
 }
@@ -67,11 +67,11 @@ pub enum Depth {
 /// One convolution of a plain network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PlainLayer {
-    /// Channels it gives: a multiple of 16.
+    /// Output channels: a multiple of 16.
     pub channels: usize,
-    /// Rows and columns of its kernel: odd.
+    /// Side of the square kernel, pixels: odd.
     pub kernel: usize,
-    /// Pixels from one place of the kernel to the next.
+    /// Stride, pixels.
     pub stride: usize,
 }
 
@@ -85,7 +85,7 @@ impl Depth {
     }
 }
 
-/// The most numbers that a picture anywhere in a network may have: offsets are kept in 32 bits.
+/// Most values of any picture in a network, so that offsets fit into 32 bits.
 const PICTURE_MAX: usize = 1 << 28;
 
 impl Architecture {
@@ -99,8 +99,8 @@ impl Architecture {
         }
     }
 
-    /// The small network of five convolutions: each halves the picture, and every number of every pixel of the last is a feature, so that
-    /// outputs can depend on where in the picture something is.
+    /// The small network of five convolutions of stride 2. Every value of every pixel of the last picture is a feature, so
+    /// outputs can depend on a position in the picture.
     pub fn five_layers(input: Picture, outputs: usize) -> Architecture {
         let layer = |channels, kernel| PlainLayer {
             channels,
@@ -122,10 +122,10 @@ impl Architecture {
         }
     }
 
-    /// Weights, gains and biases that are learnt.
+    /// Number of trainable parameters: weights, gains and biases.
     ///
     /// # Errors
-    /// [`NetworkError::Architecture`] if it cannot be built.
+    /// [`NetworkError::Architecture`] if the architecture is invalid.
     pub fn parameters(&self) -> Result<usize, NetworkError> {
         self.check()?;
         let mut picture = self.input;
@@ -141,10 +141,10 @@ impl Architecture {
         })
     }
 
-    /// Whether it can be built.
+    /// Checks layer settings and picture sizes.
     ///
     /// # Errors
-    /// [`NetworkError::Architecture`], saying what cannot.
+    /// [`NetworkError::Architecture`] with the first fault found.
     pub fn check(&self) -> Result<(), NetworkError> {
         let refuse = |reason: String| Err(NetworkError::Architecture { reason });
         if self.input.is_empty() || self.outputs == 0 {
@@ -177,7 +177,7 @@ impl Architecture {
         }
         let mut picture = self.input;
         for stage in self.stages() {
-            // The largest in a stage is what its first convolution gives, or reads.
+            // The largest picture of a stage is the input or the output of its first convolution.
             let Convolution {
                 outputs, stride, ..
             } = stage.first(picture.channels);
@@ -201,7 +201,7 @@ impl Architecture {
         Ok(())
     }
 
-    /// Its parts in order.
+    /// Stages in order.
     pub fn stages(&self) -> Vec<StagePlan> {
         match &self.body {
             Body::Plain { layers, .. } => layers.iter().copied().map(StagePlan::Plain).collect(),
@@ -218,7 +218,7 @@ impl Architecture {
         }
     }
 
-    /// The beginning of the names of the tensors of each part.
+    /// Prefixes of the tensor names of each stage.
     pub fn stage_names(&self) -> Vec<String> {
         match &self.body {
             Body::Plain { layers, .. } => (0..layers.len())
@@ -237,7 +237,7 @@ impl Architecture {
         }
     }
 
-    /// How the last pictures become features.
+    /// Reduction of the last pictures to features.
     pub fn pooling(&self) -> Pooling {
         match self.body {
             Body::Residual(_) => Pooling::Average,

@@ -1,4 +1,4 @@
-//! Batch normalisation: moments of a batch, what normalising with them gives, and the gradients.
+//! Batch normalisation: batch moments, normalised output and gradients.
 
 mod apply;
 mod backward;
@@ -10,10 +10,10 @@ pub(crate) use sums::ChannelSums;
 
 use crate::panel::Aligned;
 
-/// What is added to a variance before its root is taken, as PyTorch does.
+/// Epsilon added to a variance before its square root, as in PyTorch.
 pub(crate) const EPSILON: f64 = 1e-5;
 
-/// The share of the newest batch in running moments, as PyTorch has it.
+/// Weight of the newest batch in running moments, as in PyTorch.
 pub(crate) const MOMENTUM: f64 = 0.1;
 
 /// Gain, bias and running moments of each channel.
@@ -25,7 +25,7 @@ pub(crate) struct BatchNorm {
     pub(crate) running_variance: Aligned,
 }
 
-/// The moments of one batch, and normalisation by them as one factor and one addend per channel.
+/// Moments of one batch, and normalisation by them as one factor and one addend per channel.
 #[derive(Clone, Debug)]
 pub(crate) struct Moments {
     pub(crate) mean: Aligned,
@@ -38,7 +38,7 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
-    /// Room for those of `channels`.
+    /// Zeroed moments of `channels` channels.
     pub(crate) fn zeros(channels: usize) -> Moments {
         let zeros = Aligned::zeros(channels);
         Moments {
@@ -62,7 +62,7 @@ impl BatchNorm {
         }
     }
 
-    /// The moments of a batch from the sums of its pictures, `samples` numbers per channel; running moments are updated.
+    /// Writes the moments of a batch, from sums over `samples` values per channel, to `into`. Updates the running moments.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "moments are summed in double precision and used in single"
@@ -92,7 +92,7 @@ impl BatchNorm {
         }
     }
 
-    /// Normalisation by the running moments, as a factor and an addend of `channel`.
+    /// Factor and addend of `channel` for normalisation by the running moments.
     pub(crate) fn frozen(&self, channel: usize) -> (f64, f64) {
         let variance = f64::from(self.running_variance[channel]);
         let scale = f64::from(self.gain[channel]) / (variance + EPSILON).sqrt();

@@ -1,6 +1,6 @@
-//! Numbers of the running program as constants of the compiler.
+//! Run-time numbers as compile-time constants.
 
-/// `$call` with `$number` as the constant `$constant`: compiled once for each of `$known`, so that what it counts lies in registers.
+/// Evaluates `$call` with `$number` as the constant `$constant`. Compiled once for each of `$known`, so that accumulators are registers.
 macro_rules! with_constant {
     ($constant:ident = $number:expr, one of [$($known:literal),+] => $call:expr) => {
         match $number {

@@ -25,16 +25,16 @@ pub(crate) use workspace::{Rooms, TileRooms};
 use crate::picture::Picture;
 use crate::planes::Layout;
 
-/// The shape of a convolution without a bias: a square kernel, padded by half of it.
+/// Shape of a convolution without bias. The square kernel is padded by half its side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Convolution {
-    /// Channels read.
+    /// Input channels.
     pub(crate) inputs: usize,
-    /// Channels written: a multiple of a panel.
+    /// Output channels: a multiple of `PANEL`.
     pub(crate) outputs: usize,
-    /// Rows and columns of the kernel: odd.
+    /// Side of the kernel, pixels: odd.
     pub(crate) kernel: usize,
-    /// Pixels from one place of the kernel to the next.
+    /// Stride, pixels.
     pub(crate) stride: usize,
 }
 
@@ -44,12 +44,12 @@ impl Convolution {
         self.kernel / 2
     }
 
-    /// Places of the kernel.
+    /// Number of kernel positions.
     pub(crate) const fn taps(&self) -> usize {
         self.kernel * self.kernel
     }
 
-    /// The picture that comes of `input`.
+    /// Shape of the output for an input of shape `input`.
     pub(crate) const fn output(&self, input: Picture) -> Picture {
         // The padding is half an odd kernel, so h + 2p − k = h − 1.
         Picture {
@@ -59,7 +59,7 @@ impl Convolution {
         }
     }
 
-    /// Where the kernel of output pixel (y, x) begins in an input of `layout`.
+    /// Offset of the kernel's first value for output pixel (y, x) in an input of `layout`.
     fn corner(&self, layout: Layout, y: usize, x: usize) -> usize {
         let shift = layout.border - self.padding();
         (y * self.stride + shift) * layout.row()
@@ -67,7 +67,7 @@ impl Convolution {
     }
 }
 
-/// An offset as tables of pixels keep it.
+/// Offset in 32 bits, as stored in tables of pixels.
 fn offset(value: usize) -> u32 {
     u32::try_from(value)
         .expect("a picture has fewer numbers than 2^32, as the architecture was checked")

@@ -1,179 +1,179 @@
-//! Why a network cannot be made, trained or used.
+//! Errors of building, training and using networks.
 
 use crate::picture::Picture;
 
-/// Why a network cannot be made, trained or used.
+/// Error of building, training or using a network.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NetworkError {
-    /// Layers that cannot be built.
+    /// The architecture is invalid.
     #[error("a network cannot be built: {reason}")]
     Architecture {
-        /// What cannot.
+        /// The fault.
         reason: String,
     },
-    /// A tensor of the architecture that is missing.
+    /// A tensor of the architecture is missing.
     #[error("no tensor `{name}`, which the architecture has", name = taceva_core::shown(name))]
     MissingTensor {
-        /// Its name.
+        /// Name of the tensor.
         name: String,
     },
-    /// A tensor that the architecture does not have.
+    /// A tensor is not part of the architecture.
     #[error("unexpected tensor `{name}`: the architecture has none of that name", name = taceva_core::shown(name))]
     UnexpectedTensor {
-        /// Its name.
+        /// Name of the tensor.
         name: String,
     },
-    /// A tensor of another shape than the architecture says.
+    /// A tensor's shape or length differs from the architecture.
     #[error("tensor `{name}` has the shape {found:?} and {values} numbers, expected {expected:?}", name = taceva_core::shown(name))]
     TensorShape {
-        /// Its name.
+        /// Name of the tensor.
         name: String,
-        /// The shape found.
+        /// Shape found.
         found: Vec<usize>,
-        /// How many numbers were given.
+        /// Number of values found.
         values: usize,
-        /// The shape of the architecture.
+        /// Shape expected.
         expected: Vec<usize>,
     },
-    /// A tensor with a number that is not finite.
+    /// A tensor has a value that is not finite.
     #[error("tensor `{name}`: number {position} is not finite", name = taceva_core::shown(name))]
     TensorNotFinite {
-        /// Its name.
+        /// Name of the tensor.
         name: String,
-        /// Which of its numbers.
+        /// Index of the value.
         position: usize,
     },
-    /// Pictures that are no whole number of those that the network takes.
+    /// The number of values is not a multiple of the picture size.
     #[error("{values} numbers are no whole number of pictures of {expected}")]
     Pictures {
-        /// How many numbers were given.
+        /// Number of values found.
         values: usize,
-        /// The picture that the network takes.
+        /// Shape of one input picture.
         expected: Picture,
     },
-    /// A picture with a number that is not finite.
+    /// A picture has a value that is not finite.
     #[error("{part} picture {picture}: number {position} is not finite")]
     PictureNotFinite {
-        /// What the samples are for.
+        /// Use of the samples.
         part: SampleSet,
-        /// Which picture.
+        /// Index of the picture.
         picture: usize,
-        /// Which of its numbers.
+        /// Index of the value in the picture.
         position: usize,
     },
-    /// Labels that are no whole number of samples, or of another number of samples than there are pictures.
+    /// The number of labels does not match the number of pictures.
     #[error("{part}: {labels} labels for {pictures} pictures of {outputs} outputs")]
     Labels {
-        /// What the samples are for.
+        /// Use of the samples.
         part: SampleSet,
-        /// How many labels were given.
+        /// Number of labels.
         labels: usize,
-        /// How many pictures were given.
+        /// Number of pictures.
         pictures: usize,
         /// Outputs of the network.
         outputs: usize,
     },
-    /// A label that is not finite.
+    /// A label is not finite.
     #[error("{part} sample {sample}: label {output} is not finite")]
     LabelNotFinite {
-        /// What the samples are for.
+        /// Use of the samples.
         part: SampleSet,
-        /// Which sample.
+        /// Index of the sample.
         sample: usize,
-        /// Which of its labels.
+        /// Index of the label in the sample.
         output: usize,
     },
-    /// A class that no output stands for.
+    /// A class is not below the number of outputs.
     #[error("{part} sample {sample}: class {class}, the network has 0 to {}", classes - 1)]
     Class {
-        /// What the samples are for.
+        /// Use of the samples.
         part: SampleSet,
-        /// Which sample.
+        /// Index of the sample.
         sample: usize,
-        /// Its class.
+        /// Class found.
         class: u32,
-        /// Classes that there are.
+        /// Number of classes.
         classes: usize,
     },
-    /// Labels that are all the same: there is nothing to scale them by, nor to learn.
+    /// All labels of an output are equal, so scaling and training are impossible.
     #[error("output {output}: every training label is {value}, so there is nothing to learn")]
     ConstantLabels {
-        /// Which output.
+        /// Index of the output.
         output: usize,
         /// The label.
         value: f64,
     },
-    /// Fewer samples than make a batch.
+    /// There are fewer samples than a batch.
     #[error("{samples} training samples, a batch takes {batch}")]
     FewSamples {
-        /// How many there are.
+        /// Number of training samples.
         samples: usize,
-        /// How many a batch takes.
+        /// Samples per batch.
         batch: usize,
     },
-    /// A loss that does not go with the labels, or a number out of its range.
+    /// The loss does not support the labels, or a setting is out of range.
     #[error("`{name}`: {found}, expected {expected}")]
     Recipe {
-        /// The name of the setting.
+        /// Name of the setting.
         name: &'static str,
-        /// What was asked for.
+        /// Value found.
         found: String,
-        /// What would be accepted.
+        /// Values accepted.
         expected: &'static str,
     },
-    /// A loss that is not finite: training stopped before that step changed a weight.
+    /// The loss is not finite. Training stopped before this step changed a weight.
     #[error("step {step}: the loss is not finite")]
     LossNotFinite {
         /// The step, counted from 0.
         step: u64,
     },
-    /// A weight, or a running moment of a normalisation, that a step made not finite.
+    /// A step made a weight or a running moment of a normalisation infinite or NaN.
     #[error("step {step}: a weight or a running moment is not finite")]
     WeightNotFinite {
         /// The step, counted from 0.
         step: u64,
     },
-    /// A checkpoint of another training.
+    /// The checkpoint belongs to another training.
     #[error("the checkpoint is of another training: {what}")]
     Checkpoint {
-        /// What differs.
+        /// The difference.
         what: String,
     },
-    /// A device that does not do what is asked of it.
+    /// A device failed.
     #[error("{device}: {problem}")]
     Device {
-        /// Which one.
+        /// Name of the device.
         device: String,
-        /// What is wrong, as the device reports it.
+        /// Problem reported by the device.
         problem: String,
     },
-    /// Less memory than transformed weights take.
+    /// Too little memory for transformed weights.
     #[error(
         "no room in memory for {bytes} bytes of transformed weights: free some, or take a network of fewer channels"
     )]
     Memory {
-        /// How many they take.
+        /// Bytes of the transformed weights.
         bytes: usize,
     },
-    /// Room for results that has another length than there are results.
+    /// The buffer for results has the wrong length.
     #[error("room for {found} numbers where {expected} are written")]
     Room {
-        /// Numbers there is room for.
+        /// Length of the buffer.
         found: usize,
-        /// Numbers that are written.
+        /// Number of results.
         expected: usize,
     },
 }
 
-/// What samples are for.
+/// Use of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleSet {
-    /// For training.
+    /// Training.
     Training,
-    /// For choosing the best epoch.
+    /// Choice of the best epoch.
     Validation,
-    /// To be predicted.
+    /// Prediction.
     Prediction,
 }
 

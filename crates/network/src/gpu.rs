@@ -1,4 +1,4 @@
-//! Training on a GPU: the architectures, weights and recipes of this crate through burn.
+//! Training on a GPU with burn, for the same architectures, weights and recipes as on the CPU.
 
 #[cfg(any(feature = "cuda", feature = "wgpu"))]
 mod autodiff;
@@ -38,7 +38,7 @@ pub use self::kind::GpuKind;
 use crate::error::NetworkError;
 use crate::training::{Engine, Recipe, Snapshot};
 
-/// A GPU that was found.
+/// A GPU of this machine.
 #[derive(Clone, Debug)]
 pub struct Gpu {
     kind: GpuKind,
@@ -46,7 +46,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// The first GPU of `kind`.
+    /// Finds the first GPU of `kind`.
     ///
     /// # Errors
     /// [`GpuError::NotBuilt`] if this program was built without the feature, [`GpuError::NotFound`] if there is no device.
@@ -55,17 +55,17 @@ impl Gpu {
         Ok(Gpu { kind, device })
     }
 
-    /// How it is reached.
+    /// Programming interface of the GPU.
     pub const fn kind(&self) -> GpuKind {
         self.kind
     }
 
-    /// Its name, as its driver gives it.
+    /// Name of the GPU, as reported by its driver.
     pub fn name(&self) -> &str {
         &self.device.name
     }
 
-    /// A training on it that goes on from `snapshot`; what [`Trainer::on`](crate::Trainer::on) asks for.
+    /// Starts an engine on this GPU that continues from `snapshot`. [`Trainer::on`](crate::Trainer::on) takes it.
     ///
     /// # Errors
     /// [`NetworkError::Device`] if the device fails.

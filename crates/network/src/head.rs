@@ -1,4 +1,4 @@
-//! The last layer of a network: features of the last pictures, and outputs that are linear in them.
+//! Output layer of a network: pooling to features, and linear outputs.
 
 use crate::architecture::Pooling;
 use crate::panel::Aligned;
@@ -6,7 +6,7 @@ use crate::picture::Picture;
 use crate::planes::{Layout, Planes};
 use crate::update::Update;
 
-/// Outputs that are linear in features.
+/// Linear outputs of pooled features.
 #[derive(Clone, Debug)]
 pub(crate) struct Head {
     pub(crate) pooling: Pooling,
@@ -14,12 +14,12 @@ pub(crate) struct Head {
     pub(crate) weights: Aligned,
     /// `[outputs]`.
     pub(crate) bias: Aligned,
-    /// The slot of the weights; the bias has the next one.
+    /// Slot of the weights. The bias has the next slot.
     pub(crate) slot: usize,
 }
 
 impl Head {
-    /// Slots.
+    /// Number of slots: weights and bias.
     pub(crate) const SLOTS: usize = 2;
 
     pub(crate) fn new(pooling: Pooling, picture: Picture, outputs: usize, slot: usize) -> Head {
@@ -41,7 +41,7 @@ impl Head {
         self.weights.len() / self.bias.len()
     }
 
-    /// The features of the first `count` pictures.
+    /// Writes the features of the first `count` pictures to `into`.
     ///
     /// # Shapes
     /// `into`: `[pictures, features]`.
@@ -79,7 +79,7 @@ impl Head {
         for features in features.chunks_exact(self.features()) {
             let rows = self.weights.chunks_exact(self.features());
             into.extend(rows.zip(&*self.bias).map(|(row, bias)| {
-                // Eight sums side by side, so that additions need not wait for each other.
+                // Eight independent sums, so that additions do not wait for each other.
                 let mut sums = [0.0_f64; 8];
                 let (row, rest) = row.as_chunks::<8>();
                 let (seen, seen_rest) = features.as_chunks::<8>();
@@ -95,10 +95,10 @@ impl Head {
         }
     }
 
-    /// Writes the gradient of the pictures and hands on those of weights and bias.
+    /// Writes the gradient of the pictures. Passes the gradients of weights and bias to `update`.
     ///
     /// # Shapes
-    /// `gradient`: `[samples, outputs]`, that of the outputs; `into` has no border.
+    /// `gradient`: `[samples, outputs]`, the output gradient; `into`: without a border.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "gradients are formed in double precision and kept in single"

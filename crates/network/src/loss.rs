@@ -1,21 +1,21 @@
-//! The loss, how far outputs are from labels, and its gradient.
+//! Loss functions and their gradients.
 
 use serde::{Deserialize, Serialize};
 
 use crate::labels::Labels;
 
-/// A measure of how far outputs are from labels, with the mean over samples and outputs.
+/// Loss function, averaged over samples and outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Loss {
     /// (output − label)².
     SquaredError,
-    /// Half the square up to `delta`, beyond it delta · (|distance| − delta / 2).
+    /// Half the squared distance up to `delta`, beyond it delta · (|distance| − delta / 2).
     ///
     /// # Reference
     /// P. J. Huber, "Robust estimation of a location parameter", Ann. Math. Statist. 35, 1964.
     Huber {
-        /// Where the square ends, in the unit of the scaled labels.
+        /// Limit of the quadratic part, in the unit of the scaled labels.
         delta: f64,
     },
     /// −ln of the softmax of the outputs at the class; the mean over samples.
@@ -23,12 +23,12 @@ pub enum Loss {
 }
 
 impl Loss {
-    /// The loss of some samples, and its gradient.
+    /// Returns the loss of some samples and writes its gradient.
     ///
     /// # Shapes
     /// `outputs`, `gradient`: `[samples, width]`.
     /// # Panics
-    /// If classes are measured by a distance, or numbers by cross entropy: [`Trainer`](crate::Trainer) refuses both before.
+    /// If a distance is applied to classes, or cross entropy to numbers. [`Trainer`](crate::Trainer) rejects both.
     pub fn measure(
         self,
         outputs: &[f64],

@@ -1,7 +1,7 @@
-//! The instructions that passes are made with: those with fused multiplication give the same bits, the portable one rounds products
-//! too and differs in last places.
+//! Instruction sets. All sets with fused multiply-add give the same bits. The portable one also rounds products, so its last digits
+//! differ.
 //!
-//! Chosen as `taceva-metrics` chooses its own, which have other operations: each crate proves what its own `simd/` may run.
+//! Selected as in `taceva-metrics`, whose operations differ. Each crate proves which instructions its own `simd/` may run.
 
 use taceva_core::Isa;
 
@@ -11,7 +11,7 @@ use crate::simd::Neon;
 use crate::simd::{Avx2, Avx512};
 use crate::simd::{Job, Portable};
 
-/// An instruction set that the machine was found to have.
+/// An instruction set detected on this machine.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Machine {
     #[cfg(target_arch = "x86_64")]
@@ -24,7 +24,7 @@ pub(crate) enum Machine {
 }
 
 impl Machine {
-    /// The machine with `isa`, if it has it.
+    /// The machine with `isa`, or `None` if the CPU lacks it.
     pub(crate) fn with(isa: Isa) -> Option<Machine> {
         match isa {
             #[cfg(target_arch = "x86_64")]
@@ -38,7 +38,7 @@ impl Machine {
         }
     }
 
-    /// Does `job` with the machine's vectors.
+    /// Runs `job` with this instruction set.
     #[inline]
     pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
         match self {

@@ -1,5 +1,5 @@
-//! Max pooling over 3 × 3 pixels with stride 2, of pictures that are normalised and passed through ReLU on the way: neither the
-//! normalised pictures nor their gradients are ever written.
+//! Max pooling over 3 × 3 pixels with stride 2, fused with normalisation and ReLU. Neither the normalised pictures nor their
+//! gradients are ever stored.
 
 mod backward;
 mod forward;
@@ -11,14 +11,14 @@ pub(crate) use greatest::pool;
 
 use crate::picture::Picture;
 
-/// Rows and columns that are compared.
+/// Side of a window, pixels.
 const KERNEL: usize = 3;
-/// Pixels from one window to the next.
+/// Stride, pixels.
 const STRIDE: usize = 2;
-/// Rows and columns of the first window that lie outside the picture.
+/// Rows and columns of the first window outside the picture.
 const PADDING: usize = 1;
 
-/// The picture that comes of `input`.
+/// Shape of the output for an input of shape `input`.
 pub(crate) const fn output(input: Picture) -> Picture {
     Picture {
         height: (input.height - 1) / STRIDE + 1,
@@ -27,8 +27,8 @@ pub(crate) const fn output(input: Picture) -> Picture {
     }
 }
 
-/// The rows (or columns) that window `position` compares, of a picture that has `length`. One beside the picture is replaced by one
-/// within it, which the window has already: loops of a fixed length stay in registers.
+/// Rows (or columns) of window `position` in a picture of `length` rows. A row outside the picture is replaced by the nearest row
+/// of the window, because loops of fixed length stay in registers.
 #[inline(always)]
 fn window(position: usize, length: usize) -> [usize; KERNEL] {
     let middle = position * STRIDE;
@@ -39,8 +39,8 @@ fn window(position: usize, length: usize) -> [usize; KERNEL] {
     ]
 }
 
-/// The windows that compare row (or column) `at`, each with the place of `at` in it, of a picture with `windows`; nowhere and any window
-/// where there is no second.
+/// Windows that contain row (or column) `at`, each with the position of `at` in it, in a picture with `windows` windows. Without a
+/// second window, its position is [`NOWHERE`] and its index arbitrary but valid.
 #[inline(always)]
 fn windows(at: usize, windows: usize) -> [(u32, usize); 2] {
     let before = at / STRIDE;
@@ -53,10 +53,10 @@ fn windows(at: usize, windows: usize) -> [(u32, usize); 2] {
     }
 }
 
-/// A row or column of a window that no output came from.
+/// Window position that no output comes from.
 const NOWHERE: u32 = 1 << 8;
 
-/// The number of a place in a window.
+/// Index of a position in a window.
 #[inline(always)]
 fn place(row: u32, column: u32) -> u32 {
     const ROW: u32 = 3;

@@ -1,4 +1,4 @@
-//! A network: its weights, and the outputs that it gives for pictures.
+//! Networks: weights, forward pass and backward pass.
 
 mod gradients;
 mod tensors;
@@ -21,7 +21,7 @@ use crate::stage::{Stage, StageSpace, Standing};
 use crate::update::Update;
 use taceva_core::random::Draws;
 
-/// The weights of an architecture, with the running moments of its normalisations.
+/// Weights of an architecture, with the running moments of its normalisations.
 #[derive(Clone, Debug)]
 pub struct Network {
     pub(crate) architecture: Architecture,
@@ -30,7 +30,7 @@ pub struct Network {
     pub(crate) head: Head,
 }
 
-/// What training keeps between the passes.
+/// Activations and buffers that training keeps between the passes.
 #[derive(Debug)]
 pub(crate) struct TrainingSpace {
     pub(crate) input: Planes,
@@ -41,17 +41,17 @@ pub(crate) struct TrainingSpace {
 }
 
 impl Network {
-    /// What is added to the variance of a batch before its root is taken, as PyTorch does.
+    /// Epsilon added to a batch variance before its square root, as in PyTorch.
     pub const NORM_EPSILON: f64 = batch_norm::EPSILON;
 
-    /// The share of the newest batch in running moments, as PyTorch has it.
+    /// Weight of the newest batch in running moments, as in PyTorch.
     pub const NORM_MOMENTUM: f64 = batch_norm::MOMENTUM;
 
-    /// A network with random weights, drawn as torchvision draws them: each convolution's from a normal distribution of
-    /// variance 2 / (kernel² · outputs), the last layer's uniformly within ±1/√features.
+    /// A network with random weights, distributed as in torchvision. Convolution weights are normal with variance
+    /// 2 / (kernel² · outputs). The last layer is uniform within ±1/√features.
     ///
     /// # Errors
-    /// [`NetworkError::Architecture`] if the architecture cannot be built.
+    /// [`NetworkError::Architecture`] if the architecture is invalid.
     /// # Reference
     /// K. He, X. Zhang, S. Ren, J. Sun, "Delving deep into rectifiers", ICCV 2015.
     #[expect(
@@ -105,10 +105,10 @@ impl Network {
         })
     }
 
-    /// The same network on the instructions of `isa`.
+    /// Selects the instruction set `isa`.
     ///
     /// # Errors
-    /// [`NetworkError::Architecture`] if this machine does not have them.
+    /// [`NetworkError::Architecture`] if the CPU lacks `isa`.
     pub fn on(mut self, isa: Isa) -> Result<Network, NetworkError> {
         self.machine = Machine::with(isa).ok_or_else(|| NetworkError::Architecture {
             reason: format!("this machine does not have {isa}"),
@@ -116,7 +116,7 @@ impl Network {
         Ok(self)
     }
 
-    /// Whether all running moments are finite.
+    /// True if all running moments are finite.
     pub(crate) fn are_moments_finite(&self) -> bool {
         let mut norms = self.stages.iter().flat_map(Stage::normed);
         norms.all(|(normed, _)| {
@@ -127,22 +127,22 @@ impl Network {
         })
     }
 
-    /// Its architecture.
+    /// Architecture of the network.
     pub fn architecture(&self) -> &Architecture {
         &self.architecture
     }
 
-    /// Weights, gains and biases that are learnt.
+    /// Number of trainable parameters: weights, gains and biases.
     pub fn parameters(&self) -> usize {
         self.slot_lengths().into_iter().sum()
     }
 
-    /// Number of slots that gradients have.
+    /// Number of gradient slots.
     pub(crate) fn slots(&self) -> usize {
         self.head.slot + Head::SLOTS
     }
 
-    /// Numbers of the parameter at each slot.
+    /// Length of the parameter in each slot.
     pub(crate) fn slot_lengths(&self) -> Vec<usize> {
         let normed = self.stages.iter().flat_map(Stage::normed);
         let parts = normed.flat_map(|(part, _)| {
@@ -154,10 +154,10 @@ impl Network {
             .collect()
     }
 
-    /// Room to train in, with batches of `batch` pictures and convolutions of one form.
+    /// Allocates buffers for training, with batches of `batch` pictures and convolutions in `form`.
     ///
     /// # Errors
-    /// [`NetworkError::Memory`] if there is no room for the weights of one convolution as the passes transform them.
+    /// [`NetworkError::Memory`] if the transformed weights of one convolution do not fit into memory.
     pub(crate) fn training_space(
         &self,
         batch: usize,
@@ -193,10 +193,10 @@ impl Network {
         })
     }
 
-    /// Passes the first `count` pictures of the space, normalised by their own moments.
+    /// Runs the forward pass on the first `count` pictures of `space`, with batch moments.
     ///
     /// # Shapes
-    /// The outputs: `[count, outputs]`.
+    /// Returns `[count, outputs]`.
     pub(crate) fn forward<'a>(&mut self, space: &'a mut TrainingSpace, count: usize) -> &'a [f64] {
         for position in 0..self.stages.len() {
             let (before, rest) = space.stages.split_at_mut(position);
@@ -210,10 +210,10 @@ impl Network {
         &space.outputs
     }
 
-    /// Passes the gradient of the outputs back, and hands on that of each parameter.
+    /// Runs the backward pass from the output gradient. Passes the gradient of each parameter to `update`.
     ///
     /// # Shapes
-    /// `gradient`: `[count, outputs]`, of the pictures that [`forward`](Network::forward) passed last.
+    /// `gradient`: `[count, outputs]`, for the pictures of the last [`forward`](Network::forward).
     pub(crate) fn backward(
         &mut self,
         space: &mut TrainingSpace,
@@ -248,7 +248,7 @@ impl Network {
         }
     }
 
-    /// The plan of each stage and the stage.
+    /// Each stage with its plan.
     pub(crate) fn planned(&self) -> impl Iterator<Item = (StagePlan, &Stage)> {
         self.architecture.stages().into_iter().zip(&self.stages)
     }

@@ -1,4 +1,4 @@
-//! A convolution and the batch normalisation behind it, which every part of a network is made of.
+//! Convolution with batch normalisation, the building block of every stage.
 
 use crate::batch_norm::{
     BatchNorm, ChannelSums, Gate, GradientSums, Moments, gradient_sums, input_gradient,
@@ -18,36 +18,36 @@ use crate::update::Update;
 pub(crate) struct Normed {
     pub(crate) weights: ConvolutionWeights,
     pub(crate) norm: BatchNorm,
-    /// The slot of the weights; gain and bias have the two next ones.
+    /// Slot of the weights. Gain and bias have the next two.
     pub(crate) slot: usize,
 }
 
-/// What a backward pass goes with.
+/// Context of a backward pass.
 pub(crate) struct Back<'a> {
     pub(crate) machine: Machine,
-    /// How many pictures.
+    /// Number of pictures.
     pub(crate) count: usize,
     pub(crate) scratch: &'a mut Scratch,
     pub(crate) update: &'a mut dyn Update,
 }
 
-/// What training keeps of a convolution between the passes.
+/// Activations and prepared passes of a convolution in training.
 #[derive(Debug)]
 pub(crate) struct NormedSpace {
-    /// What the convolution gave.
+    /// Output of the convolution.
     pub(crate) raw: Planes,
     pub(crate) moments: Moments,
     pub(crate) sums: Vec<ChannelSums>,
-    /// How the gradient of the convolution's output lies: with a border, where the gradient of the input reads it.
+    /// Memory layout of the output gradient, with a border if the input-gradient pass reads it.
     gradient: Layout,
     forward: Forward,
     weight_gradient: WeightGradient,
-    /// `None` where the gradient of the input is not needed.
+    /// `None` if the input gradient is not needed.
     input_gradient: Option<InputGradient>,
 }
 
 impl Normed {
-    /// Slots of each.
+    /// Number of slots: weights, gain and bias.
     pub(crate) const SLOTS: usize = 3;
 
     pub(crate) fn new(convolution: Convolution, slot: usize) -> Normed {
@@ -62,7 +62,7 @@ impl Normed {
         self.weights.convolution()
     }
 
-    /// Convolves the first `count` pictures and takes the moments of the result.
+    /// Convolves the first `count` pictures and computes the moments of the result.
     pub(crate) fn forward(
         &mut self,
         machine: Machine,
@@ -88,14 +88,14 @@ impl Normed {
             .update(&space.sums[..count], samples, &mut space.moments);
     }
 
-    /// Hands on the gradients of gain and bias.
+    /// Passes the gradients of gain and bias to `update`.
     pub(crate) fn update_norm(&mut self, sums: &GradientSums, update: &mut dyn Update) {
         update.update(self.slot + 1, &mut self.norm.gain, &sums.gain);
         update.update(self.slot + 2, &mut self.norm.bias, &sums.bias);
     }
 
-    /// The gradient of what the convolution gave, from that of what its normalisation gave, which becomes zero where `gate` is
-    /// shut; those of gain and bias are handed on.
+    /// Computes the gradient of the convolution's output from the gradient of the normalisation's output. `Gate::Output` zeroes the
+    /// latter where masked. Passes the gradients of gain and bias to `back.update`.
     pub(crate) fn norm_backward(
         &mut self,
         space: &mut NormedSpace,
@@ -126,7 +126,7 @@ impl Normed {
         into
     }
 
-    /// Writes the gradient of the input, where one is asked for, and hands on that of the weights.
+    /// Writes the input gradient if `into` is given. Passes the weight gradient to `back.update`.
     pub(crate) fn backward(
         &mut self,
         space: &NormedSpace,
@@ -159,7 +159,7 @@ impl Normed {
         update.update(self.slot, self.weights.values_mut(), room);
     }
 
-    /// The weights with the running moments worked in, and the bias that is left.
+    /// Weights with the running moments folded in, and the remaining bias.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "products are formed in double precision and kept in single"
@@ -182,7 +182,7 @@ impl Normed {
 }
 
 impl NormedSpace {
-    /// Room for `batch` pictures of layout `input`.
+    /// Allocates buffers for `batch` pictures of layout `input`.
     pub(crate) fn new(
         (convolution, form): (Convolution, ConvolutionForm),
         input: Layout,
@@ -209,7 +209,7 @@ impl NormedSpace {
         }
     }
 
-    /// Numbers that the weights take at most when a pass transforms them.
+    /// Longest transformed weights of any pass.
     pub(crate) fn transformed_len(&self) -> usize {
         let back = self.input_gradient.as_ref();
         self.forward

@@ -1,4 +1,4 @@
-//! The rules by which a step changes weights.
+//! Optimisers: update rules of the weights.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -8,27 +8,27 @@ use crate::panel::{Aligned, PANEL};
 use crate::simd::{Job, Vector};
 use crate::update::Update;
 
-/// A rule by which a step changes weights from their gradients; decay acts on every parameter, as PyTorch's does by default.
+/// Update rule of the weights. Decay applies to every parameter, as by default in PyTorch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Optimizer {
     /// v ← momentum · v + g + decay · w, w ← w − rate · v.
     Sgd {
-        /// The factor on the last velocity, 0 to below 1.
+        /// Factor of the previous velocity, from 0 to below 1.
         momentum: f64,
-        /// The decay of weights.
+        /// Weight decay.
         weight_decay: f64,
     },
-    /// Adam with decay apart from the gradient.
+    /// Adam with decoupled weight decay.
     ///
     /// # Reference
     /// I. Loshchilov, F. Hutter, "Decoupled weight decay regularization", ICLR 2019.
     AdamW {
-        /// The factors β₁ and β₂ on the last means of the gradient and of its square, each 0 to below 1.
+        /// Factors β₁ and β₂ of the previous means of gradient and squared gradient, each from 0 to below 1.
         betas: (f64, f64),
-        /// What is added to the root of the mean square.
+        /// Addend to the root of the mean square.
         epsilon: f64,
-        /// The decay of weights.
+        /// Weight decay.
         weight_decay: f64,
     },
 }
@@ -41,7 +41,7 @@ impl Optimizer {
         weight_decay: 1e-2,
     };
 
-    /// Vectors that are kept for each parameter.
+    /// State vectors per parameter.
     pub(crate) const fn moments(self) -> usize {
         match self {
             Optimizer::Sgd { .. } => 1,
@@ -50,10 +50,10 @@ impl Optimizer {
     }
 }
 
-/// What an optimiser remembers of each parameter, by slot.
+/// State of an optimiser for each parameter, by slot.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
-    /// The velocity, or the means of the gradient and of its square; empty until a parameter was changed.
+    /// Velocity, or means of gradient and squared gradient. Empty before the first update of a parameter.
     pub(crate) moments: Vec<Vec<Aligned>>,
 }
 
@@ -64,19 +64,19 @@ impl Memory {
     }
 }
 
-/// One step of all parameters.
+/// One update of all parameters.
 pub(crate) struct Descent<'a> {
     pub(crate) machine: Machine,
     pub(crate) optimizer: Optimizer,
     pub(crate) rate: f64,
-    /// Steps, this one included.
+    /// Number of steps, including this one.
     pub(crate) steps: u64,
     pub(crate) memory: &'a mut Memory,
-    /// Whether a parameter became infinite or NaN.
+    /// True once a parameter is infinite or NaN.
     pub(crate) is_broken: bool,
 }
 
-/// Numbers that a thread takes at a time.
+/// Values per task of a thread.
 const CHUNK: usize = 1 << 14;
 
 impl Update for Descent<'_> {
@@ -120,45 +120,45 @@ impl Update for Descent<'_> {
     }
 }
 
-/// The numbers of one step.
+/// Coefficients of one step.
 #[derive(Clone, Copy, Debug)]
 pub enum Rule {
-    /// Those of [`Optimizer::Sgd`].
+    /// Coefficients of [`Optimizer::Sgd`].
     Momentum(Momentum),
-    /// Those of [`Optimizer::AdamW`].
+    /// Coefficients of [`Optimizer::AdamW`].
     Adam(Adam),
 }
 
 /// v ← `momentum` · v + g + `decay` · w, w ← w − `rate` · v.
 #[derive(Clone, Copy, Debug)]
 pub struct Momentum {
-    /// The factor on the last velocity.
+    /// Factor of the previous velocity.
     pub momentum: f32,
-    /// The decay of weights.
+    /// Weight decay.
     pub decay: f32,
-    /// The rate of the step.
+    /// Learning rate.
     pub rate: f32,
 }
 
 /// m ← β₁ · m + `news.0` · g, s ← β₂ · s + `news.1` · g², w ← `keep` · w − `step` · m / (√s · `correction` + `epsilon`).
 #[derive(Clone, Copy, Debug)]
 pub struct Adam {
-    /// The factor on the weights.
+    /// Factor of the weights.
     pub keep: f32,
-    /// The factors on the last means, β₁ and β₂.
+    /// Factors of the previous means, β₁ and β₂.
     pub betas: (f32, f32),
-    /// The factors on the newest gradient and on its square.
+    /// Factors of the newest gradient and its square.
     pub news: (f32, f32),
     /// 1 / √(1 − β₂ⁿ).
     pub correction: f32,
-    /// What is added to the root of the mean square.
+    /// Addend to the root of the mean square.
     pub epsilon: f32,
     /// rate / (1 − β₁ⁿ).
     pub step: f32,
 }
 
 impl Rule {
-    /// Those of step `steps`, counted from 1, at `rate`.
+    /// Coefficients of step `steps`, counted from 1, at learning rate `rate`.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "factors are formed in double precision and applied in single"
@@ -218,7 +218,7 @@ struct MomentumChunk<'a> {
 }
 
 impl Job for MomentumChunk<'_> {
-    /// Whether every number is finite.
+    /// True if all updated values are finite.
     type Output = bool;
 
     #[inline(always)]
@@ -236,7 +236,7 @@ impl Job for MomentumChunk<'_> {
                 .zip(&mut check);
             for (((value, gradient), velocity), check) in places {
                 self.rule.apply(value, *gradient, velocity);
-                // Zero unless the number is not finite.
+                // Adds zero for a finite value, otherwise NaN.
                 *check += *value * 0.0;
             }
         }
@@ -253,7 +253,7 @@ struct AdamChunk<'a> {
 }
 
 impl Job for AdamChunk<'_> {
-    /// Whether every number is finite.
+    /// True if all updated values are finite.
     type Output = bool;
 
     #[inline(always)]

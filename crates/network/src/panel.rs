@@ -1,16 +1,16 @@
-//! Channels come in panels of sixteen, and tensors begin where a cache line begins.
+//! Memory alignment: channels in panels of sixteen, tensors at the start of a cache line.
 
 use std::ops::{Deref, DerefMut};
 
 use crate::error::NetworkError;
 
-/// Channels that lie beside each other in every tensor: a cache line of numbers, and a multiple of every vector.
+/// Channels per panel: one cache line of f32 values, and a multiple of every vector width.
 pub(crate) const PANEL: usize = 16;
 
-/// Numbers that begin where a cache line begins, so that no vector of a panel lies across two.
+/// Values aligned to a cache line, so that no vector of a panel crosses two.
 #[derive(Debug)]
 pub(crate) struct Aligned {
-    /// The numbers, after those that are skipped.
+    /// Values, after `skipped` unused ones.
     values: Vec<f32>,
     skipped: usize,
 }
@@ -21,10 +21,10 @@ impl Aligned {
         Aligned::within(vec![0.0; length + PANEL], length)
     }
 
-    /// `length` zeros, if there is memory for them.
+    /// `length` zeros, with a fallible allocation.
     ///
     /// # Errors
-    /// [`NetworkError::Memory`] if there is not.
+    /// [`NetworkError::Memory`] if there is too little memory.
     pub(crate) fn try_zeros(length: usize) -> Result<Aligned, NetworkError> {
         let room = length.saturating_add(PANEL);
         let mut values = Vec::new();
@@ -36,7 +36,7 @@ impl Aligned {
         Ok(Aligned::within(values, length))
     }
 
-    /// The first `length` of `values` that begin a cache line; a panel more is there.
+    /// Takes `length` values of `values` from the first cache line on. `values` is a panel longer.
     fn within(values: Vec<f32>, length: usize) -> Aligned {
         const LINE: usize = 64;
         let skipped = values.as_ptr().align_offset(LINE).min(PANEL);
@@ -54,7 +54,7 @@ impl Aligned {
 }
 
 impl Clone for Aligned {
-    /// A copy that is aligned too, wherever it comes to lie.
+    /// Copies the values to a new aligned allocation.
     fn clone(&self) -> Aligned {
         Aligned::of(self)
     }

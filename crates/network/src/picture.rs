@@ -1,26 +1,26 @@
-//! The size of a picture.
+//! Shape of a picture.
 
-/// The size of a picture and how many numbers a pixel has.
+/// Shape of a picture.
 ///
 /// # Shapes
-/// Pictures lie as `[height, width, channels]`.
+/// Pictures are stored as `[height, width, channels]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct Picture {
     /// Rows.
     pub height: usize,
     /// Columns.
     pub width: usize,
-    /// Numbers per pixel.
+    /// Values per pixel.
     pub channels: usize,
 }
 
 impl Picture {
-    /// Numbers per picture.
+    /// Values per picture.
     pub const fn len(&self) -> usize {
         self.height * self.width * self.channels
     }
 
-    /// Whether a picture has no number.
+    /// True if a picture has no values.
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }

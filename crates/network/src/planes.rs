@@ -1,14 +1,14 @@
-//! Pictures in memory: how they lie, and a batch of them.
+//! Batches of pictures in memory, and their layout.
 
 use crate::error::{NetworkError, SampleSet};
 use crate::panel::Aligned;
 use crate::picture::Picture;
 
 impl Picture {
-    /// Checks that `pictures` are a whole number of pictures, finite, and that `into` has room for `outputs` numbers of each.
+    /// Checks that `pictures` are finite whole pictures and `into` has length pictures × `outputs`.
     ///
     /// # Errors
-    /// [`NetworkError`], for the first that is not so.
+    /// [`NetworkError`] for the first violation.
     pub fn check_prediction(
         self,
         pictures: &[f32],
@@ -28,7 +28,7 @@ impl Picture {
                 expected,
             });
         }
-        // Without a way out in the middle, which would keep the compiler from vectors.
+        // No early exit, so that the compiler vectorises the loop.
         let all = |picture: &[f32]| {
             picture
                 .iter()
@@ -48,7 +48,7 @@ impl Picture {
     }
 }
 
-/// How a picture lies in memory: with a border of zeros around it, so that no loop asks where a picture ends.
+/// Memory layout of a picture, with a border of zeros, so that loops need no bounds tests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
     pub(crate) picture: Picture,
@@ -56,27 +56,27 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// The same pictures without a border.
+    /// The layout without its border.
     pub(crate) const fn bare(self) -> Layout {
         Layout { border: 0, ..self }
     }
 
-    /// Numbers per row, border included.
+    /// Values per row, border included.
     pub(crate) const fn row(&self) -> usize {
         (self.picture.width + 2 * self.border) * self.picture.channels
     }
 
-    /// Numbers per picture, border included.
+    /// Values per picture, border included.
     pub(crate) const fn len(&self) -> usize {
         (self.picture.height + 2 * self.border) * self.row()
     }
 
-    /// Where row `y` begins, without the border beside it.
+    /// Offset of row `y`, without its border.
     pub(crate) const fn start_of_row(&self, y: usize) -> usize {
         (y + self.border) * self.row() + self.border * self.picture.channels
     }
 
-    /// Where row `y` lies, without the border beside it.
+    /// Range of row `y`, without its border.
     pub(crate) fn row_range(&self, y: usize) -> std::ops::Range<usize> {
         let start = self.start_of_row(y);
         start..start + self.picture.width * self.picture.channels
@@ -98,7 +98,7 @@ impl Planes {
         Planes { layout, values }
     }
 
-    /// `count` pictures of anything with a border of zeros, in `room`, which may be longer.
+    /// Pictures in an existing buffer, which may be longer. Zeroes the borders; the pixels are unspecified.
     pub(crate) fn within(room: Aligned, layout: Layout, count: usize) -> Planes {
         let mut planes = Planes {
             layout,
@@ -118,7 +118,7 @@ impl Planes {
         planes
     }
 
-    /// The room that they lay in.
+    /// Returns the buffer.
     pub(crate) fn into_room(self) -> Aligned {
         self.values
     }
@@ -127,7 +127,7 @@ impl Planes {
         self.layout
     }
 
-    /// How many pictures there is room for.
+    /// Capacity, pictures.
     #[cfg(test)]
     pub(crate) fn batch(&self) -> usize {
         self.values.len() / self.layout.len()
@@ -143,7 +143,7 @@ impl Planes {
         &self.values[first * self.layout.len()..][..count * self.layout.len()]
     }
 
-    /// The first `count` pictures, borders included; a writer leaves the borders zero.
+    /// The first `count` pictures, borders included. Writers must keep the borders zero.
     pub(crate) fn first_mut(&mut self, count: usize) -> &mut [f32] {
         &mut self.values[..count * self.layout.len()]
     }

@@ -1,4 +1,4 @@
-//! A network ready to predict: running moments are folded into the weights, so that only convolutions are left.
+//! Prediction with running moments folded into the weights, so that only convolutions remain.
 
 mod layer;
 mod stages;
@@ -17,13 +17,13 @@ use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 use crate::team::{self, Awake};
 
-/// A network ready to predict, and the room that it needs.
+/// A network prepared for prediction, with its buffers.
 #[derive(Debug)]
 pub struct Predictor {
     machine: Machine,
     input: Planes,
     stages: Vec<Folded>,
-    /// How many of them are passed by a few pictures at a time.
+    /// Number of leading stages passed by a few pictures at a time.
     light: usize,
     scratch: Scratch,
     head: Head,
@@ -32,23 +32,23 @@ pub struct Predictor {
     form: ConvolutionForm,
 }
 
-/// Pictures that are passed at once.
+/// Pictures per batch.
 const BATCH: usize = 32;
 
-/// Products of a picture that are worth waking threads for: several hundred microseconds.
+/// Fewest products of a picture for which threads are woken: several hundred microseconds of work.
 const PRODUCTS_WORTH_WAKING: usize = 1 << 24;
 
-/// Bytes of pictures between two parts that stay in a thread's second-level cache beside those that they are made of.
+/// Bytes of pictures between two stages that fit into a thread's second-level cache beside their inputs.
 const PICTURES_IN_CACHE: usize = 256 << 10;
 
 impl Network {
-    /// The network ready to predict, in the form that is fastest for many pictures at once.
+    /// Prepares prediction in the form that is fastest for many pictures at once.
     pub fn predictor(&self) -> Predictor {
         self.predictor_in(ConvolutionForm::Winograd)
     }
 
-    /// The network ready to predict in one form: however many pictures there are, so that the prediction of a picture does not depend on
-    /// what is predicted beside it. [`ConvolutionForm::Mixed`] is the fastest one where pictures come one at a time, as from a sensor.
+    /// Prepares prediction in one form for any number of pictures, so that a prediction does not depend on the other pictures of a call.
+    /// [`ConvolutionForm::Mixed`] is fastest for single pictures, as from a live sensor.
     pub fn predictor_in(&self, form: ConvolutionForm) -> Predictor {
         let mut layout = self.architecture.stages()[0].input_layout(self.architecture.input);
         let input = Planes::zeros(layout.picture, layout.border, BATCH);
@@ -56,7 +56,7 @@ impl Network {
         let mut stages = Vec::new();
         for (position, (plan, stage)) in self.planned().enumerate() {
             let output = plan.output(layout.picture);
-            // At least one even behind the last, so that a block's output lies as its input does.
+            // At least one pixel even after the last stage, so that a block's output has the layout of its input.
             let next = plans.get(position + 1);
             let border = next.map_or(1, |next| next.input_layout(output).border);
             stages.push(Folded::new(stage, layout, border, form));
@@ -80,34 +80,34 @@ impl Network {
 }
 
 impl Predictor {
-    /// Pictures it takes.
+    /// Shape of an input picture.
     pub fn input(&self) -> Picture {
         self.input.layout().picture
     }
 
-    /// Numbers it gives for each picture.
+    /// Numbers predicted for each picture.
     pub fn outputs(&self) -> usize {
         self.head.outputs()
     }
 
-    /// The form of its convolutions.
+    /// Form of the convolutions.
     pub fn form(&self) -> ConvolutionForm {
         self.form
     }
 
-    /// The outputs of each picture.
+    /// Predicts the outputs of each picture.
     ///
     /// # Shapes
-    /// `pictures`: `[samples, height, width, channels]`; `into`: `[samples, outputs]`, the caller's.
+    /// `pictures`: `[samples, height, width, channels]`; `into`: `[samples, outputs]`, allocated by the caller.
     /// # Errors
-    /// [`NetworkError`] if a length differs, a number is not finite, or there is no room for transformed weights, which are made at the
-    /// first call.
+    /// [`NetworkError`] if a length differs, a value is not finite, or memory is short for the transformed weights. They are computed at
+    /// the first call.
     pub fn predict(&mut self, pictures: &[f32], into: &mut [f64]) -> Result<(), NetworkError> {
         let (picture, outputs) = (self.input(), self.outputs());
         picture.check_prediction(pictures, outputs, into)?;
         self.prepare()?;
         if self.is_divided(pictures.len() / picture.len()) {
-            // Within the pool, so that it is entered once and not for each layer.
+            // Enters the pool once instead of once per layer.
             rayon::scope(|_| {
                 let _awake = Awake::keep();
                 self.pass_in_batches(pictures, into);
@@ -118,7 +118,7 @@ impl Predictor {
         Ok(())
     }
 
-    /// Whether so many pictures are fewer than threads, and one is enough work to wake these for.
+    /// True if pictures are fewer than threads and one picture is enough work to wake them.
     fn is_divided(&self, pictures: usize) -> bool {
         let products: usize = self.stages.iter().map(Folded::products).sum();
         team::parts(pictures) > 1 && products >= PRODUCTS_WORTH_WAKING
@@ -135,14 +135,14 @@ impl Predictor {
         }
     }
 
-    /// Transforms the weights that are not yet.
+    /// Transforms all weights that are not transformed yet.
     fn prepare(&mut self) -> Result<(), NetworkError> {
         let layers = self.stages.iter_mut().flat_map(Folded::layers_mut);
         let layers: Vec<&mut Layer> = layers.collect();
         let numbers: usize = layers.iter().map(|layer| layer.missing()).sum();
         for layer in layers {
             let prepared = layer.prepare(self.machine);
-            // What is asked for is all of them, not the one that had no room.
+            // Reports the total of all weights, not of the one that failed.
             prepared.map_err(|_| NetworkError::Memory {
                 bytes: numbers * size_of::<f32>(),
             })?;
@@ -150,7 +150,7 @@ impl Predictor {
         Ok(())
     }
 
-    /// The outputs of the first `count` pictures of the input.
+    /// Computes the outputs of the first `count` pictures of the input.
     fn pass(&mut self, count: usize) -> &[f64] {
         let (light, heavy) = self.stages.split_at(self.light);
         let pass = Pass {
@@ -173,7 +173,7 @@ impl Predictor {
     }
 }
 
-/// Passes pictures through `stages`, all through one and then all through the next; nothing where there are none.
+/// Passes all pictures through one stage after the other. Returns `None` if `stages` is empty.
 fn pass_all(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Option<Planes> {
     let mut seen: Option<Planes> = None;
     for stage in stages {
@@ -193,8 +193,8 @@ fn pass_all(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Option<
     seen
 }
 
-/// Passes pictures through `stages`, a few through all of them and then the next few: what lies between large pictures and few weights
-/// never leaves a cache.
+/// Passes a few pictures at a time through all `stages`. Activations of early stages, large pictures with few weights, then stay in
+/// a cache.
 fn pass_few_at_a_time(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Planes {
     let layout = stages.last().map_or(pass.input.layout(), Folded::output);
     let few = (PICTURES_IN_CACHE / (layout.len() * size_of::<f32>())).max(1);

@@ -10,17 +10,17 @@ use crate::loss::Loss;
 pub struct Samples<'a> {
     /// `[samples, height, width, channels]`.
     pub pictures: &'a [f32],
-    /// The labels of each picture.
+    /// Labels of each picture.
     pub labels: Labels<'a>,
 }
 
 impl Samples<'_> {
-    /// How many there are.
+    /// Number of samples.
     pub(crate) fn count(&self, architecture: &Architecture) -> usize {
         self.pictures.len() / architecture.input.len()
     }
 
-    /// Whether they go with the architecture and the loss, and are finite.
+    /// Checks that samples are finite and match the architecture and the loss.
     pub(crate) fn check(
         &self,
         part: SampleSet,

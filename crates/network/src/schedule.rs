@@ -1,34 +1,34 @@
-//! The rate of each step.
+//! Learning rate of each step.
 
 use serde::{Deserialize, Serialize};
 
-/// How the learning rate changes over a training.
+/// Learning rate over a training.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Schedule {
-    /// Always the same.
+    /// Constant rate.
     Constant,
     /// From the full rate to zero along half a cosine.
     Cosine,
     /// Multiplied by `factor` after each `every` steps.
     Step {
-        /// Steps between two changes.
+        /// Steps between changes.
         every: u64,
-        /// The factor on the rate at each.
+        /// Factor of each change.
         factor: f64,
     },
-    /// From a 25th up along half a cosine for the share `rise` of all steps, then down to a 10,000th of where it began.
+    /// Rises from 1/25 of the full rate along half a cosine for the share `rise` of all steps, then falls to 1/10,000 of the start.
     ///
     /// # Reference
-    /// L. N. Smith, N. Topin, "Super-convergence", 2019; ends and shape are those of PyTorch's `OneCycleLR`.
+    /// L. N. Smith, N. Topin, "Super-convergence", 2019; limits and shape as in PyTorch's `OneCycleLR`.
     OneCycle {
-        /// The share of steps that the rate rises, above 0 and below 1.
+        /// Share of steps with a rising rate, above 0 and below 1.
         rise: f64,
     },
 }
 
 impl Schedule {
-    /// The factor on the full rate at step `step` of `steps`, counted from 0.
+    /// Ratio of the rate at step `step`, counted from 0, of `steps` to the full rate.
     ///
     /// ```
     /// use taceva_network::Schedule;

@@ -1,23 +1,23 @@
-//! Memory that passes lend each other.
+//! Buffers shared by passes.
 
 use crate::convolution::TileRooms;
 use crate::error::NetworkError;
 use crate::panel::Aligned;
 use crate::planes::{Layout, Planes};
 
-/// Room that is used for a while and then by others.
+/// Pool of buffers for temporary use.
 #[derive(Debug)]
 pub(crate) struct Scratch {
     spare: Vec<Aligned>,
-    /// For the weights of one convolution: exchanged, and then their gradient.
+    /// Buffer for the weights of one convolution: exchanged weights, then the weight gradient.
     pub(crate) weights: Aligned,
-    /// For the same, transformed.
+    /// Buffer for transformed weights.
     pub(crate) transformed: Aligned,
     pub(crate) tiles: TileRooms,
 }
 
 impl Scratch {
-    /// Room for nothing but pictures, which comes as it is asked for.
+    /// Pool for pictures only, allocated on demand.
     pub(crate) fn of_pictures() -> Scratch {
         Scratch {
             spare: Vec::new(),
@@ -27,10 +27,10 @@ impl Scratch {
         }
     }
 
-    /// The same with room for convolutions of up to `weights` weights, and `transformed` of them transformed.
+    /// Pool with buffers for convolutions of up to `weights` weights and `transformed` transformed weights.
     ///
     /// # Errors
-    /// [`NetworkError::Memory`] if there is no room for transformed weights.
+    /// [`NetworkError::Memory`] if the transformed weights do not fit into memory.
     pub(crate) fn new(weights: usize, transformed: usize) -> Result<Scratch, NetworkError> {
         Ok(Scratch {
             weights: Aligned::zeros(weights),
@@ -39,21 +39,21 @@ impl Scratch {
         })
     }
 
-    /// `count` pictures with a border of zeros and anything within, in room that pictures of any size had before.
+    /// Takes or allocates a buffer for `count` pictures. The border is zero; the pixels are unspecified.
     pub(crate) fn take(&mut self, layout: Layout, count: usize) -> Planes {
         let length = layout.len() * count;
-        // The latest that was given back is the likeliest to be in a cache.
+        // The buffer returned last is likeliest to be in a cache.
         match self.spare.iter().rposition(|room| length <= room.len()) {
             Some(position) => Planes::within(self.spare.remove(position), layout, count),
             None => {
-                // Pictures grow towards the input: what is too small now is in a moment too small for all.
+                // Backward, pictures grow towards the input: a buffer too small now is soon too small for all pictures.
                 self.spare.pop();
                 Planes::zeros(layout.picture, layout.border, count)
             }
         }
     }
 
-    /// Gives the room of pictures back.
+    /// Returns the buffer of pictures.
     pub(crate) fn put(&mut self, planes: Planes) {
         self.spare.push(planes.into_room());
     }

@@ -1,4 +1,4 @@
-//! Vectors of each instruction set and the loops that live in their registers; the only files with `unsafe` code.
+//! Vectors of each instruction set, and inner loops. Only these files contain `unsafe` code.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;

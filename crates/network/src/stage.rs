@@ -1,4 +1,4 @@
-//! The parts that a network passes one after the other, in training.
+//! Stages of a network in training.
 
 mod block;
 mod plain;
@@ -15,7 +15,7 @@ use crate::normalised_convolution::{Back, Normed};
 use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 
-/// The weights of a part.
+/// Weights of a stage.
 #[derive(Clone, Debug)]
 pub(crate) enum Stage {
     Stem(Normed),
@@ -23,7 +23,7 @@ pub(crate) enum Stage {
     Block(Box<Block>),
 }
 
-/// What training keeps of a part between the passes.
+/// Activations and prepared passes of a stage in training.
 #[derive(Debug)]
 pub(crate) enum StageSpace {
     Stem(StemSpace),
@@ -31,22 +31,22 @@ pub(crate) enum StageSpace {
     Block(Box<BlockSpace>),
 }
 
-/// How a part stands in its network.
+/// Context of a stage in its network.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Standing {
-    /// Pictures that it reads.
+    /// Layout of the input pictures.
     pub(crate) input: Layout,
-    /// Zeros around the pictures that it gives.
+    /// Border of the output pictures, pixels.
     pub(crate) border: usize,
     pub(crate) batch: usize,
-    /// Whether no part before it needs a gradient.
+    /// True if no earlier stage needs a gradient.
     pub(crate) is_first: bool,
-    /// The form of its convolutions.
+    /// Form of the convolutions.
     pub(crate) form: ConvolutionForm,
 }
 
 impl Stage {
-    /// The part of `plan` that reads `inputs` channels; its slots begin at `slot`.
+    /// Stage of `plan` for `inputs` input channels. Its slots begin at `slot`.
     pub(crate) fn new(plan: StagePlan, inputs: usize, slot: usize) -> Stage {
         let first = plan.first(inputs);
         match plan {
@@ -56,7 +56,7 @@ impl Stage {
         }
     }
 
-    /// Its convolutions, with what their names and those of their normalisation end in, in the order of their slots.
+    /// Convolutions in slot order, with the suffixes of their tensor names: convolution and normalisation.
     pub(crate) fn normed(&self) -> Vec<(&Normed, [&'static str; 2])> {
         match self {
             Stage::Stem(normed) => vec![(normed, ["conv1", "bn1"])],
@@ -65,7 +65,7 @@ impl Stage {
         }
     }
 
-    /// As [`normed`](Stage::normed), to be changed.
+    /// Mutable convolutions, in the order of [`normed`](Stage::normed).
     pub(crate) fn normed_mut(&mut self) -> Vec<&mut Normed> {
         match self {
             Stage::Stem(normed) | Stage::Plain(normed) => vec![normed],
@@ -73,7 +73,7 @@ impl Stage {
         }
     }
 
-    /// Room to train it in.
+    /// Allocates training buffers.
     pub(crate) fn space(&self, standing: Standing) -> StageSpace {
         match self {
             Stage::Stem(normed) => StageSpace::Stem(StemSpace::new(normed, standing)),
@@ -82,7 +82,7 @@ impl Stage {
         }
     }
 
-    /// Passes the first `count` pictures; `scratch` lends room on the way.
+    /// Runs the stage on the first `count` pictures, with temporary buffers of `scratch`.
     pub(crate) fn forward(
         &mut self,
         machine: Machine,
@@ -104,7 +104,7 @@ impl Stage {
         }
     }
 
-    /// Passes the gradient of the output on; gives that of the input, where something stands before it.
+    /// Runs the backward pass. Returns the input gradient, or `None` for a first stage that is a stem or plain.
     pub(crate) fn backward(
         &mut self,
         space: &mut StageSpace,
@@ -129,7 +129,7 @@ impl Stage {
 }
 
 impl StageSpace {
-    /// What the part gave.
+    /// Output pictures.
     pub(crate) fn output(&self) -> &Planes {
         match self {
             StageSpace::Stem(space) => &space.output,
@@ -138,7 +138,7 @@ impl StageSpace {
         }
     }
 
-    /// Numbers that the weights of one convolution take at most when a pass transforms them.
+    /// Longest transformed weights of any convolution.
     pub(crate) fn transformed_len(&self) -> usize {
         match self {
             StageSpace::Stem(space) => space.normed.transformed_len(),

@@ -1,24 +1,24 @@
-//! Several threads of the pool at one picture: parts of work that are too short to wake a thread for each.
+//! Division of one picture among threads of the pool, for parts too short to wake a thread for each.
 //!
-//! A thread of the pool that finds nothing to do falls asleep after about ten microseconds and takes twenty or more to wake
-//! (`examples/waking.rs` measures it), and a layer of a network is passed in a hundred. So those that are to help look for parts all
-//! the while that pictures are predicted, for a while in vain, and whoever waits for a part looks on too.
+//! An idle thread of the pool sleeps after about ten microseconds and takes twenty or more to wake (`examples/waking.rs` measures it).
+//! A layer takes about a hundred. Helper threads therefore spin while pictures are predicted, for a limited time. A thread that waits
+//! for a part spins too and runs other parts.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::Yield;
 
-/// Threads that divide the work of one picture at most: a layer has not enough for more.
+/// Most threads for one picture: a layer has not enough work for more.
 const MOST: usize = 8;
 
-/// How many times a thread looks for work in vain before it may sleep: several times as many as a layer takes.
+/// Failed searches for work after which a thread may sleep: several times the duration of a layer.
 const PATIENCE: u32 = 3000;
 
-/// How many times a thread looks in vain before it lets other programs have the processor.
+/// Failed searches after which a thread yields the processor to other programs.
 const LOOKS: u32 = 64;
 
-/// Parts that each of so many pictures is to be divided into, so that every thread has something to do.
+/// Number of parts per picture that gives work to every thread.
 pub(crate) fn parts(images: usize) -> usize {
     let threads = rayon::current_num_threads().min(MOST);
     if (1..threads).contains(&images) {
@@ -28,13 +28,13 @@ pub(crate) fn parts(images: usize) -> usize {
     }
 }
 
-/// Does `work` to each of `parts`, the first on this thread; the others are done by whoever is free.
+/// Calls `work` on each of `parts`: the first on this thread, the others on any free thread.
 pub(crate) fn divide<P: Send>(parts: Vec<P>, work: impl Fn(P) + Sync) {
     let mut parts = parts.into_iter();
     let Some(own) = parts.next() else { return };
     let left = AtomicUsize::new(parts.len());
     let (work, left) = (&work, &left);
-    // It does not end before its parts have, whatever becomes of them.
+    // The scope ends after its parts, even if one panics.
     rayon::in_place_scope(|scope| {
         for part in parts {
             scope.spawn(move |_| {
@@ -47,14 +47,14 @@ pub(crate) fn divide<P: Send>(parts: Vec<P>, work: impl Fn(P) + Sync) {
     });
 }
 
-/// While it lives the threads that help do not sleep, unless there is nothing to do for a while.
+/// Guard that keeps helper threads spinning until dropped, or until they are idle for too long.
 #[must_use]
 pub(crate) struct Awake {
     is_over: Arc<AtomicBool>,
 }
 
 impl Awake {
-    /// Wakes as many threads as divide a picture beside this one.
+    /// Wakes the helper threads.
     pub(crate) fn keep() -> Awake {
         let is_over = Arc::new(AtomicBool::new(false));
         let begun = Arc::new(AtomicUsize::new(0));
@@ -64,11 +64,11 @@ impl Awake {
             let (is_over, begun) = (Arc::clone(&is_over), Arc::clone(&begun));
             rayon::spawn(move || {
                 begun.fetch_add(1, Ordering::Relaxed);
-                // This thread has found what another was meant to find, and has its own work.
+                // This thread picked up a job meant for a helper, and has its own work.
                 if rayon::current_thread_index() == home {
                     return;
                 }
-                // The first would otherwise find what is to wake the next.
+                // Waits until all have begun; otherwise the first helper would take the jobs of the next.
                 for _ in 0..PATIENCE {
                     if begun.load(Ordering::Relaxed) >= others {
                         break;
@@ -88,8 +88,8 @@ impl Drop for Awake {
     }
 }
 
-/// Does what work there is until `is_over`, or until there was none for a while: several that look for each other's work would
-/// otherwise wait for ever.
+/// Runs available work until `is_over`, or until none was found for a while. Without this limit, threads that wait for
+/// each other's work would wait forever.
 fn look_for_work(is_over: impl Fn() -> bool) {
     let mut in_vain = 0;
     while in_vain < PATIENCE && !is_over() {

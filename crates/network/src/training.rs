@@ -1,4 +1,4 @@
-//! Training: one step at a time, so that a caller can inspect, save or stop between any two.
+//! Training, one step at a time: a caller can inspect, save or stop between any two.
 
 mod augmentation;
 mod breakage;
@@ -30,9 +30,9 @@ use taceva_core::random::Draws;
 
 /// A training in progress.
 ///
-/// Everything drawn is a function of the recipe's seed, the epoch and the sample, so that a training that was interrupted and
-/// resumed ends with the same bits as one that was not, on any number of threads. (On another device than the processor, draws
-/// are the same and sums may not be.)
+/// Random numbers depend only on the recipe's seed, the epoch and the sample. An interrupted and resumed training therefore ends
+/// with the same bits as an uninterrupted one, on any number of threads. On a GPU the random numbers are the same, but sums may
+/// differ.
 #[derive(Debug)]
 pub struct Trainer<'a> {
     architecture: Architecture,
@@ -42,24 +42,24 @@ pub struct Trainer<'a> {
     validation: Option<Samples<'a>>,
     scale: LabelScale,
     state: TrainingState,
-    /// The network after the epoch that did best on the validation part.
+    /// Network after the epoch with the lowest validation loss.
     best: Option<Network>,
-    /// The samples of the current epoch in their order; made anew when an epoch begins.
+    /// Order of the samples in the current epoch. Empty before the first step.
     order: Vec<usize>,
-    /// The form of convolutions on the processor.
+    /// Form of convolutions on the CPU.
     form: ConvolutionForm,
 }
 
-/// Purposes of draws.
+/// Purposes of random draws.
 const ORDER: u64 = 1;
 const AUGMENTATION: u64 = 2;
 
 impl<'a> Trainer<'a> {
-    /// A training of a network of `architecture` from random weights.
+    /// Training of a network of `architecture` from random weights.
     ///
     /// # Errors
-    /// [`NetworkError`] if the architecture cannot be built, the recipe or the samples cannot be used, they do not go
-    /// together, or memory is short.
+    /// [`NetworkError`] if the architecture, the recipe or the samples are invalid or do not match, or memory is
+    /// short.
     pub fn new(
         architecture: &Architecture,
         recipe: &Recipe,
@@ -70,7 +70,7 @@ impl<'a> Trainer<'a> {
         Trainer::of(network, recipe, training, validation)
     }
 
-    /// A training from the weights of `network`.
+    /// Training from the weights of `network`.
     ///
     /// # Errors
     /// As [`new`](Trainer::new).
@@ -125,22 +125,22 @@ impl<'a> Trainer<'a> {
         })
     }
 
-    /// The same training on the processor with convolutions of one form from its present state on. Last digits of what it computes are those
-    /// of that form, and so are those of a training that is gone on with from one of its checkpoints.
+    /// Continues this training on the CPU with convolutions in `form`. The last digits of results depend on the form. A checkpoint
+    /// keeps it.
     ///
     /// # Errors
-    /// Those of the engine that it leaves; [`NetworkError::Memory`].
+    /// Errors of the previous engine; [`NetworkError::Memory`].
     pub fn in_form(self, form: ConvolutionForm) -> Result<Trainer<'a>, NetworkError> {
         let trainer =
             self.on(|snapshot, recipe| Ok(Box::new(Processor::new(snapshot, recipe, form)?)))?;
         Ok(Trainer { form, ..trainer })
     }
 
-    /// The same training on the engine that `begin` makes from its present state. The engine that it leaves is gone by then, and so is the memory that it
-    /// took.
+    /// Continues this training on the engine made by `begin`. The previous engine and its memory are released
+    /// before.
     ///
     /// # Errors
-    /// Those of `begin`, and of the engine that it leaves.
+    /// Errors of `begin` and of the previous engine.
     pub fn on(
         self,
         begin: impl FnOnce(&Snapshot, &Recipe) -> Result<Box<dyn Engine>, NetworkError>,
@@ -153,8 +153,8 @@ impl<'a> Trainer<'a> {
         })
     }
 
-    /// Its present state. Of a training that met a number that is not finite, the best network: later weights, and what the optimiser
-    /// remembers of them, may not be finite.
+    /// Present network and optimiser state. After a number that is not finite, returns the best network without optimiser state: later
+    /// values may not be finite.
     fn snapshot(&self) -> Result<Snapshot, NetworkError> {
         match (&self.best, self.state.broken) {
             (Some(best), Some(_)) => Ok(Snapshot {
@@ -168,12 +168,12 @@ impl<'a> Trainer<'a> {
         }
     }
 
-    /// How far it has come.
+    /// Progress and losses.
     pub fn state(&self) -> &TrainingState {
         &self.state
     }
 
-    /// Steps of an epoch: as many whole batches as there are; the samples left over are others in each epoch.
+    /// Steps per epoch: the number of whole batches. Each epoch leaves over other samples.
     pub fn steps_per_epoch(&self) -> u64 {
         (self.training.count(&self.architecture) / self.recipe.batch) as u64
     }
@@ -183,16 +183,16 @@ impl<'a> Trainer<'a> {
         self.steps_per_epoch() * self.recipe.epochs
     }
 
-    /// Whether nothing is left to do.
+    /// True if all steps are done or training stopped early.
     pub fn is_finished(&self) -> bool {
         self.state.is_stopped || self.state.step >= self.steps()
     }
 
-    /// Makes the next step; nothing if the training is finished.
+    /// Runs the next step. Returns `None` if the training is finished.
     ///
     /// # Errors
-    /// [`NetworkError::LossNotFinite`] or [`NetworkError::WeightNotFinite`], naming the step, now and at every further call; the
-    /// network of the best epoch until then is still what [`finish`](Trainer::finish) gives and what a checkpoint keeps.
+    /// [`NetworkError::LossNotFinite`] or [`NetworkError::WeightNotFinite`] with the step, repeated at every further call.
+    /// [`finish`](Trainer::finish) and checkpoints then still keep the network of the best epoch.
     pub fn step(&mut self) -> Result<Option<Step>, NetworkError> {
         if let Some(breakage) = self.state.broken {
             return Err(breakage.into());
@@ -236,19 +236,19 @@ impl<'a> Trainer<'a> {
         Ok(Some(Step { step, loss, epoch }))
     }
 
-    /// Makes all steps that are left.
+    /// Runs all remaining steps.
     ///
     /// # Errors
-    /// As [`step`](Trainer::step).
+    /// Errors of [`step`](Trainer::step).
     pub fn run(mut self) -> Result<Trained, NetworkError> {
         while self.step()?.is_some() {}
         self.finish()
     }
 
-    /// What the training gave so far.
+    /// Ends the training and returns its result.
     ///
     /// # Errors
-    /// Those of [`Engine::network`]; never on the processor.
+    /// Errors of [`Engine::network`]; none on the CPU.
     pub fn finish(self) -> Result<Trained, NetworkError> {
         let network = match self.best {
             Some(best) => best,
@@ -261,13 +261,13 @@ impl<'a> Trainer<'a> {
         })
     }
 
-    /// The draws of a purpose.
+    /// Random draws for one purpose.
     fn draws(&self, purpose: u64) -> Draws {
-        // Weights are drawn by slot from the seed itself; purposes lie beyond all slots.
+        // Weights are drawn from the seed by slot. Purposes are numbers beyond all slots.
         Draws::new(self.recipe.seed).of(u64::MAX - purpose)
     }
 
-    /// The pictures of a batch, augmented, and their scaled labels or their classes.
+    /// Augmented pictures of a batch, with their scaled labels or their classes.
     fn batch_of(&self, epoch: u64, chosen: &[usize]) -> (Vec<Vec<f32>>, Vec<f64>, Vec<u32>) {
         let (picture, outputs) = (self.architecture.input, self.architecture.outputs);
         let draws = self.draws(AUGMENTATION).of(epoch);
@@ -296,7 +296,7 @@ impl<'a> Trainer<'a> {
         (changed, labels, classes)
     }
 
-    /// Closes an epoch: measures, remembers the best, and stops when patience ends.
+    /// Ends an epoch: measures losses, stores the best network, and stops when patience is exhausted.
     fn end_epoch(&mut self) -> Result<Epoch, NetworkError> {
         let epoch = Epoch {
             training_loss: self.state.loss_sum / self.steps_per_epoch() as f64,
@@ -320,7 +320,7 @@ impl<'a> Trainer<'a> {
         Ok(epoch)
     }
 
-    /// The loss of the validation part, normalised by running moments.
+    /// Loss of the validation part, computed with running moments. `None` without a validation part.
     fn validation_loss(&mut self) -> Result<Option<f64>, NetworkError> {
         let Some(validation) = &self.validation else {
             return Ok(None);

@@ -1,10 +1,10 @@
-//! What is done with a gradient once it is known.
+//! Consumers of gradients.
 
-/// Takes the gradient of each parameter as soon as it is known, while it is still in a cache; the parameter's old value is needed
-/// no more.
+/// Receives the gradient of each parameter as soon as it is computed, while cached. The backward pass no longer needs the
+/// parameter's old value.
 ///
-/// An optimiser changes the parameter; a test keeps the gradient.
+/// An optimiser updates the parameter; a test stores the gradient.
 pub(crate) trait Update {
-    /// `gradient` of the parameter at `slot`, which holds `values`.
+    /// Receives the gradient of the parameter at `slot` with the values `values`.
     fn update(&mut self, slot: usize, values: &mut [f32], gradient: &[f32]);
 }

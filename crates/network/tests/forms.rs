@@ -1,5 +1,5 @@
-//! The forms of convolutions: each predicts as it does whatever stands beside, all alike, and training in one of them keeps what a
-//! training promises.
+//! Forms of convolutions. Predictions do not depend on other pictures of the batch, all forms agree, and training in one form keeps the
+//! promises of trainings.
 
 use crate::common::plain::{self, Moments};
 use crate::common::tiles::{self, picture};

@@ -1,4 +1,4 @@
-//! What `TACEVA_ISA` asks for changes no bit of a training or of a prediction, as long as products are fused, and neither does the number of threads.
+//! Instruction sets selected by `TACEVA_ISA` change no bit of a training or prediction if products are fused. Nor do threads.
 
 use std::process::Command;
 
@@ -97,7 +97,7 @@ fn trainings_and_predictions_have_the_same_bits_under_every_fused_taceva_isa_and
         let output = output.expect("this program runs");
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         assert!(output.status.success(), "{isa}: {text}");
-        // What the frame of tests prints may stand before it.
+        // Output of the test harness may precede it.
         assert!(text.contains(&format!("instructions: {isa}")), "{text}");
         let lines = text.lines().filter(|line| line.contains("digest "));
         let digests: Vec<String> = lines.map(str::to_owned).collect();

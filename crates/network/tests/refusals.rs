@@ -1,4 +1,4 @@
-//! What cannot be trained or built is refused by name.
+//! Invalid trainings and architectures are rejected by name.
 
 use crate::common::small::{PICTURE, architecture, recipe, sums, values};
 use taceva_network::{

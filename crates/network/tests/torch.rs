@@ -26,7 +26,7 @@ struct Batch {
 #[derive(Deserialize)]
 struct Course {
     losses: Vec<f64>,
-    /// How far PyTorch's single precision strays from its double at most, over the first loss.
+    /// Largest deviation of PyTorch's single precision from its double precision, relative to the first loss.
     stray: f64,
 }
 

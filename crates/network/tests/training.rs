@@ -1,4 +1,4 @@
-//! What a training promises: the same bits however it is run, whole or in parts, and the best of it at the end.
+//! Promises of trainings: the same bits in one run or in parts, and the best epoch at the end.
 
 use crate::common::small::{PICTURE, architecture, recipe, sums, values};
 use crate::draws::{doubles, singles};

@@ -1,4 +1,4 @@
-//! The model that does best on samples left out, within a budget of work.
+//! Selection of the model with the least error on held-out samples, within a budget of work.
 
 mod candidates;
 mod cost;
@@ -27,26 +27,28 @@ use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
 
-/// Tries models, the cheapest first, as long as that is worth it, and chooses one.
+/// Tries models, the cheapest first, and takes one.
 ///
-/// The training part is divided into five folds: whole groups, or runs of neighbouring samples. A trial scores one fold, chooses its settings on
-/// the next and learns from the other three. All models are tried on the first fold; the small network with a quarter of its epochs, and with all
-/// of them where that leaves open whether it is ahead. If it is clearly ahead it is taken, and what takes more work is not tried. Else the others
-/// go on to the next fold, but for those that the best is clearly ahead of (by three standard errors of the difference, by group) and those that do no
-/// better than another that takes a tenth of their work. Of those left the one of least error is taken; the baseline unless that is better by more than two standard errors;
-/// and the network where it is better than that one, on the first fold, by more than two and by more than a twentieth of the squared error.
+/// The training part is divided into five folds of whole groups, or runs of neighbouring samples. A trial learns from three folds,
+/// chooses settings on a fourth and scores the fifth. All models are tried on the first fold. The small network trains a quarter of
+/// its epochs, and all of them if the result is open. If it is clearly ahead, it is taken, and costlier models are not tried.
 ///
-/// The budget is counted in work, not by a clock: seconds of a core that does a thousand million multiplications each second. A model is tried if that,
-/// and fitting it then, fit into what is left. What a model takes follows from the numbers of samples, features and channels, so that the same
-/// recording leads to the same choice on every machine, under any load and on any number of threads. The baseline and ridge are always tried.
+/// Otherwise the other models continue to the next fold. Models drop out if the best is ahead by three standard errors of the
+/// difference, by group. They also drop out if another model is as good with a tenth of their work. The remaining model of least
+/// error is taken, or the baseline unless that model is better by more than two standard errors. The network replaces it if it is
+/// better on the first fold, by more than two standard errors and a twentieth of the squared error.
+///
+/// The budget counts work, not time: seconds of a core with 10⁹ multiplications per second. A model is tried if its trial and final
+/// fit fit into the remaining budget. Work depends on the numbers of samples, features and channels. The same recording therefore
+/// leads to the same choice on every machine, under any load and with any number of threads. Baseline and ridge are always tried.
 #[derive(Clone, Debug)]
 pub struct Auto {
     budget_s: f64,
-    /// Models of libraries that are tried beside those of this crate.
+    /// Library models that are tried beside those of this crate.
     libraries: Vec<&'static LibraryModel>,
-    /// The signals that are learnt from, where they are no pictures.
+    /// Signals to learn from. `None` for pictures.
     of_signals: Option<SignalInfo>,
-    /// Where the training of a network that is taken is kept.
+    /// Checkpoints for the training of a network, if one is taken.
     checkpoints: Option<Checkpoints>,
 }
 
@@ -59,18 +61,18 @@ const BUDGET: SettingInfo = SettingInfo {
 };
 
 impl Auto {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "auto",
         about: "whichever of the others but the residual networks does best on samples left out, within a budget of work",
         settings: &[BUDGET],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Auto::from_settings(settings)?)),
-        // A file names the model that was taken.
+        // A file names the taken model instead.
         load: |_| Err(FormatError::Card),
     };
 
-    /// The choice as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -84,7 +86,7 @@ impl Auto {
         })
     }
 
-    /// The choice among models of libraries too.
+    /// Adds library models to the candidates.
     #[must_use]
     pub fn among(mut self, libraries: &[&'static LibraryModel]) -> Auto {
         self.libraries.extend(libraries);
@@ -93,7 +95,7 @@ impl Auto {
 }
 
 impl Auto {
-    /// The model of `info` with default settings, the network as the preset of that name, as it learns from what is looked at here.
+    /// Estimator of `info` with default settings, adapted to signals if there are any. The network uses the preset of its name.
     fn candidate(&self, info: &ModelInfo) -> Made {
         let settings = match info.name == NETWORK {
             true => DEFAULT.of_model(),
@@ -109,7 +111,7 @@ impl Auto {
         })
     }
 
-    /// What networks see where frames are large enough and nobody asks for another grid.
+    /// Features of networks, for frames that are large enough and without a requested grid.
     pub(crate) const CLOSER: Option<FeatureSpec> = NetworkEstimator::CNN.features;
 }
 

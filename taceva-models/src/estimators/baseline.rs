@@ -1,4 +1,4 @@
-//! Predicts the mean of the training part: every other model should have a smaller error.
+//! Baseline: predicts the mean of the training part. Every other model should have a smaller error.
 
 use taceva_core::{ModelError, Progress, TrainingSet};
 
@@ -10,12 +10,12 @@ use crate::training::info::ModelInfo;
 use crate::training::label_scaling::label_means;
 use crate::training::problem::Problem;
 
-/// Predicts the mean of the training part, whatever it sees.
+/// Predicts the mean of the training part for every sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Baseline;
 
 impl Baseline {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "baseline",
         about: "predicts the mean of the training part: every other model should have a smaller error",
@@ -25,7 +25,7 @@ impl Baseline {
         load: LinearRegressor::load,
     };
 
-    /// The baseline; it knows no setting.
+    /// Builds the estimator, which has no settings.
     ///
     /// # Errors
     /// [`SettingError::Unknown`] for any setting.
@@ -46,7 +46,7 @@ impl LinearEstimator for Baseline {
         let validation = problem.validation(validation)?;
         let channels = problem.channels();
         let spans = problem.scaling.span();
-        // The constant of the model card, to the last bit: no skill is shown by rounding.
+        // Bitwise equal to the constant of the model card, so that rounding never appears as skill.
         let bias = label_means(training.targets);
         let error = |channel: usize| {
             let labels = validation.as_ref()?.labels.col_as_slice(channel);

@@ -1,4 +1,4 @@
-//! Linear discriminants: every channel is predicted as one of its training labels.
+//! Linear discriminants: predict each channel as one of its training labels.
 
 mod classes;
 mod regressor;
@@ -23,10 +23,10 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 
-/// Linear discriminants: a channel is predicted as one of the values that it takes in the training part, that whose mean picture is
-/// nearest once features are whitened by the scatter within values ([`Discriminant`]).
+/// Linear discriminants: predict each channel as one of its training values. Features are whitened by the scatter within values, and
+/// the value with the nearest mean is taken ([`Discriminant`]).
 ///
-/// For boards, kinds and levels; a channel that varies freely has too many values and is refused. Nothing is chosen by error, so the validation
+/// For boards, kinds and levels. A channel with more than 256 values is rejected. No setting is chosen by error, so the validation
 /// part is only scored.
 ///
 /// # Reference
@@ -36,14 +36,14 @@ pub struct LinearDiscriminant {
     scale: FeatureScale,
 }
 
-/// Classes of a channel at most.
+/// Most classes of a channel.
 const VALUES_MAX: usize = 256;
 
-/// The most features of which a covariance is kept: 134 MB.
+/// Most features of a covariance matrix: 134 MB.
 const FEATURES_MAX: usize = 4096;
 
 impl LinearDiscriminant {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "lda",
         about: "linear discriminants: predicts one of the labels of the training part, for kinds, boards and levels",
@@ -53,7 +53,7 @@ impl LinearDiscriminant {
         load: ClassRegressor::load,
     };
 
-    /// Linear discriminants as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -65,9 +65,9 @@ impl LinearDiscriminant {
     }
 }
 
-/// The labels of one channel: the values that occur, and which of them each sample has.
+/// Distinct labels of one channel, and the label index of each sample.
 struct Levels {
-    /// Ascending.
+    /// Distinct labels, ascending.
     values: Vec<f64>,
     classes: Vec<usize>,
 }
@@ -116,7 +116,7 @@ impl ModelEstimator for LinearDiscriminant {
         let design = Design::new(training.features, self.scale);
         let blocks = |samples: Range<usize>| design.block(samples, 0..width);
         let stage = ReportedStage::begin(progress, "channels", problem.channels());
-        // Of several channels that are refused it is always the first that is said, whichever thread was done before.
+        // Reports the error of the first failing channel, in any order of threads.
         let planes: Vec<Result<Planes, ModelError>> = (0..problem.channels())
             .into_par_iter()
             .map(|position| {

@@ -1,4 +1,4 @@
-//! Least squares with a penalty that leaves most weights at 0.
+//! Elastic net: least squares with a penalty that makes most weights 0.
 
 mod descent;
 mod predictors;
@@ -19,10 +19,10 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, centred};
 use crate::training::trials::{Trials, rows_of};
 
-/// The elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel, the intercept b unpenalised.
+/// Elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel, with an unpenalised intercept b.
 ///
-/// λ is the strength × the least λ at which every weight is 0. Of the 25 strengths 1, 10⁻¹ᐟ⁶ … 10⁻⁴ each channel gets its own: the one of
-/// least squared error on the validation part; without one, on folds of the training part.
+/// λ is the strength × the least λ at which every weight is 0. Each channel gets one of the 25 strengths 1, 10⁻¹ᐟ⁶ … 10⁻⁴: the
+/// strength of least squared error on the validation part, or on folds of the training part if there is none.
 ///
 /// # Reference
 /// H. Zou, T. Hastie, J. R. Stat. Soc. B 67 (2005) 301; J. Friedman, T. Hastie, R. Tibshirani, J. Stat. Softw. 33 (2010) 1, sec. 2.2.
@@ -47,11 +47,11 @@ const MIX: SettingInfo = SettingInfo {
     about: "the share of the penalty that is on absolute values rather than squares: 1 is the lasso",
 };
 
-/// The weights of one channel, at each strength.
+/// Weights of one channel at each strength.
 type Path = Vec<Vec<f64>>;
 
 impl ElasticNet {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "elastic-net",
         about: "least squares that leaves most weights at 0: shows which pixels matter",
@@ -61,7 +61,7 @@ impl ElasticNet {
         load: LinearRegressor::load,
     };
 
-    /// The elastic net as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -75,7 +75,7 @@ impl ElasticNet {
         })
     }
 
-    /// From the weakest to the strongest: of equals the last is the plainest.
+    /// Strengths, ascending: of equal errors the last, strongest one is taken.
     fn strengths(&self) -> Vec<f64> {
         let grid = || {
             (0..=24)
@@ -85,7 +85,7 @@ impl ElasticNet {
         self.strength.map_or_else(grid, |strength| vec![strength])
     }
 
-    /// The weights of every channel at every strength, and the mean that was taken from the labels.
+    /// Returns the label means, and the weights of every channel at every strength.
     fn solve(
         &self,
         design: &Design<'_>,
@@ -96,7 +96,7 @@ impl ElasticNet {
         let predictors = Predictors::of(design, progress)?;
         let products = design.transpose_times(labels.as_ref());
         let strengths = self.strengths();
-        // Of several channels that fail it is always the first that is said, whichever thread was done before.
+        // Reports the error of the first failing channel, in any order of threads.
         let channels: Vec<Result<Path, ModelError>> = (0..labels.ncols())
             .into_par_iter()
             .map(|channel| {

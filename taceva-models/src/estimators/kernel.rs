@@ -1,8 +1,8 @@
-//! Models that compare a sample with landmarks among the training samples, by the kernel exp(−‖x − x'‖² / 2ℓ²D).
+//! Kernel models: compare a sample with landmarks among the training samples by exp(−‖x − x'‖² / 2ℓ²D).
 //!
-//! D is the summed variance of the features over the training part, so that a length ℓ means the same for bright and dark
-//! pictures, many features and few. A kernel of all training samples is replaced by Nyström's form on the landmarks, whose
-//! features every linear method here can learn from: ridge regression of them is kernel ridge regression.
+//! D is the summed variance of the features over the training part. A length ℓ therefore means the same for bright and dark pictures,
+//! many features and few. Nyström's form on landmarks replaces a kernel of all training samples. Every linear method here can learn
+//! from its features: ridge regression on them is kernel ridge regression.
 
 mod gaussian_process;
 mod landmarks;
@@ -38,10 +38,10 @@ const LANDMARKS: SettingInfo = SettingInfo {
     about: "how many training samples are landmarks at most, with which all samples are compared",
 };
 
-/// The lengths that are tried, the plainest last.
+/// Kernel lengths to try, the plainest last.
 const LENGTHS: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 
-/// What all kernel methods have in common.
+/// Settings shared by all kernel methods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Kernel {
     scale: FeatureScale,
@@ -50,7 +50,7 @@ struct Kernel {
 }
 
 impl Kernel {
-    /// What can be set of every one.
+    /// Settings in the registry.
     const SETTINGS: &'static [SettingInfo] =
         &[FeatureScale::SETTING, LENGTH, LANDMARKS, SettingInfo::REFIT];
 
@@ -76,7 +76,7 @@ impl Kernel {
     }
 }
 
-/// The samples of both parts as a kernel of one length sees them.
+/// Samples of both parts, mapped by a kernel of one length.
 struct Mapped {
     map: Nystrom,
     training: Features,

@@ -1,7 +1,7 @@
-//! Models of other libraries: what such a model is, what it is fitted on, and how its fitted parameters are kept.
+//! Models of other libraries: interface, training data and storage of fitted parameters.
 //!
-//! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`] and registers a [`LibraryModel`]; checks, scaling of features and
-//! labels, the choice of settings and the model file are the same as for every other model.
+//! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`] and registers a [`LibraryModel`]. Checks, scaling of features and
+//! labels, choice of settings and model file are the same as for every other model.
 
 #[cfg(any(feature = "linfa", feature = "smartcore"))]
 mod adapter;
@@ -39,16 +39,16 @@ use crate::training::card::LibraryCard;
 use crate::training::fit::ModelEstimator;
 use crate::training::info::ModelInfo;
 
-/// Libraries whose models a program may offer; each is a feature of the program, called as the library.
+/// Supported libraries. Each is a Cargo feature of the same name.
 pub(crate) const LIBRARIES: [&str; 2] = ["linfa", "smartcore"];
 
-/// The library that a model called `name` is of: what stands before `/`, if it is one that a program may be built with.
+/// Library of the model `name`: the part before `/`, if it is a supported library.
 pub(crate) fn library_of(name: &str) -> Option<&'static str> {
     let (library, _) = name.split_once('/')?;
     LIBRARIES.into_iter().find(|known| *known == library)
 }
 
-/// Every model of linfa and smartcore that this build has, the plainest of each first; none without the features `linfa` and `smartcore`.
+/// All models of linfa and smartcore in this build, the plainest of each first. Empty without the features `linfa` and `smartcore`.
 ///
 /// ```
 /// use taceva_models::{Models, library_models};
@@ -67,57 +67,57 @@ pub fn library_models() -> impl Iterator<Item = &'static LibraryModel> {
     of_linfa.iter().chain(of_smartcore).copied()
 }
 
-/// A model of another library: its entry in the registry, what trying it takes, and how a fitted one is read back.
+/// A model of another library: registry entry, cost and loader.
 #[derive(Clone, Copy, Debug)]
 pub struct LibraryModel {
-    /// What people choose and set; the name is `library/model`.
+    /// Registry entry, named `library/model`.
     pub info: ModelInfo,
-    /// Which release of the library fits, `linfa 0.8.1`.
+    /// Release of the library, such as `linfa 0.8.1`.
     pub release: &'static str,
-    /// Multiplications that one fit with default settings takes, for `auto`; `None` where it cannot be tried on parts of these sizes.
+    /// Multiplications of one fit with default settings, for `auto`. `None` if these sizes are not supported.
     pub(crate) work: fn(LibrarySizes) -> Option<f64>,
-    /// The fitted parameters that a file keeps, for a model of these sizes.
+    /// Loads the fitted parameters of a model of these sizes from a file.
     ///
-    /// Errors: [`ModelError`] if a tensor is missing or a number is out of range; files may be damaged.
+    /// Errors: [`ModelError`] if a tensor is missing or a number is out of range, as in damaged files.
     pub(crate) load: fn(&LibraryTensors<'_>, LibrarySizes) -> LoadedPredictor,
 }
 
-/// An estimator of a library with its settings, not fitted yet.
+/// Unfitted estimator of a library with its settings.
 pub(crate) trait LibraryLearner: Send + Sync {
-    /// Its entry in the registry.
+    /// Registry entry.
     fn model(&self) -> &'static LibraryModel;
 
-    /// What all models of libraries have in common.
+    /// Settings shared by all library models.
     fn settings(&self) -> LibrarySettings;
 
-    /// The setting that is chosen by error, with the values that are tried, the plainest model last; one value where a person set it.
+    /// Setting chosen by error with its candidate values, the plainest last; one value if the user set it. `None` without such a setting.
     fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
         None
     }
 
-    /// Whether labels are classes: each prediction is one of the labels of the training part.
+    /// True for classifiers, which predict one of the training labels.
     fn is_classifier(&self) -> bool {
         false
     }
 
-    /// Refuses what the library cannot learn from; `training` has whole, finite samples, at least two.
+    /// Rejects training sets that the library does not support. `training` has at least two samples, complete and finite.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `InvalidArgument` with what would be accepted.
+    /// [`ModelError`] of kind `InvalidArgument` with the values accepted.
     fn check(&self, training: &TrainingSet<'_>) -> Result<(), ModelError> {
         let _ = training;
         Ok(())
     }
 
-    /// Fits the library's estimator; a panic of the library is an error.
+    /// Fits the library's estimator. A panic of the library becomes an error.
     ///
     /// # Errors
-    /// [`ModelError`] if the library refuses or panics, or the fit was cancelled.
+    /// [`ModelError`] if the library fails or panics, or the fit was cancelled.
     fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError>;
 }
 
 impl LibraryModel {
-    /// What a card says of a model that it fitted.
+    /// Entry for the cards of its models.
     pub(crate) fn card(&self) -> LibraryCard {
         let (library, _) = self.info.name.split_once('/').unwrap_or_default();
         LibraryCard {
@@ -128,7 +128,7 @@ impl LibraryModel {
 }
 
 impl ModelInfo {
-    /// The entry of a model of another library, which sees gray pictures of 32 × 32 where nothing else is asked for.
+    /// Registry entry of a library model, with gray pictures of 32 × 32 by default.
     pub(crate) const fn of_library(
         name: &'static str,
         about: &'static str,

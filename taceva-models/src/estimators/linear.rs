@@ -1,4 +1,4 @@
-//! A prediction that is linear in the features: what baseline, ridge, partial least squares and the elastic net are fitted to.
+//! Linear regressors, the fits of baseline, ridge, partial least squares and elastic net.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -20,12 +20,12 @@ use crate::training::output::{check_call, check_finite};
 use crate::training::problem::Problem;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// An estimator whose regressor is linear, and that can say what it chose.
+/// An estimator with a linear regressor, which reports its choice of settings.
 pub trait LinearEstimator: Estimator {
-    /// Learns as [`Estimator::fit`] does.
+    /// Fits like [`Estimator::fit`].
     ///
     /// # Errors
-    /// As [`Estimator::fit`].
+    /// Errors of [`Estimator::fit`].
     fn fit_linear(
         &self,
         training: &TrainingSet<'_>,
@@ -34,16 +34,16 @@ pub trait LinearEstimator: Estimator {
     ) -> Result<LinearFit, ModelError>;
 }
 
-/// What fitting gave.
+/// Result of a fit.
 #[derive(Clone, Debug)]
 pub struct LinearFit {
-    /// The fitted model, in the units of the channels.
+    /// Fitted model, in the units of the channels.
     pub regressor: LinearRegressor,
-    /// What was chosen for each channel, and how well it did.
+    /// Chosen setting and error of each channel.
     pub choice: Choice,
-    /// The label ranges it was fitted in.
+    /// Label ranges of the fit.
     pub scaling: LabelScaling,
-    /// Whether the validation part was learnt from too, once the settings were chosen.
+    /// True if the model was refitted on training and validation parts with the chosen settings.
     pub refitted: bool,
 }
 
@@ -56,22 +56,22 @@ pub struct LinearRegressor {
     bias: Vec<f64>,
 }
 
-/// The tensors of a linear model, in the order of their names.
+/// Names of the tensors, sorted.
 const BIAS: &str = "bias";
 const WEIGHTS: &str = "weights";
 
-/// Samples a thread takes at a time.
+/// Samples per task of a thread.
 const CHUNK: usize = 64;
 
 impl LinearRegressor {
-    /// A regressor of ready weights.
+    /// Builds a regressor from weights and biases.
     ///
     /// # Shapes
     /// `weights`: `[channels, features]`; `bias`: `[channels]`.
     /// # Units
-    /// Those of the channels.
+    /// Units of the channels.
     /// # Errors
-    /// [`ModelError`] if a length differs or a number is not finite.
+    /// [`ModelError`] if a length differs or a value is not finite.
     pub fn new(
         channels: Channels,
         shape: FeatureShape,
@@ -102,7 +102,7 @@ impl LinearRegressor {
         })
     }
 
-    /// The regressor that `weights` of the centred features of `design` and the `mean` of scaled labels make.
+    /// Converts `weights` of the centred features of `design` and the `mean` of scaled labels to a regressor in label units.
     pub(crate) fn from_scaled(
         problem: &Problem<'_>,
         design: &Design<'_>,
@@ -113,7 +113,7 @@ impl LinearRegressor {
         LinearRegressor::of_design(problem, shape, design, weights, mean)
     }
 
-    /// The same of features that something else was made into: those of a kernel.
+    /// Like [`from_scaled`](Self::from_scaled), for mapped features such as those of a kernel.
     pub(crate) fn from_mapped(
         problem: &Problem<'_>,
         design: &Design<'_>,
@@ -159,7 +159,7 @@ impl LinearRegressor {
         LinearRegressor::new(problem.training.targets.channels.clone(), shape, flat, bias)
     }
 
-    /// The model that a file holds.
+    /// Loads the model from a file.
     pub(crate) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         let (tensors, channels) = (&stored.tensors, stored.channels.clone());
         let shape = stored.shape();
@@ -170,7 +170,7 @@ impl LinearRegressor {
         Ok(ModelRegressor::new(own))
     }
 
-    /// The weights of each channel's features.
+    /// Weights of each channel.
     ///
     /// # Shapes
     /// `[channels, features]`.
@@ -178,7 +178,7 @@ impl LinearRegressor {
         &self.weights
     }
 
-    /// What each channel is predicted as where every feature is 0.
+    /// Prediction of each channel for features of 0, in its unit.
     pub fn bias(&self) -> &[f64] {
         &self.bias
     }
@@ -186,7 +186,7 @@ impl LinearRegressor {
     /// Predicts one sample.
     ///
     /// # Shapes
-    /// `sample`: `[features]`; `into`: `[channels]`, the caller's.
+    /// `sample`: `[features]`; `into`: `[channels]`, allocated by the caller.
     /// # Errors
     /// [`ModelError`] if a shape differs, or a prediction is not finite.
     pub fn predict_one(&self, sample: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
@@ -220,7 +220,7 @@ impl LinearRegressor {
     }
 }
 
-/// Eight partial sums, so that the additions do not wait for each other; always in the same order.
+/// Dot product with eight partial sums, so that additions do not wait for each other. The order is fixed.
 fn dot(weights: &[f64], values: &[f32]) -> f64 {
     let (weights, last_weights) = weights.as_chunks::<8>();
     let (values, last_values) = values.as_chunks::<8>();

@@ -1,4 +1,4 @@
-//! The mean of the training samples that look most alike.
+//! Nearest neighbours: mean of the most similar training samples.
 
 mod regressor;
 
@@ -21,11 +21,11 @@ use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
-/// k nearest neighbours: the labels of the k training samples of least distance, each weighted by 1 / distance.
+/// k nearest neighbours: mean of the labels of the k nearest training samples, weighted by 1 / distance.
 ///
-/// Samples exactly as far as the k-th count too, and where a sample equals some training samples, these alone. Of the numbers
-/// 1, 2, 3, 5, 8, 13, 21, 34 each channel gets its own: the one of least squared error on the validation part; without one, on
-/// folds of the training part.
+/// Samples at the same distance as the k-th are included. If a sample equals training samples, only these count. Each channel gets one
+/// of the numbers 1, 2, 3, 5, 8, 13, 21, 34: the number of least squared error on the validation part, or on folds of the training
+/// part if there is none.
 ///
 /// # Reference
 /// T. M. Cover, P. E. Hart, IEEE Trans. Inf. Theory 13 (1967) 21; D. Shepard, ACM Nat. Conf. 23 (1968) 517 (weights).
@@ -43,11 +43,11 @@ const COUNT: SettingInfo = SettingInfo {
     about: "how many training samples a prediction is the mean of",
 };
 
-/// The numbers that are tried; more neighbours are plainer.
+/// Numbers to try; more neighbours are plainer.
 const COUNTS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 
 impl Neighbours {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "knn",
         about: "the mean of the training samples that look most alike: nothing is assumed, nothing extrapolated",
@@ -57,7 +57,7 @@ impl Neighbours {
         load: NeighbourRegressor::load,
     };
 
-    /// Nearest neighbours as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -71,7 +71,7 @@ impl Neighbours {
     }
 }
 
-/// The summed squares of each channel (inner) for each number of neighbours (outer), on samples that are held out.
+/// Summed squared errors of each channel (inner) for each number of neighbours (outer) on held-out samples.
 fn squares(
     learnt: (&[f32], &Mat<f64>),
     held: (&[f32], &Mat<f64>),

@@ -1,4 +1,4 @@
-//! Networks that read features as pictures: a small one of five convolutions, and residual ones.
+//! Networks that read features as pictures: a small one of five convolutions, and residual networks.
 
 mod appearance;
 mod ensemble;
@@ -14,5 +14,5 @@ pub use estimator::NetworkEstimator;
 pub use regressor::NetworkRegressor;
 pub use spacing::{SpacingNetwork, SpacingOutput};
 
-/// The error of a network on features that are a list.
+/// Error for features without picture shape.
 const NO_PICTURE: &str = "a network reads pictures, and principal components are none";

@@ -1,4 +1,4 @@
-//! Partial least squares: few directions, each the one that goes best with the labels.
+//! Partial least squares: few directions, each with the greatest covariance with the labels.
 
 mod simpls;
 
@@ -18,9 +18,9 @@ use crate::training::trials::{FOLDS, folds, folds_of};
 
 /// Partial least squares of all channels at once.
 ///
-/// Each channel gets its own number of directions (none is the mean): the one of least squared error on the validation part; without one, on
-/// up to ten groups of the training part left out one after the other, more groups assigned to ten folds, or ten runs of
-/// neighbouring samples (neighbours in time look alike, so samples are not left out singly).
+/// Each channel gets its own number of directions; with none it predicts the mean. The number has the least squared error on the
+/// validation part, or on left-out samples of the training part: up to ten groups in turn, more groups combined in ten folds,
+/// or ten runs of neighbouring samples. Single samples are not left out, because neighbours in time look alike.
 ///
 /// # Reference
 /// S. de Jong, Chemometr. Intell. Lab. Syst. 18 (1993) 251 (SIMPLS).
@@ -57,7 +57,7 @@ impl Default for Pls {
 }
 
 impl Pls {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "pls",
         about: "partial least squares: few directions, each the one that goes best with the labels",
@@ -67,7 +67,7 @@ impl Pls {
         load: LinearRegressor::load,
     };
 
-    /// Partial least squares as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -84,7 +84,7 @@ impl Pls {
         })
     }
 
-    /// Errors of each number of directions, most first and none last: of equals the last is the plainest.
+    /// Errors for each number of directions, descending to none: of equal errors the last, plainest one is taken.
     fn choose(
         &self,
         problem: &Problem<'_>,
@@ -113,7 +113,7 @@ impl Pls {
     }
 }
 
-/// The summed squares of each channel for every number of directions, each group predicted by a fit that never saw it.
+/// Summed squared errors of each channel for every number of directions. Each group is predicted by a fit without it.
 fn left_out(
     problem: &Problem<'_>,
     whole: &Design<'_>,
@@ -142,7 +142,7 @@ fn left_out(
         });
         let squares = squares_on(&directions, &design.of(&held), &labels);
         for (used, sums) in total.iter_mut().enumerate() {
-            // Where fewer directions were found than elsewhere, all of them stand for more.
+            // A fit with fewer directions than requested counts with all of them.
             let own = &squares[directions.count() - used.min(directions.count())];
             sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
@@ -151,7 +151,7 @@ fn left_out(
     Ok(total)
 }
 
-/// The summed squares of each channel, most directions first and none at all last.
+/// Summed squared errors of each channel for every number of directions, descending to none.
 fn squares_on(directions: &Directions, design: &Design<'_>, labels: &Mat<f64>) -> Errors {
     let scores = design.times(directions.weights());
     let mut residuals = labels.clone();

@@ -1,4 +1,4 @@
-//! Models of estimators that this crate does not have: those of plugins. They are kept as their makers' bytes.
+//! Models of plugins, stored as opaque bytes of the plugin.
 
 mod estimator;
 mod regressor;

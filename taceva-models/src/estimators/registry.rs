@@ -1,4 +1,4 @@
-//! The models by name.
+//! Registry of models by name.
 
 mod preset;
 
@@ -21,7 +21,7 @@ use crate::estimators::trees::{GradientBoosting, RandomForest};
 use crate::settings::Suggestion;
 use crate::training::info::ModelInfo;
 
-/// Every model, the plainest first.
+/// All models, the plainest first.
 pub const ALL: &[ModelInfo] = &[
     Baseline::INFO,
     Ridge::INFO,
@@ -41,7 +41,7 @@ pub const ALL: &[ModelInfo] = &[
     Auto::INFO,
 ];
 
-/// The model called `name`.
+/// Finds the model `name`.
 ///
 /// ```
 /// let ridge = taceva_models::find("ridge")?;
@@ -53,19 +53,19 @@ pub const ALL: &[ModelInfo] = &[
 /// ```
 ///
 /// # Errors
-/// [`UnknownModel`] with the nearest name.
+/// [`UnknownModel`] with the most similar name.
 pub fn find(name: &str) -> Result<&'static ModelInfo, UnknownModel> {
     ALL.iter()
         .find(|info| info.name == name)
         .ok_or_else(|| UnknownModel::new(name, ALL.iter().map(|info| info.name)))
 }
 
-/// A name that no model has.
+/// Error for an unknown model name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownModel {
     name: String,
     suggestion: Suggestion,
-    /// The feature that the program lacks, where that is why.
+    /// Missing Cargo feature, if that is the reason.
     feature: Option<&'static str>,
 }
 

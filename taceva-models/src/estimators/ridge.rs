@@ -1,4 +1,4 @@
-//! Least squares with a penalty on large weights, every strength from one spectrum.
+//! Ridge regression: all strengths from one spectrum.
 
 mod leave_out;
 mod strength;
@@ -18,13 +18,12 @@ use crate::training::fit::estimator;
 use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 
-/// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² for each channel, the intercept b unpenalised.
+/// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² for each channel, with an unpenalised intercept b.
 ///
-/// λ is the strength × the mean eigenvalue of the centred Gram matrix, so that a strength means the same for
-/// bright and dark pictures, many and few. Of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴ each channel gets its own: the one of least
-/// squared error on the validation part; without one, on the groups of the training part left out one after the
-/// other, or on its samples. Leaving out is exact, by the blocks of the hat matrix, and costs no refit. A strength of 0 is least squares,
-/// refined to the last digits; it needs more samples than features.
+/// λ is the strength × the mean eigenvalue of the centred Gram matrix. A strength therefore means the same for bright and dark pictures,
+/// many and few. Each channel gets one of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴: the strength of least squared error on the validation
+/// part. Without one, groups of the training part are left out in turn, or single samples. Leaving out is exact, by blocks of the
+/// hat matrix, and needs no refit. A strength of 0 is least squares, refined to the last digits; it needs more samples than features.
 ///
 /// # Reference
 /// A. E. Hoerl, R. W. Kennard, Technometrics 12 (1970) 55; D. M. Allen, Technometrics 16 (1974) 125 (leaving out).
@@ -53,7 +52,7 @@ impl Default for Ridge {
 }
 
 impl Ridge {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "ridge",
         about: "least squares with a penalty on large weights; fast, and hard to beat on few recordings",
@@ -63,7 +62,7 @@ impl Ridge {
         load: LinearRegressor::load,
     };
 
-    /// Ridge regression as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -80,7 +79,7 @@ impl Ridge {
         })
     }
 
-    /// Ridge regression of features as they are, its strengths chosen.
+    /// Ridge regression on unscaled features with chosen strengths.
     pub(crate) fn unscaled(refit: bool) -> Ridge {
         Ridge {
             scale: FeatureScale::None,
@@ -89,7 +88,7 @@ impl Ridge {
         }
     }
 
-    /// The strength for every channel, if a person set it.
+    /// Strength for every channel, if set by the user.
     pub fn strength(&self) -> Option<f64> {
         self.strength
     }
@@ -129,7 +128,7 @@ impl Ridge {
     }
 }
 
-/// The solutions for every penalty.
+/// Solutions for every penalty.
 struct Path<'s, 'd, 'a> {
     spectrum: &'s Spectrum<'d, 'a>,
     design: &'d Design<'a>,
@@ -138,7 +137,7 @@ struct Path<'s, 'd, 'a> {
 }
 
 impl Path<'_, '_, '_> {
-    /// The weights where the column `channel` of targets has the penalty that `columns` names beside it.
+    /// Weights for pairs of target channel and penalty, one column per pair.
     fn weights(&self, columns: &[(usize, f64)]) -> Mat<f64> {
         let eigenvalues = self.spectrum.eigenvalues();
         let coefficients = Mat::from_fn(eigenvalues.len(), columns.len(), |row, column| {
@@ -148,7 +147,7 @@ impl Path<'_, '_, '_> {
         self.spectrum.weights(coefficients.as_ref())
     }
 
-    /// The mean squared error of each channel at each penalty.
+    /// Mean squared error of each channel at each penalty.
     fn errors_on(&self, part: &Validation<'_>) -> Errors {
         let channels = self.rotated.ncols();
         let columns: Vec<(usize, f64)> = self
@@ -198,7 +197,7 @@ impl LinearEstimator for Ridge {
         let spectrum = Spectrum::new(&design, progress)?;
         let unit = match spectrum.mean_eigenvalue() {
             mean if mean > 0.0 => mean,
-            // No feature varies: every strength gives weights of 0.
+            // No feature varies: all weights are 0 at every strength.
             _ => 1.0,
         };
         let strengths = self.candidates();
@@ -251,7 +250,7 @@ impl LinearEstimator for Ridge {
     }
 }
 
-/// The regressor of training and validation together, with the penalties chosen before.
+/// Fits training and validation parts together with the chosen penalties.
 fn refit(
     problem: &Problem<'_>,
     design: &Design<'_>,

@@ -1,4 +1,4 @@
-//! Decision trees, each node of which compares one feature with a threshold: grown on histograms, many at once or one after the other.
+//! Decision trees grown on histograms, in forests or by boosting. Each node compares one feature with a threshold.
 
 mod bins;
 mod boosting;

@@ -1,17 +1,17 @@
-//! What every kind of features gives: some numbers a cell.
+//! Interface of feature kinds: some values per cell.
 
 use std::fmt;
 
 use taceva_core::Frame;
 
-/// One kind of features of frames of one size and format.
+/// One kind of features, for frames of one size and format.
 pub(super) trait CellFeatures: fmt::Debug + Send + Sync {
-    /// Numbers a cell.
+    /// Values per cell.
     fn depth(&self) -> usize;
 
-    /// Writes the numbers of every cell of `frame`, whose size and format the caller has checked.
+    /// Writes the values of every cell of `frame`. The caller has checked its size and format.
     ///
     /// # Shapes
-    /// `into`: `[height, width, depth]`, every number of it written.
+    /// `into`: `[height, width, depth]`, completely overwritten.
     fn write(&self, frame: &Frame, into: &mut [f32]);
 }

@@ -1,4 +1,4 @@
-//! What is taken of a frame where a person left that open: the plainest features that cost no accuracy.
+//! Choice of open feature settings: the plainest features that cost no accuracy.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,10 +9,10 @@ use taceva_core::InputInfo;
 use crate::features::{DIFFERENCE, FeatureSpec, SIZE};
 use crate::settings::ModelSettings;
 
-/// What a person writes to have a setting chosen.
+/// Value of a setting that is to be chosen.
 const CHOSEN: &str = "auto";
 
-/// Which settings of the features were left open.
+/// Feature settings to be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OpenFeatures {
     size: bool,
@@ -20,7 +20,7 @@ pub struct OpenFeatures {
 }
 
 impl OpenFeatures {
-    /// What `settings` leave open, and the settings without it; `None` where they say everything.
+    /// Splits `settings` into open ones and the rest. `None` if all are set.
     pub fn of(settings: &ModelSettings) -> Option<(OpenFeatures, ModelSettings)> {
         let is_open = |key: &str| settings.get(key) == Some(CHOSEN);
         let open = OpenFeatures {
@@ -36,8 +36,8 @@ impl OpenFeatures {
         (open.size || open.difference).then_some((open, rest))
     }
 
-    /// The features to try around `spec`, the plainest first: grids a quarter, half, as fine and twice as fine, as far as frames of `info`
-    /// allow; signals have one grid. Each without and with the difference from the reference frame, where there is one.
+    /// Features to try around `spec`, the plainest first: grids a quarter, half, as fine and twice as fine, as far as frames of `info`
+    /// allow. Signals have one grid. Each is tried without and, if there is a reference, with the difference from it.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};
@@ -63,7 +63,7 @@ impl OpenFeatures {
             true => &[(1, 4), (1, 2), (1, 1), (2, 1)],
             false => &[(1, 1)],
         };
-        // Markers and gradients compare with the reference by themselves.
+        // Markers and gradients compare with the reference anyway.
         let may_differ = has_reference && spec.kinds.iter().any(|kind| !kind.needs_reference());
         let differences: &[bool] = match (self.difference, may_differ) {
             (true, true) => &[false, true],
@@ -80,7 +80,7 @@ impl OpenFeatures {
                 ..*spec
             }));
         }
-        // A frame that is too small for what was asked for says so itself.
+        // A frame too small for the requested size causes its own error later.
         candidates.retain(|candidate| {
             let fits = frame.is_none_or(|frame| {
                 candidate.width <= frame.width && candidate.height <= frame.height
@@ -91,44 +91,44 @@ impl OpenFeatures {
     }
 }
 
-/// How the features were chosen.
+/// Record of a choice of features.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FeatureChoice {
-    /// Samples of the training part that were not learnt from, and scored.
+    /// Held-out samples of the training part that were scored.
     pub samples: usize,
-    /// How many independent groups they are.
+    /// Number of independent groups among them.
     pub groups: usize,
-    /// The features that were tried, the plainest first.
+    /// Features tried, the plainest first.
     pub tried: Vec<FeatureTrial>,
-    /// Those that no model could be fitted to.
+    /// Features to which no model could be fitted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failed: Vec<FailedFeatures>,
 }
 
-/// Features that no model could be fitted to.
+/// Features to which no model could be fitted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FailedFeatures {
-    /// The features.
+    /// Features.
     pub features: FeatureSpec,
-    /// Why not.
+    /// Reason of the failure.
     pub reason: String,
 }
 
-/// Features that were tried.
+/// Result of features that were tried.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FeatureTrial {
-    /// The features.
+    /// Features.
     pub features: FeatureSpec,
-    /// Root mean square error relative to the deviation of labels, over the channels that vary.
+    /// Root mean square error relative to the standard deviation of labels, over the channels that vary.
     pub error: f64,
-    /// How much more of the labels' variance is missed than with those of least error; 0 there.
+    /// Excess of the unexplained share of label variance over the features of least error; 0 for these.
     pub excess: f64,
-    /// The standard error of that difference, by group.
+    /// Standard error of the excess, by group.
     pub standard_error: f64,
 }
 
 impl FeatureTrial {
-    /// Whether its error exceeds the least by no more than one standard error of the difference.
+    /// True if the excess is at most one standard error.
     fn is_enough(&self) -> bool {
         self.excess <= self.standard_error
     }
@@ -139,10 +139,10 @@ impl FeatureTrial {
 }
 
 impl FeatureChoice {
-    /// The choice among features with the loss of each scored sample: squared errors relative to the variance of labels, mean over channels.
+    /// Compares features by the loss of each scored sample: squared error relative to label variance, averaged over channels.
     ///
     /// # Shapes
-    /// `tried`, the plainest first: `[samples]` each; `groups`: `[samples]`, a number for each independent group.
+    /// `tried`, the plainest first: `[samples]` each; `groups`: `[samples]`, the number of each sample's independent group.
     pub fn new(tried: &[(FeatureSpec, Vec<f64>)], groups: &[usize]) -> FeatureChoice {
         let losses = tried.iter().map(|(_, losses)| of_groups(losses, groups));
         let losses: Vec<Vec<f64>> = losses.collect();
@@ -172,7 +172,7 @@ impl FeatureChoice {
         }
     }
 
-    /// This choice, with features that no model could be fitted to, and why.
+    /// Adds features to which no model could be fitted, with the reasons.
     #[must_use]
     pub fn with_failed(
         mut self,
@@ -185,12 +185,12 @@ impl FeatureChoice {
         self
     }
 
-    /// The plainest whose error exceeds the least by no more than one standard error of the difference.
+    /// The plainest features whose excess is at most one standard error.
     pub fn chosen(&self) -> Option<&FeatureTrial> {
         self.tried.iter().find(|trial| trial.is_enough())
     }
 
-    /// Whether no grid but the finest tried is enough: then a finer one may be better still.
+    /// True if only the finest grid is good enough, so that a finer one may be better.
     pub fn may_gain(&self) -> bool {
         let finest = self.tried.iter().map(FeatureTrial::cells).max();
         let enough = self.tried.iter().filter(|trial| trial.is_enough());
@@ -200,7 +200,7 @@ impl FeatureChoice {
     }
 }
 
-/// The mean of each group, so that a group counts once however many samples it has.
+/// Mean loss of each group, so that groups count equally.
 fn of_groups(losses: &[f64], groups: &[usize]) -> Vec<f64> {
     let mut sums = BTreeMap::<usize, (f64, f64)>::new();
     for (loss, group) in losses.iter().zip(groups) {

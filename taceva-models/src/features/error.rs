@@ -1,136 +1,136 @@
-//! Why features cannot be taken.
+//! Errors of feature extraction.
 
 use taceva_core::{FrameInfo, InputInfo, SignalInfo};
 
 use super::area::AreaSums;
 use super::spec::FeatureSpec;
 
-/// Why features cannot be taken from a frame.
+/// Error of feature extraction.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FeatureError {
-    /// The frame has fewer pixels than the features.
+    /// The frame has fewer pixels than the features have cells.
     #[error(
         "frames of {info} are smaller than the features asked for, {spec}; `size={}x{}` would be accepted",
         info.width.min(spec.width),
         info.height.min(spec.height)
     )]
     Small {
-        /// The frame.
+        /// Frame size and format.
         info: FrameInfo,
-        /// The features.
+        /// Requested features.
         spec: FeatureSpec,
     },
-    /// The frame has more rows than sums can hold.
+    /// The frame has too many rows for exact sums.
     #[error("frames of {info} have more than {} rows", AreaSums::ROWS_MAX)]
     Tall {
-        /// The frame.
+        /// Frame size and format.
         info: FrameInfo,
     },
-    /// A size that frames cannot be reduced to.
+    /// Frames cannot be reduced to this size.
     #[error(
         "frames of {info} cannot be reduced to {width}×{height}; expected a width from 1 to {} and a height from 1 to {}",
         info.width,
         info.height
     )]
     Reduction {
-        /// The frame.
+        /// Frame size and format.
         info: FrameInfo,
-        /// The width that was asked for.
+        /// Requested width.
         width: u32,
-        /// The height that was asked for.
+        /// Requested height.
         height: u32,
     },
-    /// Colour is asked for and there is none.
+    /// Colour was requested, but frames are gray.
     #[error("frames of {info} have no colour; `color=gray` would be accepted")]
     Colorless {
-        /// The frame.
+        /// Frame size and format.
         info: FrameInfo,
     },
-    /// Slopes are asked for and there is no colour to distinguish lamps by.
+    /// Slopes were requested, but gray frames do not distinguish the lamps.
     #[error(
         "frames of {info} have no colour, by which `features=gradients` distinguishes three lamps"
     )]
     Lampless {
-        /// The frame.
+        /// Frame size and format.
         info: FrameInfo,
     },
-    /// A comparison with a reference frame that the recording does not name.
+    /// A reference frame is needed, but the recording names none.
     #[error("`{asked}` needs a no-contact reference frame, and the recording names none")]
     NoReference {
-        /// The setting that asks for it.
+        /// Setting that needs it.
         asked: &'static str,
     },
-    /// Markers are asked for and the reference frame shows none.
+    /// Markers were requested, but the reference frame shows none.
     #[error(
         "`features=markers` needs a grid of markers, and the no-contact reference frame shows {}",
         match found { 0 => "no spot that stands out".to_owned(), count => format!("{count} spots at uneven distances") }
     )]
     NoMarkers {
-        /// Spots that stand out, but stand in no grid.
+        /// Number of significant spots outside any grid.
         found: usize,
     },
-    /// A frame of another size or format than the first ones, or than the model was fitted on.
+    /// The frame has another size or format than earlier frames or the model's.
     #[error("a frame of {found} where {expected} is expected")]
     Kind {
-        /// What was agreed on.
+        /// Expected size and format.
         expected: FrameInfo,
-        /// What came.
+        /// Found size and format.
         found: FrameInfo,
     },
-    /// A frame where signals are expected, signals where a frame is, or signals of another grid.
+    /// A frame instead of signals, signals instead of a frame, or signals of another grid.
     #[error("{found}, expected {expected}")]
     Input {
-        /// What was agreed on.
+        /// Expected input.
         expected: InputInfo,
-        /// What came.
+        /// Found input.
         found: InputInfo,
     },
-    /// Features of another grid than that of the signals.
+    /// The features and the signals have different grids.
     #[error("signals of {info} for features of {spec}")]
     OtherGrid {
-        /// The signals.
+        /// Grid of the signals.
         info: SignalInfo,
-        /// The features.
+        /// Requested features.
         spec: FeatureSpec,
     },
-    /// Differences of signals from those without contact, which nobody named.
+    /// Differences of signals were requested, but no contact-free signals are named.
     #[error(
         "`difference=true` needs rows without contact, and the recording names none; `rest` of `[signals]` names them"
     )]
     NoRest,
-    /// Frames are asked for and there are none.
+    /// Frames are needed, but not available.
     #[error("`{asked}` applies to frames, and the recording has {has}")]
     NoFrames {
-        /// The setting that asks for them.
+        /// Setting that needs frames.
         asked: String,
-        /// What it has.
+        /// Content of the recording.
         has: &'static str,
     },
-    /// Signals are asked for and there are none.
+    /// Signals are needed, but not available.
     #[error("the recording has no signals; `input=frame` would be accepted")]
     NoSignals,
-    /// Frames and signals, and nobody said which of them a model is to look at.
+    /// The recording has frames and signals, and no setting selects one of them.
     #[error(
         "the recording has frames and signals: `input=frame` or `input=signals` says what the model looks at"
     )]
     TwoInputs,
-    /// A network over a grid of taxels that has too few of them.
+    /// The grid of taxels is too small for a network.
     #[error(
         "a network slides over a grid of at least {least}×{least} places, and this one has {info}; every other model takes it"
     )]
     NarrowGrid {
-        /// The signals.
+        /// Grid of the signals.
         info: SignalInfo,
-        /// Places a side that a network needs.
+        /// Fewest cells along a side for a network.
         least: u32,
     },
-    /// The caller's buffer has another length than the features.
+    /// The caller's buffer has the wrong length.
     #[error("a buffer of {found} numbers for {expected} features")]
     Buffer {
-        /// Numbers of a sample.
+        /// Number of features.
         expected: usize,
-        /// Numbers the buffer holds.
+        /// Length of the buffer.
         found: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! From one frame, or the signals of one instant, to one sample's features.
+//! Extraction of one sample's features from a frame, or from the signals of one instant.
 
 use std::sync::Arc;
 
@@ -15,9 +15,9 @@ use super::signals::Taxels;
 use super::spec::{Color, FeatureSpec};
 use super::statistics::Statistics;
 
-/// Turns frames of one kind, or signals of one grid, into features; shared freely between threads.
+/// Extracts features from frames of one kind, or from signals of one grid. Can be shared between threads.
 ///
-/// A feature is a function of its frame, or its signals, and of the reference alone.
+/// Features depend only on their frame or signals and on the reference.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -30,7 +30,7 @@ use super::statistics::Statistics;
 /// let spec = FeatureSpec::from_settings(&settings)?;
 /// let extractor = Extractor::new(spec, info, Some((&even([80, 80, 80])?).into()))?;
 /// let features = extractor.extract_all([&even([90, 80, 80])?])?;
-/// // It leans towards that lamp by two thirds of that, and across by nothing; its mean is that of its luma, without any spread.
+/// // The slope towards the lamp is two thirds of the change, across it 0. The mean is that of luma, without spread.
 /// let expected = [0.125 * 2.0 / 3.0, 0.0, 0.125 / 3.0, (80.0 + 0.299 * 10.0) / 255.0, 0.0];
 /// for (found, expected) in features.values().iter().zip(expected) {
 ///     assert!((found - expected).abs() < 1e-4, "{found} for {expected}");
@@ -43,22 +43,22 @@ pub struct Extractor {
     of: Of,
 }
 
-/// What features are taken of.
+/// Input of features.
 #[derive(Clone, Debug)]
 enum Of {
-    /// Frames of a kind; one part for each kind of features that is asked for, in their order.
+    /// Frames of one kind, with one part per requested kind of features, in order.
     Frames(FrameInfo, Vec<Arc<dyn CellFeatures>>),
-    /// Signals of a grid.
+    /// Signals of one grid.
     Signals(Taxels),
 }
 
 impl Extractor {
-    /// An extractor of `spec` from frames or signals of `info`; differences, markers and gradients need the `reference`: the frame, or the
-    /// signals, without contact.
+    /// Builds an extractor of `spec` for frames or signals of `info`. Differences, markers and gradients need the contact-free frame or
+    /// signals as `reference`.
     ///
     /// # Errors
-    /// [`FeatureError`] if the frame is smaller than the features, is gray where colour is asked for or has too many
-    /// rows, or if the reference is absent, of another kind, or without markers where they are asked for; if the signals are of another grid
+    /// [`FeatureError`] if the frame is smaller than the features, gray although colour is requested, or has too many
+    /// rows. Also if a needed reference is missing, of another kind, or without requested markers; or if the signals have another grid
     /// than `spec`.
     pub fn new(
         spec: FeatureSpec,
@@ -85,17 +85,17 @@ impl Extractor {
         Ok(Extractor { spec, of })
     }
 
-    /// The shape of one sample's features.
+    /// Shape of one sample's features.
     pub fn shape(&self) -> FeatureShape {
         self.spec.shape()
     }
 
-    /// What it takes of a frame.
+    /// Features extracted.
     pub fn spec(&self) -> &FeatureSpec {
         &self.spec
     }
 
-    /// What it takes: frames of a kind, or signals of a grid.
+    /// Input: frames of one kind, or signals of one grid.
     pub fn input(&self) -> InputInfo {
         match &self.of {
             Of::Frames(info, _) => (*info).into(),
@@ -103,16 +103,16 @@ impl Extractor {
         }
     }
 
-    /// Writes the features of a frame, or of signals.
+    /// Writes the features of a frame or of signals.
     ///
     /// # Shapes
-    /// `into`: `[height, width, depth]` of [`shape`](Extractor::shape), the caller's.
+    /// `into`: `[height, width, depth]` of [`shape`](Extractor::shape), allocated by the caller.
     /// # Units
-    /// Of signals their own; of pixels, statistics and their differences full scale is 1; displacements of markers are in distances of a marker from the next,
-    /// slopes in units that depend on how flatly the lamps shine.
+    /// Signals: their own unit. Pixels, statistics and their differences: full scale is 1. Displacements of markers: marker spacings.
+    /// Slopes: a unit that depends on the elevation of the lamps.
     /// # Errors
-    /// [`FeatureError::Kind`] if the frame is of another size or format, [`FeatureError::Input`] if it is none, or signals are of another
-    /// grid; [`FeatureError::Buffer`] if `into` has another length.
+    /// [`FeatureError::Kind`] for a frame of another size or format, [`FeatureError::Input`] for the wrong kind of input or signals of
+    /// another grid; [`FeatureError::Buffer`] if the length of `into` is wrong.
     pub fn extract<'a>(
         &self,
         input: impl Into<Input<'a>>,
@@ -145,7 +145,7 @@ impl Extractor {
         Ok(())
     }
 
-    /// What each of `parts` says of a frame, side by side in each cell.
+    /// Writes the values of all `parts`, adjacent in each cell.
     fn write(&self, parts: &[Arc<dyn CellFeatures>], frame: &Frame, into: &mut [f32]) {
         let shape = self.shape();
         if let [only] = parts {
@@ -167,10 +167,10 @@ impl Extractor {
         }
     }
 
-    /// The features of some frames, or of signals of some instants.
+    /// Features of several frames, or of signals of several instants.
     ///
     /// # Errors
-    /// As [`extract`](Extractor::extract).
+    /// Errors of [`extract`](Extractor::extract).
     pub fn extract_all<'a, I: Into<Input<'a>>>(
         &self,
         inputs: impl IntoIterator<Item = I>,
@@ -186,7 +186,7 @@ impl Extractor {
     }
 }
 
-/// One for each kind that is asked for, of frames of `info`.
+/// One part per requested kind, for frames of `info`.
 fn parts(
     spec: &FeatureSpec,
     info: FrameInfo,

@@ -1,38 +1,38 @@
-//! The distance of a sample from those of the training part.
+//! Distance of a sample from the training part.
 
 use taceva_core::{FeatureShape, Features, ModelError, Progress};
 
 use super::pca::Pca;
 use crate::linalg::invalid;
 
-/// Training samples that are looked at, evenly over the part.
+/// Most training samples used, evenly spaced over the part.
 const SAMPLES_MOST: usize = 256;
-/// Training samples below which no distance is known: the limit would be that of a handful.
+/// Fewest training samples for a distance; fewer give no useful limit.
 const SAMPLES_LEAST: usize = 20;
-/// Blocks of neighbouring samples that are held out in turn where there are no groups.
+/// Blocks of neighbouring samples that are held out in turn if there are no groups.
 const BLOCKS: usize = 8;
-/// Directions at most.
+/// Most directions.
 const DIRECTIONS_MOST: usize = 16;
-/// Samples that a direction is estimated from, at least.
+/// Fewest samples per direction.
 const SAMPLES_PER_DIRECTION: usize = 4;
-/// Rows and columns of cells at most: finer pictures are averaged first.
+/// Most cells along a side. Finer pictures are averaged first.
 const SIDE_MOST: usize = 32;
-/// The share of held-out training samples within the limit.
+/// Share of held-out training samples within the limit.
 const WITHIN: f64 = 0.99;
-/// The least limit beside the directions, as a share of the spread of the features: rounding is no novelty.
+/// Smallest limit beside the directions, relative to the spread of the features, so that rounding is not novelty.
 const ROUNDING: f64 = 1e-5;
 
-/// Distance of features from those of a training part, in units of the limit that 99 of 100 held-out training samples keep.
+/// Distance of features from a training part, relative to the limit that holds for 99 of 100 held-out training samples.
 ///
-/// The part spans some directions, its leading principal components. One number says how far a sample goes along them, in standard
-/// deviations of the part (Hotelling's T); another, how far it lies beside them (the root of Q, the residual). Each is divided by its limit, and
-/// the greater one is the distance. Limits are quantiles over samples of contact points, or of blocks, that the directions were found without.
+/// The part is described by its leading principal components. Two numbers describe a sample: its distance along these directions in
+/// standard deviations of the part (Hotelling's T), and its distance beside them (the root of Q, the residual). Each is divided by its
+/// limit, and the greater quotient is the distance. Limits are quantiles over samples, held out by contact point or block.
 ///
 /// ```
 /// use taceva_core::{FeatureShape, Features, SilentProgress};
 /// use taceva_models::FeatureDistance;
 ///
-/// // Two numbers that rise together, and a third that never changes.
+/// // Two features that rise together, and a constant one.
 /// let rows = (0..60).flat_map(|row| { let at = (row % 10) as f32; [at, 2.0 * at, 5.0] });
 /// let training = Features::new(FeatureShape::flat(3), rows.collect())?;
 /// let distance = FeatureDistance::fit(&training, None, &SilentProgress)?.expect("enough samples");
@@ -43,34 +43,34 @@ const ROUNDING: f64 = 1e-5;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeatureDistance {
-    /// The shape of a sample, before cells are averaged.
+    /// Shape of a sample, before cells are averaged.
     pub(crate) shape: FeatureShape,
-    /// The mean of each averaged feature.
+    /// Mean of each averaged feature.
     pub(crate) mean: Vec<f64>,
-    /// Orthonormal directions, one after the other, in single precision: half the file.
+    /// Orthonormal directions, concatenated, in single precision to halve the file.
     pub(crate) directions: Vec<f32>,
-    /// The standard deviation along each.
+    /// Standard deviation along each direction.
     pub(crate) deviations: Vec<f64>,
-    /// The limits that divide the two numbers.
+    /// Limits of both numbers.
     pub(crate) limits: DistanceLimits,
 }
 
 /// Limits of the two numbers behind a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DistanceLimits {
-    /// Along the directions, in standard deviations of the part.
+    /// Limit along the directions, in standard deviations of the part.
     pub(crate) along: f64,
-    /// Beside them, in units of the features.
+    /// Limit beside the directions, in units of the features.
     pub(crate) beside: f64,
 }
 
 impl FeatureDistance {
-    /// The distance from `training`; `None` where that has fewer than 20 samples, or all of them are the same.
+    /// Fits the distance from `training`. `None` for fewer than 20 samples, or if all are equal.
     ///
-    /// `groups` is a number a sample: samples of a group are held out together. Without it blocks of neighbouring samples are.
+    /// `groups` numbers the samples; samples of a group are held out together. Without groups, blocks of neighbouring samples are held out.
     ///
     /// # Errors
-    /// [`ModelError`] if a feature is not finite, there is not one group a sample, or `progress` was cancelled.
+    /// [`ModelError`] if a feature is not finite, the number of `groups` is wrong, or `progress` was cancelled.
     pub fn fit(
         training: &Features,
         groups: Option<&[u32]>,
@@ -111,10 +111,10 @@ impl FeatureDistance {
         }))
     }
 
-    /// The distance of one sample: 0 in the middle of the training part, 1 at its limit.
+    /// Distance of one sample: 0 in the middle of the training part, 1 at its limit.
     ///
     /// # Errors
-    /// [`ModelError`] if there are more or fewer features.
+    /// [`ModelError`] if the number of features is wrong.
     pub fn of(&self, sample: &[f32]) -> Result<f64, ModelError> {
         if sample.len() != self.shape.len() {
             return Err(invalid(format!(
@@ -129,10 +129,10 @@ impl FeatureDistance {
         Ok(self.limits.distance(apart))
     }
 
-    /// The distance of every sample of `features`.
+    /// Distance of every sample of `features`.
     ///
     /// # Errors
-    /// As [`of`](FeatureDistance::of).
+    /// Errors of [`of`](FeatureDistance::of).
     pub fn of_all(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let samples = 0..features.samples();
         samples
@@ -140,12 +140,12 @@ impl FeatureDistance {
             .collect()
     }
 
-    /// The shape of a sample.
+    /// Shape of a sample.
     pub fn shape(&self) -> FeatureShape {
         self.shape
     }
 
-    /// True if a sample at `distance` lies outside what was seen; one that is not a number does.
+    /// True if `distance` is above 1 or NaN: the sample is unlike the training part.
     pub fn is_outside(distance: f64) -> bool {
         distance.is_nan() || distance > 1.0
     }
@@ -157,7 +157,7 @@ impl FeatureDistance {
     }
 }
 
-/// The way of a sample along the directions of a part, and beside them.
+/// Distances of a sample along the directions of a part and beside them.
 #[derive(Clone, Copy, Debug)]
 struct Apart {
     along: f64,
@@ -165,7 +165,7 @@ struct Apart {
 }
 
 impl DistanceLimits {
-    /// Limits that 99 of 100 of `apart` keep, of features that spread as much as `spread`.
+    /// Limits that hold for 99 of 100 of `apart`. `spread` is the spread of the features.
     fn of(apart: &[Apart], spread: f64) -> DistanceLimits {
         let along = apart.iter().map(|apart| apart.along);
         let beside = apart.iter().map(|apart| apart.beside);
@@ -173,7 +173,7 @@ impl DistanceLimits {
             along: quantile(along.collect()).max(1.0),
             beside: quantile(beside.collect()).max(ROUNDING * spread),
         };
-        // Either of two limits is passed more often than one of them.
+        // At least one of two limits is exceeded more often than a single one.
         let both = apart.iter().map(|apart| limits.distance(*apart));
         let both = quantile(both.collect()).max(1.0);
         DistanceLimits {
@@ -184,7 +184,7 @@ impl DistanceLimits {
 
     fn distance(&self, apart: Apart) -> f64 {
         let [along, beside] = [apart.along / self.along, apart.beside / self.beside];
-        // A maximum would pass over what is not a number.
+        // `max` would ignore NaN.
         match along.is_nan() || beside.is_nan() {
             true => f64::NAN,
             false => along.max(beside),
@@ -192,17 +192,17 @@ impl DistanceLimits {
     }
 }
 
-/// The directions in which some samples vary.
+/// Directions in which samples vary.
 struct Span {
     mean: Vec<f64>,
     directions: Vec<f32>,
     deviations: Vec<f64>,
-    /// The root mean square of the features about their mean.
+    /// Root mean square of the centred features.
     spread: f64,
 }
 
 impl Span {
-    /// The span of `seen`; `None` where nothing varies.
+    /// Span of `seen`. `None` if nothing varies.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "directions are kept in single precision"
@@ -259,7 +259,7 @@ fn centred(mean: &[f64], cells: &[f32]) -> Vec<f64> {
     pairs.map(|(cell, mean)| f64::from(*cell) - mean).collect()
 }
 
-/// Takes off `centred` its way along a direction, and gives that.
+/// Subtracts the component of `centred` along a direction and returns it.
 fn take_along(centred: &mut [f64], direction: &[f32]) -> f64 {
     let pairs = centred.iter().zip(direction);
     let along: f64 = pairs.map(|(value, of)| value * f64::from(*of)).sum();
@@ -268,7 +268,7 @@ fn take_along(centred: &mut [f64], direction: &[f32]) -> f64 {
     along
 }
 
-/// Samples in two halves, by their group, or by blocks where there are no two groups.
+/// Splits samples into halves by the parity of their group. Alternates blocks instead if there are no groups or a half is too small.
 fn halves(chosen: &[usize], groups: Option<&[u32]>) -> [Vec<usize>; 2] {
     let second = |is_second: &dyn Fn(usize) -> bool| -> [Vec<usize>; 2] {
         let (second, first) = (0..chosen.len()).partition(|&place| is_second(place));
@@ -281,7 +281,7 @@ fn halves(chosen: &[usize], groups: Option<&[u32]>) -> [Vec<usize>; 2] {
         .unwrap_or_else(|| second(&|place| place * BLOCKS / chosen.len() % 2 == 1))
 }
 
-/// The value that 99 of 100 of some keep.
+/// 99 % quantile.
 fn quantile(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     #[expect(
@@ -293,7 +293,7 @@ fn quantile(mut values: Vec<f64>) -> f64 {
     values[rank.clamp(1, values.len()) - 1]
 }
 
-/// Rows and columns of cells that become one; the numbers of a flat list are no neighbours.
+/// Rows and columns of cells that are averaged to one. Flat lists are not averaged, because their values are not neighbours.
 fn steps(shape: FeatureShape) -> [usize; 2] {
     match shape.height {
         1 => [1, 1],
@@ -301,7 +301,7 @@ fn steps(shape: FeatureShape) -> [usize; 2] {
     }
 }
 
-/// Samples whose cells are averaged, as flat lists.
+/// Samples with averaged cells, as flat lists.
 fn averaged(shape: FeatureShape, features: &Features) -> Result<Features, ModelError> {
     let width = FeatureDistance::width_of(shape);
     let mut values = Vec::with_capacity(width * features.samples());
@@ -311,7 +311,7 @@ fn averaged(shape: FeatureShape, features: &Features) -> Result<Features, ModelE
     Features::new(FeatureShape::flat(width), values)
 }
 
-/// Appends the means over blocks of cells; a flat list, and what is small enough, stays as it is.
+/// Appends the means over blocks of cells. Flat lists and small pictures stay unchanged.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "features are kept in single precision"

@@ -1,4 +1,4 @@
-//! How the surface of a gel without markers leans, by what three coloured lamps make of it.
+//! Surface slopes of a gel without markers, from the light of three coloured lamps.
 
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 
@@ -8,45 +8,45 @@ use super::error::FeatureError;
 use super::pixels::{ratio, signed};
 use super::spec::FeatureSpec;
 
-/// The share of full scale that a lamp is taken to reach everywhere: where it reaches less, noise would be taken for slope.
+/// Smallest brightness assumed for the reference, as a share of full scale. It keeps noise in dark areas from becoming slope.
 const LIT: f32 = 1.0 / 16.0;
-/// How many steps make 1: the numbers of a pixel are kept in whole steps until they are averaged.
+/// Steps per unit: values of a pixel are integers until they are averaged.
 const STEPS: f32 = 16_384.0;
-/// The step that stands for 0; 2 above and 2 below are the most that is kept.
+/// Step of the value 0. Values are limited to −2 to 2.
 const ZERO: u16 = 32_768;
-/// 1 / √3: from the difference of the lamps at 120° and 240° to the slope across the one at 0°.
+/// 1 / √3: factor from the difference of the lamps at 120° and 240° to the slope across the lamp at 0°.
 const ACROSS: f32 = 0.577_350_27;
 
-/// Slopes of each cell, towards 0° and towards 90°, and the change of light that no slope explains.
+/// Slopes of each cell towards 0° and 90°, and the change of light that slopes do not explain.
 ///
 /// # The light
-/// Three lamps shine flatly from the side, red at 0°, green at 120° and blue at 240°, on a matt surface. Where the surface leans by the slope
-/// `g` (∂z/∂x, ∂z/∂y, small), lamp `c` in the direction `d_c` and at the elevation `e` lights it by `1 - cot(e) g·d_c` of what it did before (Lambert's
-/// law to first order). With `r_c = (frame - reference) / reference` of colour `c` and an unexplained change `s` that all three share,
-/// `r_c = p·d_c + s` has one solution, which these are, pixel by pixel, then averaged over the cell:
+/// Three lamps shine at a low angle on a matt surface: red at 0°, green at 120° and blue at 240°. Let `g` be the small slope of the
+/// surface, (∂z/∂x, ∂z/∂y). Lamp `c` with direction `d_c` and elevation `e` changes the light by the factor `1 - cot(e) g·d_c`
+/// (Lambert's law to first order). Let `r_c = (frame - reference) / reference` for colour `c`, and `s` a change common to all three.
+/// Then `r_c = p·d_c + s` has one solution, which is computed for each pixel and averaged over the cell:
 ///
 /// `p_x = 2/3 (r_red - (r_green + r_blue) / 2)`, `p_y = (r_green - r_blue) / √3`, `s = (r_red + r_green + r_blue) / 3`.
 ///
-/// `p = -cot(e) g`: the number grows where the surface turns towards the lamp. The reference takes uneven lamps, vignetting and the
-/// colour of the gel with it.
+/// `p = -cot(e) g`: positive where the surface faces the lamp. Dividing by the reference cancels uneven lamps, vignetting and the
+/// colour of the gel.
 ///
-/// # What is learnt
-/// Nothing. Lamps in other directions, or of other colours than the camera's, make of these numbers another fixed linear mix of slopes, which is
-/// what a model learns anyway; a sensor needs no calibration with a ball.
+/// # Calibration
+/// None. Lamps with other directions or colours give another fixed linear mix of slopes, which a model learns anyway. No calibration
+/// with a ball is needed.
 ///
-/// # What it cannot see
-/// Shear, as nothing on the surface is followed; the depth of a flat touch but at its edge; slopes in shadow, in saturated pixels or so steep
-/// that light no longer changes in proportion; a change of light of all lamps alike is kept apart as `s`, one of a single lamp is taken for a slope.
+/// # Limits
+/// Cannot measure shear, because nothing on the surface is tracked, or the depth of a flat touch except at its edge. Fails in
+/// shadow, in saturated pixels and at slopes too steep for the linear law. A change of all lamps goes to `s`; one lamp's looks like slope.
 #[derive(Debug)]
 pub(super) struct Gradients {
     areas: AreaSums,
     reference: Vec<f32>,
-    /// 1 / brightness of the reference, which counts as `LIT` of full scale at least.
+    /// 1 / brightness of the reference, which is at least `LIT` of full scale.
     inverse: Vec<f32>,
 }
 
 impl Gradients {
-    /// For frames like `reference`, no smaller than the grid of `spec`.
+    /// Prepares gradients for frames like `reference`, no smaller than the grid of `spec`.
     pub(super) fn new(spec: &FeatureSpec, reference: &Frame) -> Result<Gradients, FeatureError> {
         let info = reference.info();
         if info.format.samples() != 3 {
@@ -65,7 +65,7 @@ impl Gradients {
         })
     }
 
-    /// The numbers of each pixel, as steps.
+    /// Values of each pixel, in steps.
     fn slopes(&self, frame: &Frame) -> Frame {
         let mut bytes = Vec::with_capacity(2 * self.reference.len());
         let own = self.reference.iter().zip(&self.inverse);
@@ -113,7 +113,7 @@ fn slopes_info(info: FrameInfo) -> FrameInfo {
     }
 }
 
-/// The nearest step, within what is kept.
+/// Rounds to the nearest step, limited to the range.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

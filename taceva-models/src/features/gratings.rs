@@ -1,4 +1,4 @@
-//! Features of gratings: the power of a picture at each spatial frequency, whatever the direction.
+//! Features of gratings: power at each spatial frequency, independent of direction.
 
 mod fourier;
 mod radial;

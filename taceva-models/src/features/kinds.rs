@@ -1,4 +1,4 @@
-//! The kinds of features there are, and sets of them.
+//! Kinds of features, and sets of them.
 
 use std::fmt;
 
@@ -6,25 +6,25 @@ use serde::{Deserialize, Serialize};
 
 use super::spec::Color;
 
-/// What is taken of every cell of a frame.
+/// Kind of features of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FeatureKind {
-    /// How bright it is: the area average of its pixels. Every change enters, of light as much as of touch.
+    /// Brightness: the area average of pixels. Affected by light as much as by touch.
     Pixels,
-    /// How far the markers around it have moved since nobody touched the gel, and how many of them are not seen.
-    /// Blind to everything between markers, and to light.
+    /// Displacement of nearby markers from the untouched gel, and the share of unseen ones.
+    /// Insensitive to everything between markers, and to light.
     Markers,
-    /// How the surface leans, by the colours of three lamps. Blind to shear and to what leans nowhere, such as the middle of a flat touch.
+    /// Surface slopes, by the colours of three lamps. Insensitive to shear and to flat areas, such as the middle of a flat touch.
     Gradients,
-    /// Mean, spread and quantiles of its pixels. Blind to where in the cell they lie.
+    /// Mean, spread and quantiles of pixels, without their positions in the cell.
     Statistics,
-    /// The numbers of a taxel, of a sensor without pictures: a cell a place. They stand alone, and are of all places.
+    /// Values of taxels, for sensors without pictures. One cell per taxel, not combined with other kinds.
     Signals,
 }
 
 impl FeatureKind {
-    /// Every kind, in the order in which the numbers of a cell stand.
+    /// All kinds, in the order of their values in a cell.
     pub const ALL: [FeatureKind; 5] = [
         FeatureKind::Pixels,
         FeatureKind::Markers,
@@ -33,7 +33,7 @@ impl FeatureKind {
         FeatureKind::Signals,
     ];
 
-    /// How it is written in settings.
+    /// Name in settings.
     pub const fn name(self) -> &'static str {
         match self {
             FeatureKind::Pixels => "pixels",
@@ -44,7 +44,7 @@ impl FeatureKind {
         }
     }
 
-    /// Numbers a cell; 0 of signals, of which the recording decides.
+    /// Values per cell; 0 for signals, whose number depends on the recording.
     pub const fn depth(self, color: Color) -> usize {
         match self {
             FeatureKind::Signals => 0,
@@ -54,12 +54,12 @@ impl FeatureKind {
         }
     }
 
-    /// Whether it compares each frame with the untouched one whatever else is asked for.
+    /// True if this kind always compares with the untouched frame.
     pub const fn needs_reference(self) -> bool {
         matches!(self, FeatureKind::Markers | FeatureKind::Gradients)
     }
 
-    /// Columns and rows where nobody asks for others, in features that begin with this kind.
+    /// Default columns and rows of features that begin with this kind.
     pub(super) const fn side(self) -> u32 {
         match self {
             FeatureKind::Pixels | FeatureKind::Gradients | FeatureKind::Signals => 32,
@@ -73,7 +73,7 @@ impl FeatureKind {
     }
 }
 
-/// One kind or several, each once; written `markers` or `pixels+markers`.
+/// Set of kinds, written `markers` or `pixels+markers`.
 ///
 /// ```
 /// use taceva_models::{FeatureKind, FeatureKinds};
@@ -90,10 +90,10 @@ impl FeatureKinds {
     /// Pixels alone.
     pub const PIXELS: FeatureKinds = FeatureKinds(FeatureKind::Pixels.bit());
 
-    /// Signals alone, as they always are.
+    /// Signals, which cannot be combined.
     pub const SIGNALS: FeatureKinds = FeatureKinds(FeatureKind::Signals.bit());
 
-    /// The kinds that `text` names, joined by `+`; `None` if one does not exist or is named twice, or signals are not alone.
+    /// Parses kinds joined by `+`. `None` if one is unknown or repeated, or if signals are combined.
     pub fn parse(text: &str) -> Option<FeatureKinds> {
         let mut kinds = FeatureKinds(0);
         for word in text.split('+') {
@@ -109,19 +109,19 @@ impl FeatureKinds {
         (!is_mixed).then_some(kinds)
     }
 
-    /// The kinds, in the order of [`FeatureKind::ALL`].
+    /// Kinds in the order of [`FeatureKind::ALL`].
     pub fn iter(self) -> impl Iterator<Item = FeatureKind> {
         FeatureKind::ALL
             .into_iter()
             .filter(move |kind| self.contains(*kind))
     }
 
-    /// Whether `kind` is among them.
+    /// True if the set contains `kind`.
     pub const fn contains(self, kind: FeatureKind) -> bool {
         self.0 & kind.bit() != 0
     }
 
-    /// Whether they are pixels and nothing else, as in every model of before there were others.
+    /// True for pixels alone, the default of older model files.
     pub fn are_pixels(&self) -> bool {
         *self == FeatureKinds::PIXELS
     }

@@ -1,4 +1,4 @@
-//! Markers of a gel: where they are to a fraction of a pixel, how far each has moved since nobody touched it, and that as features.
+//! Markers of a gel: subpixel positions, displacements from the untouched gel, and features of these.
 
 mod field;
 mod lattice;

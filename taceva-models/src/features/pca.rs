@@ -6,7 +6,7 @@ use taceva_core::{FeatureShape, Features, ModelError, Progress};
 use crate::linalg::invalid;
 use crate::linalg::{Design, FeatureScale, Spectrum};
 
-/// The directions in which the training part varies most, orthonormal, largest first.
+/// Orthonormal directions of greatest variance of the training part, largest first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pca {
     shape: FeatureShape,
@@ -16,7 +16,7 @@ pub struct Pca {
 }
 
 impl Pca {
-    /// The first `count` components of `training`. Of its two signs each has the one that makes its largest entry positive.
+    /// Computes the first `count` components of `training`. The sign of each makes its largest entry positive.
     ///
     /// # Errors
     /// [`ModelError`] if a feature is not finite, if `training` varies in fewer than `count` directions, or if
@@ -36,10 +36,10 @@ impl Pca {
         }
     }
 
-    /// The first `most` components of `training`, or all where it varies in fewer directions.
+    /// Computes the first `most` components of `training`, or all if there are fewer.
     ///
     /// # Errors
-    /// As [`fit`](Pca::fit), but for the number of directions.
+    /// Errors of [`fit`](Pca::fit), except for the number of directions.
     pub(crate) fn up_to(
         most: usize,
         training: &Features,
@@ -79,10 +79,10 @@ impl Pca {
         })
     }
 
-    /// Components that were found before.
+    /// Builds components from stored numbers.
     ///
     /// # Errors
-    /// [`ModelError`] if a length differs or a number is not finite.
+    /// [`ModelError`] if a length is wrong or a number is not finite.
     pub(crate) fn ready(
         shape: FeatureShape,
         mean: Vec<f64>,
@@ -103,30 +103,30 @@ impl Pca {
         })
     }
 
-    /// The shape of the features it was fitted on.
+    /// Shape of the features.
     pub fn shape(&self) -> FeatureShape {
         self.shape
     }
 
-    /// The mean of each feature over the training part.
+    /// Mean of each feature over the training part.
     pub fn mean(&self) -> &[f64] {
         &self.mean
     }
 
-    /// The components, each of the length of a sample.
+    /// Components, each as long as a sample.
     pub fn components(&self) -> std::slice::ChunksExact<'_, f64> {
         self.components.chunks_exact(self.mean.len())
     }
 
-    /// The share of the variance that lies along each component.
+    /// Share of the variance along each component.
     pub fn variance_ratio(&self) -> &[f64] {
         &self.variance_ratio
     }
 
-    /// The coordinates of `features` along the components.
+    /// Projects `features` onto the components.
     ///
     /// # Shapes
-    /// In: samples of [`shape`](Pca::shape); out: flat samples, a number a component.
+    /// In: samples of [`shape`](Pca::shape); out: flat samples, one value per component.
     /// # Errors
     /// [`ModelError`] if the shape differs.
     #[expect(
@@ -156,7 +156,7 @@ impl Pca {
     }
 }
 
-/// Gram–Schmidt, twice: products through the Gram matrix lose half the digits of the smallest components.
+/// Gram–Schmidt, applied twice: products through the Gram matrix lose half the digits of the smallest components.
 fn orthonormalise(vectors: &mut Mat<f64>) {
     for column in 0..vectors.ncols() {
         let mut own = vectors.col_as_slice(column).to_vec();

@@ -1,4 +1,4 @@
-//! Area averages of pixels, exactly rounded once, and their differences from a reference.
+//! Area averages of pixels, exact up to one rounding, and their differences from a reference.
 
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 
@@ -10,12 +10,12 @@ use super::spec::{Color, FeatureSpec};
 pub(super) const LUMA: [i64; 3] = [299, 587, 114];
 pub(super) const LUMA_SUM: i64 = 1000;
 
-/// Whether frames of `format` are turned into gray where `color` is asked for.
+/// True if frames of `format` must be converted to gray for `color`.
 pub(super) fn mixes(color: Color, format: PixelFormat) -> bool {
     color == Color::Gray && format.samples() == 3
 }
 
-/// Sums stay whole numbers until the one division at the end, so a feature is the exact area average rounded once.
+/// Area averages of cells. Sums are integers until one final division, so a feature is the exact average rounded once.
 #[derive(Debug)]
 pub(super) struct Pixels {
     color: Color,
@@ -67,7 +67,7 @@ impl CellFeatures for Pixels {
         self.color.depth()
     }
 
-    /// Full scale is 1; a difference lies in -1..1.
+    /// Writes values with full scale 1; differences are in −1..1.
     fn write(&self, frame: &Frame, into: &mut [f32]) {
         let full_scale = self.full_scale();
         let mut places = into.iter_mut().enumerate();
@@ -79,12 +79,12 @@ impl CellFeatures for Pixels {
     }
 }
 
-/// A sum over a cell: below 2^48 for 65,535 rows and columns of 16 bits, and a frame in memory is no wider than 2^32.
+/// Converts the sum of a cell. Below 2^48 for 65,535 rows and columns of 16 bits; frames in memory have fewer than 2^32 columns.
 pub(super) fn signed(sum: u64) -> i64 {
     i64::try_from(sum).expect("a cell of a frame in memory sums to less than 2^63")
 }
 
-/// The quotient as a feature.
+/// Divides to a feature.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "features are kept in single precision; this is the one rounding"

@@ -1,36 +1,36 @@
-//! What is done to a picture before a network sees it: part of the model, and kept in its file.
+//! Preprocessing of pictures for networks: part of the model, and stored in its file.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use taceva_core::FeatureShape;
 
-/// What is done to each picture.
+/// Preprocessing of each picture.
 ///
-/// Light that changes slowly over a picture, or from one picture to the next, says little about the touch of a sensor whose
-/// markers move; a sensor whose colour is its signal should keep it.
+/// If markers are the signal, slow changes of light within a picture or between pictures say little about the touch, so they are
+/// removed. A sensor whose colour is its signal should keep them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Preprocessing {
-    /// The mean around each pixel is subtracted, weighted by a Gaussian with this standard deviation in pixels; nothing is
-    /// subtracted where it is 0.
+    /// Standard deviation, in pixels, of the Gaussian whose weighted mean is subtracted around each pixel. 0 subtracts
+    /// nothing.
     pub local_mean_px: f64,
-    /// Whether each picture is divided by its standard deviation; a picture that is even throughout stays zero.
+    /// True to divide each picture by its standard deviation. A uniform picture becomes zero.
     pub contrast: bool,
 }
 
-/// Standard deviations to which the Gaussian reaches.
+/// Radius of the Gaussian, in standard deviations.
 const REACH: f64 = 3.0;
 
 impl Preprocessing {
-    /// The widest Gaussian, in pixels.
+    /// Largest standard deviation of the Gaussian, pixels.
     pub const LOCAL_MEAN_MAX: f64 = 100.0;
 
-    /// Whether every number is in its range.
+    /// True if all settings are in range.
     pub(crate) fn is_valid(&self) -> bool {
         (0.0..=Preprocessing::LOCAL_MEAN_MAX).contains(&self.local_mean_px)
     }
 
-    /// All pictures of `values`, changed; each on its own, so that no prediction depends on another.
+    /// Preprocesses each picture of `values` separately, so that predictions are independent.
     pub(crate) fn apply(&self, shape: FeatureShape, values: &[f32]) -> Vec<f32> {
         let kernel = self.kernel();
         let mut changed = values.to_vec();
@@ -63,7 +63,7 @@ impl Preprocessing {
     }
 }
 
-/// Subtracts from each number the weighted mean of its surroundings, as far as they lie within the picture.
+/// Subtracts from each value the weighted mean of its surroundings within the picture.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "means are formed in double precision and kept in single"
@@ -79,7 +79,7 @@ fn subtract_local_mean(kernel: &[f64], shape: FeatureShape, picture: &mut [f32])
         let last = (at + kernel.len() - 1).min(length - 1);
         first..=last
     };
-    // Rows first, then columns: the Gaussian is a product, and so is the share of it within the picture.
+    // Rows first, then columns: the Gaussian is separable, and so is its share within the picture.
     let mut rows = vec![0.0_f64; picture.len()];
     for (row, means) in picture
         .chunks_exact(width * depth)

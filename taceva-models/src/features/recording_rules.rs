@@ -1,42 +1,42 @@
-//! What is taken of a frame where that is left to what a recording's frames are: as many cells as they have pixels for, their colours, and the difference
-//! from a frame without contact.
+//! Feature settings that follow the frames of a recording: at most one cell per pixel, colour if frames have it, and the
+//! difference from a contact-free frame.
 
 use taceva_core::FrameInfo;
 
 use super::spec::{COLOR, Color, DIFFERENCE, FeatureSpec, SIZE, size};
 use crate::settings::{ModelSettings, SettingError};
 
-/// What a person writes to leave the colour to the frames.
+/// Value of the colour setting that follows the frames.
 const BY_FRAME: &str = "auto";
 
-/// What a person writes to have the difference from the reference frame where frames have colours and there is one.
+/// Value of the difference setting that subtracts the reference frame from colour frames.
 const IN_COLOR: &str = "in-color";
 
-/// What a person writes before a size to have no more cells than a frame has pixels.
+/// Prefix of a size that is limited by the pixels of a frame.
 const UP_TO: &str = "up-to-";
 
-/// What of the features was left to the frames of a recording.
+/// Feature settings that depend on the frames of a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FeaturesByRecording {
-    /// The grid to have where frames are large enough for it.
+    /// Largest grid, limited by the frame.
     most: Option<(u32, u32)>,
-    /// Whether colour is kept where frames have it.
+    /// True to keep colour if frames have it.
     color: bool,
-    /// Whether the reference frame is subtracted where frames have colours and there is one.
+    /// True to subtract the reference frame if frames have colour and there is a reference.
     difference: bool,
 }
 
-/// The frames of a recording, as far as features depend on them.
+/// Properties of a recording's frames that features depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordedFrames {
-    /// Their size and format.
+    /// Size and format.
     pub info: FrameInfo,
-    /// Whether there is one without contact.
+    /// True if there is a contact-free reference frame.
     pub has_reference: bool,
 }
 
 impl FeaturesByRecording {
-    /// What `settings` leave to the frames, and the settings without it.
+    /// Splits `settings` into those that depend on frames and the rest.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};
@@ -51,7 +51,7 @@ impl FeaturesByRecording {
     /// ```
     ///
     /// # Errors
-    /// [`SettingError::Value`] for `up-to-` before what is no size.
+    /// [`SettingError::Value`] for `up-to-` without a valid size.
     pub fn of(
         settings: &ModelSettings,
     ) -> Result<(FeaturesByRecording, ModelSettings), SettingError> {
@@ -77,7 +77,7 @@ impl FeaturesByRecording {
         Ok((open, rest))
     }
 
-    /// The same for finer features of the grid of `closer`: what a person did not set is left to the frames too.
+    /// Adapts the rules to the finer grid of `closer`. Settings that the user left open follow the frames too.
     #[must_use]
     pub fn closer(self, closer: FeatureSpec, settings: &ModelSettings) -> FeaturesByRecording {
         let is_set = |key: &str| settings.get(key).is_some();
@@ -89,12 +89,12 @@ impl FeaturesByRecording {
         }
     }
 
-    /// Whether the grid is left to the frames.
+    /// True if the grid depends on the frames.
     pub fn leaves_grid(self) -> bool {
         self.most.is_some()
     }
 
-    /// The features of `frames`; `asked` where there are none.
+    /// Resolves the features for `frames`. Returns `asked` without frames.
     #[must_use]
     pub fn on(self, asked: FeatureSpec, frames: Option<RecordedFrames>) -> FeatureSpec {
         let Some(RecordedFrames {

@@ -1,4 +1,4 @@
-//! Frames of fewer pixels, in 8 bits: exact area averages, each rounded once.
+//! Reduction of frames to fewer pixels in 8 bits: exact area averages, rounded once.
 
 use taceva_core::{Frame, FrameInfo};
 
@@ -7,9 +7,9 @@ use super::error::FeatureError;
 
 /// Reduces frames of one kind to a coarser grid, in 8 bits.
 ///
-/// A pixel is the mean of the area that it stands for, pixels at its rim by the share of them that lies in it, as a feature of that grid is. It is
-/// rounded once, to the nearest of the 255 steps of full scale (of 16 bits 257 steps are one), halves up: so a model finds its features again, but
-/// for half a step.
+/// A pixel is the mean of its area. Pixels at the rim count by their overlap, as in features of the same grid. The mean is rounded
+/// once to the nearest of the 255 steps of full scale, halves up; a step is 257 of 16-bit levels. Features of a model therefore change
+/// by at most half a step.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -31,10 +31,10 @@ pub struct FrameReduction {
 }
 
 impl FrameReduction {
-    /// Reduces frames of `from` to a width and a height.
+    /// Prepares the reduction of frames of `from` to a width and a height.
     ///
     /// # Errors
-    /// [`FeatureError::Reduction`] if a side is 0 or longer than that of the frame, [`FeatureError::Tall`] if it has too many rows.
+    /// [`FeatureError::Reduction`] if a side is 0 or longer than the frame's, [`FeatureError::Tall`] if the frame has too many rows.
     pub fn new(from: FrameInfo, [width, height]: [u32; 2]) -> Result<FrameReduction, FeatureError> {
         if !(1..=from.width).contains(&width) || !(1..=from.height).contains(&height) {
             return Err(FeatureError::Reduction {
@@ -57,20 +57,20 @@ impl FrameReduction {
         })
     }
 
-    /// What it takes.
+    /// Size and format of input frames.
     pub fn from(&self) -> FrameInfo {
         self.from
     }
 
-    /// What it gives.
+    /// Size and format of reduced frames.
     pub fn to(&self) -> FrameInfo {
         self.to
     }
 
-    /// The frame of fewer pixels.
+    /// Reduces a frame.
     ///
     /// # Errors
-    /// [`FeatureError::Kind`] if `frame` is of another size or format.
+    /// [`FeatureError::Kind`] if the size or format of `frame` is wrong.
     pub fn reduce(&self, frame: &Frame) -> Result<Frame, FeatureError> {
         if frame.info() != self.from {
             return Err(FeatureError::Kind {
@@ -87,7 +87,7 @@ impl FrameReduction {
     }
 }
 
-/// The nearest of 255 steps; a sum is below 2^48, and never above full scale.
+/// Rounds to the nearest of 255 steps. `sum` is below 2^48 and at most `full_scale`.
 fn rounded(sum: u64, full_scale: u64) -> u8 {
     u8::try_from((sum * 255 + full_scale / 2) / full_scale).unwrap_or(u8::MAX)
 }

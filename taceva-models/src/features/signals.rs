@@ -1,15 +1,15 @@
-//! Numbers of taxels as features: unchanged, or less the mean without contact.
+//! Values of taxels as features: unchanged, or minus the mean without contact.
 
 use taceva_core::{FeatureShape, Features, SignalInfo, Signals};
 
 use super::error::FeatureError;
 use super::spec::FeatureSpec;
 
-/// Takes signals of one grid.
+/// Features of signals of one grid.
 #[derive(Clone, Debug)]
 pub(super) struct Taxels {
     info: SignalInfo,
-    /// The mean without contact, where that is subtracted.
+    /// Mean signals without contact, if they are subtracted.
     rest: Option<Signals>,
 }
 
@@ -40,7 +40,7 @@ impl Taxels {
         self.info
     }
 
-    /// Writes the numbers of `signals`, whose grid the caller has checked, in their unit.
+    /// Writes the values of `signals` in their unit. The caller has checked the grid.
     pub(super) fn write(&self, signals: &Signals, into: &mut [f32]) {
         into.copy_from_slice(signals.values());
         if let Some(rest) = &self.rest {
@@ -50,10 +50,10 @@ impl Taxels {
     }
 }
 
-/// How far each channel of a place spreads over `training`, as the power of two next to it: numbers that are divided by it are
-/// about 1, and not a bit of them is lost, so that a model that scales each feature itself is what it is without.
+/// Spread of each channel over `training`, rounded to a power of two. Values divided by it are about 1 and lose no bit, so a model that
+/// scales features itself is unaffected.
 ///
-/// The spread of a channel is the root mean square, over places, of the standard deviation of its number there; 1 where nothing changes.
+/// The spread is the root mean square over taxels of the standard deviation of a channel; 1 if nothing varies.
 ///
 /// # Shapes
 /// `[depth]` of the features.
@@ -81,7 +81,7 @@ pub(crate) fn spread(training: &Features) -> Vec<f64> {
     spreads.map(power_of_two).collect()
 }
 
-/// The power of two nearest to `spread`, as far as single precision reaches it; 1 of none.
+/// Power of two nearest to `spread`, limited to the range of single precision; 1 for a spread of 0.
 fn power_of_two(spread: f64) -> f64 {
     match spread > 0.0 {
         true => spread.log2().round().clamp(-100.0, 100.0).exp2(),
@@ -89,7 +89,7 @@ fn power_of_two(spread: f64) -> f64 {
     }
 }
 
-/// `features`, each divided by the spread of its channel.
+/// Divides `features` by the spread of their channel.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "features are kept in single precision, and quotients by a power of two are exact there"

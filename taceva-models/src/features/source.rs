@@ -1,4 +1,4 @@
-//! What of a recording features are taken from: its frames, or its signals.
+//! Source of features: the frames of a recording, or its signals.
 
 use taceva_core::{FrameInfo, SignalInfo};
 
@@ -8,8 +8,8 @@ use super::spec::{COLOR, FeatureSpec, INPUT, KINDS, SIZE};
 use crate::settings::ModelSettings;
 
 impl FeatureSpec {
-    /// These features, taken from what a recording has: from its signals where they are asked for, or are all there is. `settings` are those that were
-    /// [asked for](FeatureSpec::changed_by).
+    /// Adapts these features to a recording: uses its signals if they are requested or there are no frames. `settings` are
+    /// those of [`changed_by`](FeatureSpec::changed_by).
     ///
     /// ```
     /// use taceva_core::{SignalInfo, Unit};
@@ -24,8 +24,8 @@ impl FeatureSpec {
     /// ```
     ///
     /// # Errors
-    /// [`FeatureError::TwoInputs`] where a recording has both and nobody said which; [`FeatureError::NoFrames`] and
-    /// [`FeatureError::NoSignals`] where what is asked for is not there.
+    /// [`FeatureError::TwoInputs`] if a recording has both and no setting selects one; [`FeatureError::NoFrames`] and
+    /// [`FeatureError::NoSignals`] if the requested input is missing.
     pub fn on(
         self,
         settings: &ModelSettings,

@@ -1,4 +1,4 @@
-//! What a model sees of a frame: kinds of features, size, colour, difference from a reference, principal components.
+//! Specification of features: kinds, grid, colour, difference from a reference, principal components.
 
 use std::fmt;
 
@@ -8,18 +8,18 @@ use taceva_core::{FeatureShape, SignalInfo};
 use super::kinds::{FeatureKind, FeatureKinds};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
-/// Whether colour is kept.
+/// Colour or gray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Color {
-    /// One number a place; of an RGB frame (299 R + 587 G + 114 B) / 1000, the luma of Rec. ITU-R BT.601.
+    /// One value per cell. RGB frames are converted to (299 R + 587 G + 114 B) / 1000, the luma of Rec. ITU-R BT.601.
     Gray,
-    /// Three numbers a place.
+    /// Three values per cell.
     Rgb,
 }
 
 impl Color {
-    /// Numbers a place: 1 or 3.
+    /// Values per cell: 1 or 3.
     pub const fn depth(self) -> usize {
         match self {
             Color::Gray => 1,
@@ -27,7 +27,7 @@ impl Color {
         }
     }
 
-    /// How it is written in settings.
+    /// Name in settings.
     pub const fn name(self) -> &'static str {
         match self {
             Color::Gray => "gray",
@@ -36,24 +36,24 @@ impl Color {
     }
 }
 
-/// Which features are asked for.
+/// Features of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FeatureSpec {
-    /// What is taken of every cell; pixels where a model file says nothing.
+    /// Kinds of features of every cell. Pixels if a model file has no entry.
     #[serde(default, skip_serializing_if = "FeatureKinds::are_pixels")]
     pub kinds: FeatureKinds,
-    /// Columns after the reduction.
+    /// Columns of cells.
     pub width: u32,
-    /// Rows after the reduction.
+    /// Rows of cells.
     pub height: u32,
-    /// Whether colour is kept.
+    /// Colour or gray.
     pub color: Color,
-    /// Whether the no-contact reference frame is subtracted.
+    /// True to subtract the contact-free reference frame.
     pub difference: bool,
-    /// How many principal components of the training part replace the pixels; all pixels where absent.
+    /// Number of principal components of the training part that replace the cells' values. `None` keeps all values.
     pub pca: Option<u32>,
-    /// Numbers a place of the signals; absent of frames, and of signals whose recording nobody has looked at yet.
+    /// Values per taxel of signals. `None` for frames, and for signals before the recording is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channels: Option<u32>,
 }
@@ -109,7 +109,7 @@ impl FeatureSpec {
     /// Largest number of principal components.
     pub const PCA_MAX: u32 = 65_536;
 
-    /// What linear models see where nothing else is asked for.
+    /// Default features of linear models.
     pub const DEFAULT: FeatureSpec = FeatureSpec {
         kinds: FeatureKinds::PIXELS,
         width: 32,
@@ -120,10 +120,10 @@ impl FeatureSpec {
         channels: None,
     };
 
-    /// What can be set.
+    /// Settings in the registry.
     pub const SETTINGS: &'static [SettingInfo] = &[INPUT, KINDS, SIZE, COLOR, DIFFERENCE, PCA];
 
-    /// The features that `settings` ask for.
+    /// Reads the features from `settings`.
     ///
     /// ```
     /// use taceva_models::{FeatureSpec, ModelSettings};
@@ -138,7 +138,7 @@ impl FeatureSpec {
         FeatureSpec::DEFAULT.changed_by(settings)
     }
 
-    /// These features, but for what `settings` ask for.
+    /// Changes these features by `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -151,7 +151,7 @@ impl FeatureSpec {
         })?;
         let kinds = settings.value(&KINDS, own, |text| {
             let kinds = FeatureKinds::parse(text)?;
-            // Of two settings that say what is looked at, neither is right where they differ.
+            // Two settings select the input: rejects a contradiction.
             let is_signals = kinds == FeatureKinds::SIGNALS;
             let agrees = settings
                 .get(INPUT.key)
@@ -178,7 +178,7 @@ impl FeatureSpec {
         })
     }
 
-    /// The same, of other `kinds`, on the coarsest of their own grids where there are others than pixels.
+    /// Changes the kinds. For kinds besides pixels, uses the coarsest of their default grids.
     fn with_kinds(self, kinds: FeatureKinds) -> FeatureSpec {
         let others = kinds.iter().filter(|_| !kinds.are_pixels());
         let side = others.map(FeatureKind::side).min();
@@ -190,7 +190,7 @@ impl FeatureSpec {
         }
     }
 
-    /// These features, taken from the signals of `info`: a cell a place, whatever grid was asked for.
+    /// Features of signals of `info`: one cell per taxel. Ignores the requested grid.
     #[must_use]
     pub fn of_signals(self, info: SignalInfo) -> FeatureSpec {
         FeatureSpec {
@@ -203,7 +203,7 @@ impl FeatureSpec {
         }
     }
 
-    /// The shape of one sample's features, before principal components.
+    /// Shape of one sample's features, before principal components.
     pub fn shape(&self) -> FeatureShape {
         FeatureShape {
             height: self.height as usize,
@@ -215,7 +215,7 @@ impl FeatureSpec {
         }
     }
 
-    /// The setting for which the no-contact reference frame is needed; `None` if it is not.
+    /// Setting that needs the contact-free reference frame. `None` if it is not needed.
     pub fn asks_for_reference(&self) -> Option<&'static str> {
         let by_kind = self.kinds.iter().find(|kind| kind.needs_reference());
         match by_kind {
@@ -226,7 +226,7 @@ impl FeatureSpec {
         }
     }
 
-    /// Whether every number is within what [`from_settings`](FeatureSpec::from_settings) accepts.
+    /// True if all values are in the range of [`from_settings`](FeatureSpec::from_settings).
     pub(crate) fn is_valid(&self) -> bool {
         let sides = 1..=FeatureSpec::SIDE_MAX;
         let is_grid = match self.channels {
@@ -243,7 +243,7 @@ impl FeatureSpec {
     }
 }
 
-/// Columns and rows of cells, of two numbers or of one for both.
+/// Parses columns and rows of cells, as `WIDTHxHEIGHT` or one number for both.
 pub(super) fn size(text: &str) -> Option<(u32, u32)> {
     let side = |text| number(text, 1..=FeatureSpec::SIDE_MAX);
     match text.split_once('x') {

@@ -9,18 +9,17 @@ use super::kinds::FeatureKind;
 use super::pixels::{LUMA, LUMA_SUM, mixes};
 use super::spec::{Color, FeatureSpec};
 
-/// Which quantiles are taken, in hundredths.
+/// Quantiles, %.
 const QUANTILES: [usize; 5] = [5, 25, 50, 75, 95];
-/// Mean, standard deviation and quantiles.
+/// Values per cell and colour: mean, standard deviation and quantiles.
 const NUMBERS: usize = 2 + QUANTILES.len();
 
-/// Statistics of each colour of each cell: mean, standard deviation (of the pixels that are there, divided by n), and the quantiles of 5, 25,
-/// 50, 75 and 95 % by nearest rank, the least pixel that at least so many hundredths of the pixels do not exceed.
+/// Statistics of each colour of each cell: mean, standard deviation (divided by n), and the quantiles of 5, 25, 50, 75 and 95 %. A
+/// quantile of q % is the nearest rank: the least pixel value that at least q % of the pixels do not exceed.
 ///
-/// A pixel belongs to one cell, that of columns `floor(i W / width) .. floor((i + 1) W / width)`, and rows alike. Sums are whole numbers, so every
-/// number is a function of which values the pixels of its cell have, and of nothing else: they may change places without a bit of difference.
-/// What is seen is how light is distributed; what is not seen is where in a cell it falls, so a press within one cell and the same press
-/// elsewhere in it look the same.
+/// A pixel belongs to one cell, which has columns `floor(i W / width) .. floor((i + 1) W / width)`, and rows alike. Sums are integers, so
+/// every statistic depends only on the values of the cell's pixels, not on their order. The statistics describe the distribution of
+/// light, but not its position within a cell: a press and the same press elsewhere in the cell look the same.
 #[derive(Debug)]
 pub(super) struct Statistics {
     color: Color,
@@ -31,7 +30,7 @@ pub(super) struct Statistics {
 }
 
 impl Statistics {
-    /// For frames of `info`, no smaller than the grid of `spec`.
+    /// Prepares statistics for frames of `info`, no smaller than the grid of `spec`.
     pub(super) fn new(
         spec: &FeatureSpec,
         info: FrameInfo,
@@ -48,7 +47,7 @@ impl Statistics {
         statistics
     }
 
-    /// The numbers of each plane of each cell, row by row.
+    /// Statistics of each plane of each cell, row by row.
     fn numbers(&self, frame: &Frame) -> Vec<f64> {
         let planes = self.color.depth();
         let (values, full_scale) = self.values(frame);
@@ -72,7 +71,7 @@ impl Statistics {
         numbers
     }
 
-    /// Whole numbers of each plane of each pixel, and what white is.
+    /// Integer values of each plane of each pixel, and the value of white.
     fn values(&self, frame: &Frame) -> (Vec<u32>, f64) {
         let full_scale = f64::from(self.info.format.full_scale());
         let samples = frame.samples().map(u32::from);
@@ -110,7 +109,7 @@ impl CellFeatures for Statistics {
     }
 }
 
-/// The pixels of each of `count` cells along a side of `length`.
+/// Pixel ranges of `count` cells along a side of `length` pixels.
 fn cells(length: usize, count: usize) -> Vec<Range<usize>> {
     let start = |cell: usize| cell * length / count;
     (0..count)
@@ -118,7 +117,7 @@ fn cells(length: usize, count: usize) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Mean, standard deviation and quantiles of `sorted`, of which there is one at least; full scale becomes 1.
+/// Mean, standard deviation and quantiles of `sorted`, which is not empty. Full scale becomes 1.
 fn of_sorted(sorted: &[u32], full_scale: f64) -> [f64; NUMBERS] {
     let count = sorted.len() as u128;
     let sum: u128 = sorted.iter().map(|&value| u128::from(value)).sum();
@@ -126,7 +125,7 @@ fn of_sorted(sorted: &[u32], full_scale: f64) -> [f64; NUMBERS] {
     let scale = count as f64 * full_scale;
     let mut numbers = [0.0; NUMBERS];
     numbers[0] = sum as f64 / scale;
-    // n Σv² - (Σv)² is n² times the variance, and as a whole number never below 0.
+    // n Σv² - (Σv)² is n² times the variance, and as an integer at least 0.
     numbers[1] = ((count * squares - sum * sum) as f64).sqrt() / scale;
     for (number, hundredths) in numbers[2..].iter_mut().zip(QUANTILES) {
         let rank = (hundredths * sorted.len()).div_ceil(100);

@@ -23,7 +23,7 @@ pub(super) fn noise(width: u32, height: u32, format: PixelFormat, seed: u64) -> 
 #[derive(Clone, Copy)]
 pub(super) struct Gel {
     pub(super) polarity: Polarity,
-    /// The standard deviation of the camera's noise, in levels of 8 bits.
+    /// Standard deviation of the camera noise, in 8-bit levels.
     pub(super) noise: f64,
     pub(super) seed: u64,
 }
@@ -31,9 +31,9 @@ pub(super) struct Gel {
 impl Gel {
     pub(super) const WIDTH: u32 = 160;
     pub(super) const HEIGHT: u32 = 120;
-    /// Levels between a marker and the gel, on the left; more of them further right.
+    /// Contrast of markers at the left edge, levels. Greater further right.
     pub(super) const CONTRAST: f64 = 100.0;
-    /// From one marker to the next.
+    /// Spacing of markers, pixels.
     pub(super) const SPACING: f64 = 12.0;
 
     /// The gel with markers at `places`, brighter to the right.
@@ -70,7 +70,7 @@ impl Gel {
     }
 }
 
-/// Twelve draws from 0 to 1, less their mean: a standard deviation of 1, and nearly normal.
+/// Sum of twelve uniform draws minus its mean: standard deviation 1, nearly normal.
 fn normal(random: &mut SplitMix64) -> f64 {
     let draws = (0..12).map(|_| (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64);
     draws.sum::<f64>() - 6.0

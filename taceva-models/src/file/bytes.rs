@@ -1,4 +1,4 @@
-//! A model as bytes: a safetensors file whose metadata holds the card.
+//! Models as bytes: safetensors with the card in the metadata.
 
 use std::collections::HashMap;
 
@@ -12,10 +12,10 @@ use crate::training::file::error::FormatError;
 use crate::training::file::limits::{CARD, FILE_MAX, HEADER_MAX};
 
 impl Model {
-    /// The model as a file would hold it; equal models give equal bytes.
+    /// Serialises the model. Equal models give equal bytes.
     ///
     /// # Errors
-    /// [`FormatError`] if the card or the weights are larger than a file may be.
+    /// [`FormatError`] if the card or the weights exceed the size limits of a file.
     pub fn to_bytes(&self) -> Result<Vec<u8>, FormatError> {
         let card = serde_json::to_string(&self.card)?;
         let mut tensors = self.regressor.tensors();
@@ -24,7 +24,7 @@ impl Model {
             .iter()
             .map(|tensor| digested(&tensor.name, tensor.kind, &tensor.shape, &tensor.bytes));
         let card = seal_over(&card, &digested.collect::<Vec<_>>())?;
-        // One key only: the order of several would not be defined.
+        // Only one key: the order of several is undefined.
         let metadata = HashMap::from([(CARD.to_owned(), card)]);
         let views: Result<Vec<_>, _> = tensors
             .iter()
@@ -38,16 +38,16 @@ impl Model {
         Ok(bytes)
     }
 
-    /// The model that `bytes` of a file hold, of those that are built in.
+    /// Reads a model from `bytes`, among the built-in models.
     ///
     /// # Errors
-    /// As [`Models::read`].
+    /// Errors of [`Models::read`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Model, FormatError> {
         Models::builtin().read(bytes)
     }
 }
 
-/// Refuses what is longer than a model, or has a longer header.
+/// Rejects bytes that exceed the size limits of a file or its header.
 pub(super) fn check_sizes(bytes: &[u8]) -> Result<(), FormatError> {
     let length = bytes.len() as u64;
     if length > FILE_MAX {

@@ -1,4 +1,4 @@
-//! A model on disk: there whole, or not at all.
+//! Models on disk, written atomically.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -12,11 +12,11 @@ use crate::training::file::error::FormatError;
 use crate::training::file::limits::FILE_MAX;
 
 impl Model {
-    /// Writes the model to `path`, in place of what was there: into a file beside it first, then renamed, so that a
-    /// reader sees the old model or the new one whatever happens in between.
+    /// Writes the model to `path` and replaces an existing file. Writes a neighbouring file first and renames it, so a reader sees
+    /// either the old or the new model, even after a crash.
     ///
     /// # Errors
-    /// [`ModelFileError`], naming the path.
+    /// [`ModelFileError`] with the path.
     pub fn save(&self, path: &Path) -> Result<(), ModelFileError> {
         let bytes = self.to_bytes().map_err(|source| ModelFileError::Format {
             path: path.into(),
@@ -28,18 +28,18 @@ impl Model {
         })
     }
 
-    /// Reads the model at `path`, of those that are built in.
+    /// Reads the model at `path`, among the built-in models.
     ///
     /// # Errors
-    /// As [`Models::open`].
+    /// Errors of [`Models::open`].
     pub fn open(path: &Path) -> Result<Model, ModelFileError> {
         Models::builtin().open(path)
     }
 
-    /// The digest of the file that [`save`](Model::save) writes, `sha256:` and 64 hexadecimal digits.
+    /// Digest of the file that [`save`](Model::save) writes: `sha256:` and 64 hexadecimal digits.
     ///
     /// # Errors
-    /// [`FormatError`] as [`to_bytes`](Model::to_bytes).
+    /// Errors of [`to_bytes`](Model::to_bytes).
     pub fn digest(&self) -> Result<String, FormatError> {
         let digest = Sha256::digest(self.to_bytes()?);
         let digits: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
@@ -48,10 +48,10 @@ impl Model {
 }
 
 impl Models {
-    /// Reads the model at `path`, checking all of it; one of a plugin is loaded by its plugin.
+    /// Reads and checks the model at `path`. A plugin loads its own models.
     ///
     /// # Errors
-    /// [`ModelFileError`], naming the path and what is wrong there.
+    /// [`ModelFileError`] with the path and the fault.
     pub fn open(&self, path: &Path) -> Result<Model, ModelFileError> {
         let bytes = read_capped(path).map_err(|source| ModelFileError::Read {
             path: path.into(),
@@ -64,9 +64,9 @@ impl Models {
     }
 }
 
-/// At most one byte more than a model has, which is enough to refuse it.
+/// Reads at most one byte more than the limit of a model, enough to reject the file.
 fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
-    // Asked before opening: opening a pipe would wait for whoever writes into it.
+    // Checks before opening: opening a pipe would block until it has a writer.
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::other("not a regular file"));
     }
@@ -89,32 +89,32 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     })
 }
 
-/// Why a model file cannot be read or written.
+/// Error of reading or writing a model file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ModelFileError {
     /// The file cannot be read.
     #[error("cannot read model {}: {source}", taceva_core::shown(path))]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
     /// The file cannot be written.
     #[error("cannot write model {}: {source}", taceva_core::shown(path))]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
-    /// The file holds no model, or the model does not fit a file.
+    /// The file contains no valid model, or the model exceeds the limits of a file.
     #[error("model {}: {source}", taceva_core::shown(path))]
     Format {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong.
+        /// Fault.
         source: FormatError,
     },
 }

@@ -1,4 +1,4 @@
-//! The distance from the training part, as tensors of a model file.
+//! Training distance as tensors of a model file.
 
 use crate::features::{DistanceLimits, FeatureDistance};
 use crate::training::file::content::Stored;
@@ -14,7 +14,7 @@ pub(super) fn distance_tensors(distance: &FeatureDistance) -> [Raw; 3] {
     ]
 }
 
-/// The distance of a file whose card has its limits; `None` of one of before models had it.
+/// Reads the distance from a file whose card has its limits. `None` for older models without a distance.
 pub(super) fn distance_from(stored: &Stored<'_>) -> Result<Option<FeatureDistance>, FormatError> {
     let (tensors, shape) = (&stored.tensors, stored.shape());
     let Some(card) = stored.card.distance else {
@@ -42,7 +42,7 @@ pub(super) fn distance_from(stored: &Stored<'_>) -> Result<Option<FeatureDistanc
     }
 }
 
-/// True if every number is finite, and every divisor above 0.
+/// True if every number is finite and every divisor positive.
 fn is_sound(distance: &FeatureDistance) -> bool {
     let DistanceLimits { along, beside } = distance.limits;
     let is_divisor = |value: &f64| value.is_finite() && *value > 0.0;

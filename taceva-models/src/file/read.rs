@@ -1,4 +1,4 @@
-//! What a file holds, read back: every size, version, shape and number is checked.
+//! Reading of model files, with checks of every size, version, shape and number.
 
 use safetensors::tensor::SafeTensors;
 use serde::Deserialize;
@@ -17,10 +17,10 @@ use crate::training::file::limits::{CARD, FORMAT};
 use crate::training::file::tensors::Tensors;
 use crate::training::regressor::ModelRegressor;
 
-/// The release whose formats began at 1.0.
+/// Release that introduced format 1.0.
 const SINCE: [u32; 2] = [0, 2];
 
-/// The part of a card that every version has.
+/// Part of a card common to all versions.
 #[derive(Deserialize)]
 struct Version {
     format: String,
@@ -29,11 +29,11 @@ struct Version {
 }
 
 impl Models {
-    /// The model that `bytes` of a file hold; one of a plugin is loaded by its plugin.
+    /// Reads a model from `bytes`. A plugin loads its own models.
     ///
     /// # Errors
-    /// [`FormatError`] if anything is other than [`to_bytes`](Model::to_bytes) writes it, of an earlier or a newer major version, or of a plugin that is not
-    /// among these models or refuses it.
+    /// [`FormatError`] if the bytes differ from the format of [`to_bytes`](Model::to_bytes), have another major version, or belong to a
+    /// plugin that is missing or rejects them.
     pub fn read(&self, bytes: &[u8]) -> Result<Model, FormatError> {
         check_sizes(bytes)?;
         let (_, header) = SafeTensors::read_metadata(bytes)?;
@@ -77,7 +77,7 @@ impl Models {
         })
     }
 
-    /// What the plugin, or the row of the registry, that the card names makes of the file.
+    /// Loads the regressor by the plugin or registry entry named in the card.
     fn load(&self, stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         let card = stored.card;
         if let Some(plugin) = &card.plugin {
@@ -102,7 +102,7 @@ impl Models {
     }
 }
 
-/// Whether what a card says of frames or signals is all of one or the other.
+/// True if all entries of a card are consistent with its input, frames or signals.
 fn is_of_its_input(card: &ModelCard) -> bool {
     match (card.input, &card.spread) {
         (InputInfo::Frame(_), None) => card.features.channels.is_none(),
@@ -116,7 +116,7 @@ fn is_of_its_input(card: &ModelCard) -> bool {
     }
 }
 
-/// Any minor version of our major version can be read: it only adds.
+/// Accepts every minor version of our major version, because minor versions only add entries.
 fn check_version(found: &Version) -> Result<(), FormatError> {
     let parts = |version: &str| -> Option<[u32; 2]> {
         let mut parts = version.split('.').map(|part| part.parse().ok());

@@ -1,11 +1,11 @@
-//! The seal of a model file: over the card and a digest of each tensor.
+//! Seal of a model file, over the card and a digest of each tensor.
 
 use safetensors::tensor::{Dtype, SafeTensors};
 use sha2::{Digest as _, Sha256};
 
 use crate::training::file::error::FormatError;
 
-/// A tensor's name, and a digest of its type, its shape and its numbers.
+/// Name of a tensor, and digest of its type, shape and values.
 pub(super) fn digested(
     name: &str,
     kind: Dtype,
@@ -18,7 +18,7 @@ pub(super) fn digested(
     (format!("tensor {name}"), hasher.finalize().to_vec())
 }
 
-/// The card with its seal, over the tensors as well.
+/// Adds a seal over card and tensors to the card.
 pub(super) fn seal_over(card: &str, tensors: &[(String, Vec<u8>)]) -> Result<String, FormatError> {
     let mut attached = attached(tensors);
     attached.sort_unstable();
@@ -32,7 +32,7 @@ fn attached(tensors: &[(String, Vec<u8>)]) -> Vec<(&str, &[u8])> {
         .collect()
 }
 
-/// Whether card and tensors are what they were when they were written.
+/// Checks that card and tensors are unchanged since they were written.
 pub(super) fn check_seal(card: &str, tensors: &SafeTensors<'_>) -> Result<(), FormatError> {
     let views = tensors.tensors();
     let digested: Vec<_> = views

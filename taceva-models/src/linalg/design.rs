@@ -1,4 +1,4 @@
-//! The centred, possibly scaled features of a training part as a matrix that is never stored whole.
+//! Centred, optionally scaled features of a training part as a matrix that is never stored as a whole.
 
 use std::ops::Range;
 
@@ -10,21 +10,21 @@ use crate::settings::{ModelSettings, SettingError, SettingInfo};
 
 use super::gram::{add_product, slabs};
 
-/// Samples or features a block: large enough for full speed, small enough for many threads and the cache.
+/// Samples or features per block: large enough for full speed, small enough for many threads and the cache.
 const BLOCK: usize = 256;
 
-/// What each centred feature is divided by.
+/// Divisor of each centred feature.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum FeatureScale {
     /// 1.
     None,
-    /// Its standard deviation over the training part; 1 where that is 0.
+    /// Standard deviation over the training part; 1 if that is 0.
     #[default]
     Unit,
 }
 
 impl FeatureScale {
-    /// How people set it.
+    /// Setting in the registry.
     pub(crate) const SETTING: SettingInfo = SettingInfo {
         key: "scale",
         accepts: "none or unit",
@@ -32,7 +32,7 @@ impl FeatureScale {
         about: "whether each feature is divided by its standard deviation over the training part",
     };
 
-    /// The scale that `settings` ask for.
+    /// Reads the scale from `settings`.
     pub(crate) fn from_settings(settings: &ModelSettings) -> Result<FeatureScale, SettingError> {
         settings.value(
             &FeatureScale::SETTING,
@@ -46,17 +46,17 @@ impl FeatureScale {
     }
 }
 
-/// The matrix X with a row a sample: (feature − centre) · factor.
+/// Matrix X with one row per sample: (feature − centre) · factor.
 #[derive(Clone, Debug)]
 pub(crate) struct Design<'a> {
     features: &'a Features,
     centre: Vec<f64>,
-    /// What each centred feature is multiplied by; `None` for 1.
+    /// Factor of each centred feature; `None` for 1.
     factor: Option<Vec<f64>>,
 }
 
 impl<'a> Design<'a> {
-    /// Centred by the mean of `features`, which must hold a sample.
+    /// Design centred by the mean of `features`, which must not be empty.
     pub(crate) fn new(features: &'a Features, scale: FeatureScale) -> Design<'a> {
         let centre = mean_of(features, |value, _| value);
         let factor = (scale == FeatureScale::Unit).then(|| {
@@ -81,7 +81,7 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// The same samples and scale as `self`, seen in `features`, centred by their own mean.
+    /// Design of other `features`, centred by their own mean, with the factors of `self`.
     pub(crate) fn recentred<'b>(&self, features: &'b Features) -> Design<'b> {
         Design {
             features,
@@ -90,7 +90,7 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Other samples in the coordinates of `self`.
+    /// Design of other samples with centre and factors of `self`.
     pub(crate) fn of<'b>(&self, features: &'b Features) -> Design<'b> {
         Design {
             features,
@@ -99,7 +99,7 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Unscaled, centred at `centre`.
+    /// Unscaled design centred at `centre`.
     pub(crate) fn centred_at(features: &'a Features, centre: Vec<f64>) -> Design<'a> {
         Design {
             features,
@@ -120,12 +120,12 @@ impl<'a> Design<'a> {
         &self.centre
     }
 
-    /// What each centred feature is multiplied by; `None` for 1.
+    /// Factor of each centred feature; `None` for 1.
     pub(crate) fn factor(&self) -> Option<&[f64]> {
         self.factor.as_deref()
     }
 
-    /// The transposed block: a column a sample.
+    /// Transposed block, with one column per sample.
     pub(crate) fn block(&self, samples: Range<usize>, features: Range<usize>) -> Mat<f64> {
         let mut block = Mat::zeros(features.len(), samples.len());
         let centre = &self.centre[features.clone()];
@@ -167,7 +167,7 @@ impl<'a> Design<'a> {
     }
 }
 
-/// The mean over samples of a function of each feature and its position.
+/// Mean over samples of a function of each feature and its position.
 fn mean_of(features: &Features, of: impl Fn(f64, usize) -> f64) -> Vec<f64> {
     let mut sums = vec![0.0; features.shape().len()];
     for sample in 0..features.samples() {
@@ -180,7 +180,7 @@ fn mean_of(features: &Features, of: impl Fn(f64, usize) -> f64) -> Vec<f64> {
     sums
 }
 
-/// A matrix of `rows` × `columns`, its blocks of rows filled independently.
+/// Fills a matrix of `rows` × `columns` in parallel by blocks of rows.
 fn stacked(
     rows: usize,
     columns: usize,

@@ -1,16 +1,16 @@
-//! How far two samples are from each other: the same bits on every machine, one sample at a time or many.
+//! Distances between samples, with the same bits on every machine, for one sample at a time or many.
 
 use rayon::prelude::*;
 
-/// Features whose squares are summed in single precision before they are added up in double.
+/// Features summed in single precision before their sum is added in double precision.
 const RUN: usize = 256;
 
-/// Partial sums of a run, so that the additions do not wait for each other.
+/// Partial sums of a run, so that additions do not wait for each other.
 const LANES: usize = 16;
 
-/// Σ (a − b)² over the features of two samples of one length.
+/// Σ (a − b)² over the features of two samples of equal length.
 ///
-/// Products and sums are never fused and always made in the same order, so that no instruction set changes a bit.
+/// Products and sums are never fused and have a fixed order, so that no instruction set changes a bit.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "distances are kept in single precision, as features are"
@@ -34,10 +34,10 @@ fn squares(a: &[f32], b: &[f32]) -> f32 {
     sums.iter().sum::<f32>() + last.sum::<f32>()
 }
 
-/// Samples that a thread compares with one other at a time.
+/// Samples per task of a thread.
 const CHUNK: usize = 256;
 
-/// The squared distance of `sample` from every row of `rows`, in parallel.
+/// Squared distances of `sample` from every row of `rows`, computed in parallel.
 pub(crate) fn from_all(sample: &[f32], rows: &[f32], into: &mut [f32]) {
     let width = sample.len();
     into.par_chunks_mut(CHUNK)

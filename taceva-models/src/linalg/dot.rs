@@ -1,6 +1,6 @@
-//! The product of two vectors.
+//! Dot product of two vectors.
 
-/// Eight partial sums, so that the additions do not wait for each other; always in the same order.
+/// Dot product with eight partial sums, so that additions do not wait for each other. The order is fixed.
 pub(crate) fn dot(left: &[f64], right: &[f64]) -> f64 {
     let (left, last_left) = left.as_chunks::<8>();
     let (right, last_right) = right.as_chunks::<8>();

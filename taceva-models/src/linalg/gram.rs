@@ -1,4 +1,4 @@
-//! Products of matrices, and the symmetric product of a matrix with itself.
+//! Matrix products and Gram matrices.
 
 use std::ops::Range;
 
@@ -10,41 +10,41 @@ use taceva_core::{ModelError, Progress};
 use super::design::Design;
 use crate::linalg::progress::{ReportedStage, interrupted};
 
-/// Rows and columns of a tile.
+/// Side of a tile, rows or columns.
 const TILE: usize = 256;
 
-/// Samples or features that are widened to 64 bits at a time.
+/// Samples or features converted to 64 bits at a time.
 const SLAB: usize = 1024;
 
-/// `left` `right`, by the calling thread.
+/// Product `left` `right`, computed by the calling thread.
 pub(crate) fn multiply(left: MatRef<'_, f64>, right: MatRef<'_, f64>) -> Mat<f64> {
     let mut product = Mat::zeros(left.nrows(), right.ncols());
     matmul(&mut product, Accum::Replace, left, right, 1.0, Par::Seq);
     product
 }
 
-/// Adds `left` `right` to `sums`, by the calling thread.
+/// Adds the product `left` `right` to `sums`, in the calling thread.
 pub(super) fn add_product(sums: &mut Mat<f64>, left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
     matmul(sums, Accum::Add, left, right, 1.0, Par::Seq);
 }
 
-/// The ranges in which `length` samples or features are added up.
+/// Ranges of samples or features that are summed at once.
 pub(super) fn slabs(length: usize) -> impl Iterator<Item = Range<usize>> {
     (0..length)
         .step_by(SLAB)
         .map(move |start| start..length.min(start + SLAB))
 }
 
-/// Which product of a design matrix X with itself.
+/// Kind of Gram matrix of a design matrix X.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
-    /// X Xᵀ, a row and a column a sample.
+    /// X Xᵀ, one row and column per sample.
     Samples,
-    /// Xᵀ X, a row and a column a feature.
+    /// Xᵀ X, one row and column per feature.
     Features,
 }
 
-/// The Gram matrix of `design`; only its lower triangle is filled.
+/// Gram matrix of `design`. Only the lower triangle is filled.
 pub(super) fn gram(
     design: &Design<'_>,
     side: Side,

@@ -1,4 +1,4 @@
-//! Least squares without any penalty, to the last digits that the numbers allow.
+//! Unpenalised least squares, accurate to the last digits.
 
 mod double;
 mod householder;
@@ -13,44 +13,44 @@ use self::double::Double;
 use self::householder::Householder;
 use crate::linalg::invalid;
 
-/// A matrix whose numbers may be known beyond double precision.
+/// A matrix of values that may have more than double precision.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wide<'a> {
     pub(crate) high: &'a Mat<f64>,
-    /// What rounding to `high` lost; nothing where absent.
+    /// Rounding errors of `high`. `None` for 0.
     pub(crate) low: Option<&'a Mat<f64>>,
 }
 
 impl Wide<'_> {
-    /// Number and rest in one place.
+    /// Value with its rounding error.
     fn at(&self, row: usize, column: usize) -> Double {
         let low = self.low.map_or(0.0, |low| low[(row, column)]);
         Double::new(self.high[(row, column)], low)
     }
 }
 
-/// What least squares gave for one column of targets.
+/// Least-squares solution for one column of targets.
 #[derive(Clone, Debug)]
 pub(crate) struct Solution {
-    /// As refined.
+    /// Refined solution.
     pub(crate) refined: Vec<f64>,
-    /// As the decomposition in double precision gave them: what refinement is compared with.
+    /// Solution of the decomposition in double precision, for comparison.
     #[cfg(test)]
     pub(crate) plain: Vec<f64>,
 }
 
-/// Corrections at most; each gains as many digits as the decomposition has.
+/// Most refinement steps. Each gains as many digits as the decomposition has.
 const ROUNDS: usize = 40;
 
-/// The x of least ‖y − A x‖ for each column y of `targets`.
+/// Finds the x of least ‖y − A x‖ for each column y of `targets`.
 ///
-/// Householder's decomposition of A, its columns scaled by powers of two, gives x and the residual r; then both are corrected by the
-/// residuals of the system r + A x = y, Aᵀr = 0, formed in doubled precision, until corrections no longer shrink.
+/// The Householder decomposition of A, with columns scaled by powers of two, gives x and the residual r. Both are corrected by the
+/// residuals of the system r + A x = y, Aᵀr = 0, computed in doubled precision, until corrections no longer shrink.
 ///
 /// # Reference
 /// Å. Björck, BIT 7 (1967) 257, 322.
 /// # Errors
-/// [`ModelError`] if there are fewer rows than columns, or a column is, but for rounding, a combination of those before.
+/// [`ModelError`] if there are fewer rows than columns, or a column is a linear combination of earlier ones to within rounding.
 pub(crate) fn least_squares(
     matrix: Wide<'_>,
     targets: &Mat<f64>,
@@ -102,7 +102,7 @@ fn solve(matrix: Wide<'_>, decomposition: &Householder, target: &[f64]) -> Solut
             .collect();
         let (change, shift) = decomposition.solve(&upper, &lower);
         let size = relative(&change, &weights);
-        // What is no number ends it too.
+        // NaN ends the loop too.
         if size.is_nan() || size >= 0.5 * before {
             break;
         }
@@ -124,7 +124,7 @@ fn solve(matrix: Wide<'_>, decomposition: &Householder, target: &[f64]) -> Solut
     }
 }
 
-/// The largest change relative to what is changed.
+/// Largest change relative to its weight.
 fn relative(changes: &[f64], weights: &[Double]) -> f64 {
     let of = |(change, weight): (&f64, &Double)| match weight.value().abs() {
         size if size > 0.0 => change.abs() / size,

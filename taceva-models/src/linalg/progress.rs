@@ -1,8 +1,8 @@
-//! Reporting progress, and stopping when asked.
+//! Progress reports and cancellation.
 
 use taceva_core::{ErrorKind, ModelError, Progress};
 
-/// A stage of long work; it ends when it is dropped, also where an error is returned.
+/// Stage of a long computation. Ends when dropped, also on errors.
 pub(crate) struct ReportedStage<'a> {
     progress: &'a dyn Progress,
 }
@@ -28,7 +28,7 @@ impl Drop for ReportedStage<'_> {
     }
 }
 
-/// Stops with an error if the work was cancelled.
+/// Returns an error if the computation was cancelled.
 pub(crate) fn interrupted(progress: &dyn Progress) -> Result<(), ModelError> {
     if progress.is_cancelled() {
         return Err(ModelError::new(

@@ -1,4 +1,4 @@
-//! The spectrum of a design matrix, from the smaller of its two Gram matrices.
+//! Spectrum of a design matrix, from the smaller of its two Gram matrices.
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -10,10 +10,10 @@ use super::design::Design;
 use super::gram::{Side, gram, multiply};
 use crate::linalg::progress::{ReportedStage, interrupted};
 
-/// Eigenvalues in ascending order and their vectors, of a symmetric matrix whose lower triangle is `matrix`.
+/// Eigenvalues, ascending, and eigenvectors of the symmetric matrix with the lower triangle of `matrix`.
 ///
 /// # Errors
-/// [`ErrorKind::Internal`] if the iteration does not end, which finite numbers do not cause.
+/// [`ErrorKind::Internal`] if the iteration does not converge, which finite numbers never cause.
 pub(crate) fn symmetric_eigen(matrix: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), ModelError> {
     let size = matrix.nrows();
     let mut vectors = Mat::zeros(size, size);
@@ -40,12 +40,12 @@ pub(crate) fn symmetric_eigen(matrix: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<
     Ok((values, vectors))
 }
 
-/// X = U Σ Vᵀ, of which one Gram matrix gives Σ² and either U or V.
+/// Singular value decomposition X = U Σ Vᵀ. One Gram matrix gives Σ² and either U or V.
 #[derive(Debug)]
 pub(crate) struct Spectrum<'d, 'a> {
     design: &'d Design<'a>,
     side: Side,
-    /// Σ², ascending, never below 0.
+    /// Σ², ascending, at least 0.
     eigenvalues: Vec<f64>,
     /// U or V.
     vectors: Mat<f64>,
@@ -65,7 +65,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         let _stage = ReportedStage::begin(progress, "spectrum of features", 1);
         let (mut eigenvalues, vectors) = symmetric_eigen(gram.as_ref())?;
         interrupted(progress)?;
-        // Rounding may carry a zero below zero.
+        // Rounding may make a zero negative.
         eigenvalues
             .iter_mut()
             .for_each(|value| *value = value.max(0.0));
@@ -81,23 +81,23 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         &self.eigenvalues
     }
 
-    /// The mean of the eigenvalues: the unit in which strengths are given.
+    /// Mean eigenvalue: the unit of strengths.
     pub(crate) fn mean_eigenvalue(&self) -> f64 {
         self.eigenvalues.iter().sum::<f64>() / self.eigenvalues.len() as f64
     }
 
-    /// What rounding makes of an eigenvalue of 0: smaller eigenvalues are noise.
+    /// Rounding error of an eigenvalue of 0. Smaller eigenvalues are noise.
     pub(crate) fn noise(&self) -> f64 {
         let largest = self.eigenvalues.last().copied().unwrap_or(0.0);
         largest * self.eigenvalues.len() as f64 * f64::EPSILON
     }
 
-    /// Whether the [sample vectors](Spectrum::sample_vectors) span all vectors of a number for each sample.
+    /// True if the [sample vectors](Spectrum::sample_vectors) span the whole space of samples.
     pub(crate) fn spans_samples(&self) -> bool {
         self.side == Side::Samples
     }
 
-    /// `targets` (a row a sample) in the basis of the vectors, ready for [`weights`](Spectrum::weights).
+    /// Projects `targets`, one row per sample, onto the vectors, for [`weights`](Spectrum::weights).
     pub(crate) fn rotate(&self, targets: MatRef<'_, f64>) -> Mat<f64> {
         match self.side {
             Side::Samples => multiply(self.vectors.transpose(), targets),
@@ -108,8 +108,8 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// The weights of features, a column each of `coefficients`: those of ridge regression with λ, if a coefficient is
-    /// the rotated target over (eigenvalue + λ).
+    /// Weights of features for each column of `coefficients`. They are those of ridge regression with λ if a coefficient is
+    /// the rotated target / (eigenvalue + λ).
     pub(crate) fn weights(&self, coefficients: MatRef<'_, f64>) -> Mat<f64> {
         let combined = multiply(self.vectors.as_ref(), coefficients);
         match self.side {
@@ -118,7 +118,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// U: a row a sample, a column an eigenvalue; zero where the eigenvalue is [`noise`](Spectrum::noise).
+    /// U: one row per sample, one column per eigenvalue; zero for eigenvalues of [`noise`](Spectrum::noise).
     pub(crate) fn sample_vectors(&self) -> Mat<f64> {
         match self.side {
             Side::Samples => self.vectors.clone(),
@@ -136,7 +136,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// The last `count` columns of V, largest eigenvalue first.
+    /// Last `count` columns of V, largest eigenvalue first.
     pub(crate) fn leading_feature_vectors(&self, count: usize) -> Mat<f64> {
         let size = self.eigenvalues.len();
         let leading = Mat::from_fn(size, count, |row, column| {

@@ -1,4 +1,4 @@
-//! Features centred and scaled as the training part has them, for models that compare samples.
+//! Standardisation of features by the training part, for models that compare samples.
 
 use taceva_core::{Features, ModelError};
 
@@ -13,7 +13,7 @@ pub(crate) struct Standard {
 }
 
 impl Standard {
-    /// That of `training`, which holds a sample.
+    /// Standardisation of `training`, which must not be empty.
     pub(crate) fn of(training: &Features, scale: FeatureScale) -> Standard {
         let design = Design::new(training, scale);
         let width = design.width();
@@ -25,10 +25,10 @@ impl Standard {
         }
     }
 
-    /// That of ready numbers.
+    /// Builds the standardisation from stored numbers.
     ///
     /// # Errors
-    /// [`ModelError`] if one is not finite, or the lengths differ.
+    /// [`ModelError`] if a number is not finite, or the lengths differ.
     pub(crate) fn new(centre: Vec<f64>, factor: Vec<f64>) -> Result<Standard, ModelError> {
         let mut numbers = centre.iter().chain(&factor);
         if centre.len() != factor.len() || !numbers.all(|value| value.is_finite()) {
@@ -45,7 +45,7 @@ impl Standard {
         &self.factor
     }
 
-    /// Writes one sample.
+    /// Standardises one sample.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "features are kept in single precision"
@@ -57,7 +57,7 @@ impl Standard {
         }
     }
 
-    /// All samples, one after the other.
+    /// Standardises all samples, concatenated.
     pub(crate) fn rows(&self, features: &Features) -> Vec<f32> {
         let mut rows = vec![0.0; features.values().len()];
         let width = self.centre.len();

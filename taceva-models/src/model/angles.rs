@@ -1,40 +1,40 @@
-//! Angles with a period, learnt as their sine and cosine.
+//! Angles with a period, learnt as sine and cosine.
 
 use taceva_core::{Channel, ChannelError, Channels, Unit};
 
 use crate::training::card::AngleCard;
 
-/// The channels of a model, and those that its estimator learns in their place.
+/// Predicted channels of a model, and the learnt channels of its estimator.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LearntChannels {
-    /// The channels of predictions.
+    /// Channels of predictions.
     pub(crate) asked: Channels,
-    /// The channels of the estimator.
+    /// Channels of the estimator.
     pub(crate) learnt: Channels,
-    /// For each asked channel where its numbers stand among the learnt ones.
+    /// Position of each predicted channel among the learnt ones.
     sources: Vec<LearntAs>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 enum LearntAs {
-    /// The channel itself.
+    /// Learnt unchanged, at this position.
     Itself(usize),
-    /// Sine and cosine of an angle.
+    /// Learnt as sine and cosine of an angle.
     Angle {
         sine: usize,
         cosine: usize,
-        /// Degrees.
+        /// Period, degrees.
         period: f64,
-        /// True if its labels run from 0 to the period, and not from minus half of it.
+        /// True for labels from 0 to the period, false for labels around 0.
         from_zero: bool,
     },
 }
 
 impl LearntChannels {
-    /// The channels of `asked`, of which `angles` are learnt as sine and cosine.
+    /// Learnt channels for `asked`, with `angles` as sine and cosine.
     ///
     /// # Errors
-    /// [`ChannelError`] if an angle is no channel in degrees, or the name of a sine or cosine is too long or taken.
+    /// [`ChannelError`] if an angle is not a channel in degrees, or the name of a sine or cosine is too long or taken.
     pub(crate) fn new(
         asked: &Channels,
         angles: &[AngleCard],
@@ -68,7 +68,7 @@ impl LearntChannels {
         })
     }
 
-    /// Labels of the estimator, from a row of the asked channels a sample.
+    /// Labels of the learnt channels, from rows of labels of the predicted channels.
     pub(crate) fn labels(&self, values: &[f64]) -> Vec<f64> {
         let mut labels = Vec::new();
         for row in values.chunks_exact(self.asked.len()) {
@@ -93,7 +93,7 @@ impl LearntChannels {
         labels
     }
 
-    /// Predictions of the asked channels, from a row of the learnt ones a sample.
+    /// Predictions of the predicted channels, from rows of the learnt channels.
     pub(crate) fn answers(&self, learnt: &[f64]) -> Vec<f64> {
         let rows = learnt.chunks_exact(self.learnt.len());
         let answers = rows.flat_map(|row| {
@@ -110,7 +110,7 @@ impl LearntChannels {
         answers.collect()
     }
 
-    /// Standard deviations of the asked channels, from those of the learnt ones and their predictions: of an angle to the first order.
+    /// Standard deviations of the predicted channels, from deviations and predictions of the learnt ones. To first order for angles.
     pub(crate) fn deviations(&self, deviations: &[f64], learnt: &[f64]) -> Vec<f64> {
         let width = self.learnt.len();
         let rows = deviations
@@ -135,7 +135,7 @@ impl LearntChannels {
         found.collect()
     }
 
-    /// Whether each asked channel is learnt as it is, by the position that it then has.
+    /// Position of each predicted channel among the learnt ones. `None` for angles.
     pub(crate) fn as_they_are(&self) -> impl Iterator<Item = Option<usize>> {
         self.sources.iter().map(|source| match source {
             LearntAs::Itself(at) => Some(*at),
@@ -145,7 +145,7 @@ impl LearntChannels {
 }
 
 impl AngleCard {
-    /// The cards of those of `channels` that have a period, learnt from `values`, a row a sample.
+    /// Cards of the `channels` with a period, from their labels `values`, one row per sample.
     pub(crate) fn of_labels(channels: &Channels, values: &[f64]) -> Vec<AngleCard> {
         let width = channels.len();
         let all = channels.iter().enumerate();
@@ -166,12 +166,12 @@ impl AngleCard {
         cards.collect()
     }
 
-    /// The channel of its sine.
+    /// Channel name of the sine.
     pub(crate) fn sine(&self) -> String {
         format!("{}_sin", self.name)
     }
 
-    /// The channel of its cosine.
+    /// Channel name of the cosine.
     pub(crate) fn cosine(&self) -> String {
         format!("{}_cos", self.name)
     }

@@ -1,4 +1,4 @@
-//! Clamps predictions to the range of the training labels and a quarter of it on either side.
+//! Bounds of predictions: the range of the training labels plus a quarter of it on either side.
 
 use taceva_core::Targets;
 
@@ -6,10 +6,10 @@ use super::Model;
 use super::card::MARGIN;
 use crate::training::label_scaling::LabelScaling;
 
-/// Where predictions of each channel may lie, by the labels of the training part.
+/// Bounds of predictions for each channel, from the training labels.
 ///
-/// A quarter of the range of the labels is allowed on either side: for lighting or depths outside those of the training part a model may be
-/// wrong, but not by many times the range that it was fitted on. A label that never changes is its own bound.
+/// A quarter of the label range is allowed on either side. For lighting or depths outside the training part, a model may be wrong, but
+/// not by many times its range. A constant label is its own bound.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, Targets};
@@ -28,7 +28,7 @@ pub struct LabelBounds(Vec<Option<ChannelBounds>>);
 struct ChannelBounds {
     least: f64,
     greatest: f64,
-    /// Whether there was more than one label.
+    /// True if labels vary.
     varies: bool,
 }
 
@@ -47,12 +47,12 @@ impl ChannelBounds {
 }
 
 impl LabelBounds {
-    /// The bounds of `channels` of which nothing is known.
+    /// Unknown bounds of `channels` channels.
     pub fn unknown(channels: usize) -> LabelBounds {
         LabelBounds(vec![None; channels])
     }
 
-    /// The bounds of a model that has learnt `labels`, at least one of each channel.
+    /// Bounds from the training `labels`, at least one per channel.
     pub fn of_labels(labels: Targets<'_>) -> LabelBounds {
         let scaling = LabelScaling::of(labels);
         let ranges = scaling.minimum().iter().zip(scaling.span()).enumerate();
@@ -63,20 +63,20 @@ impl LabelBounds {
         LabelBounds(bounds.collect())
     }
 
-    /// The least and the greatest prediction of the channel at `position`, in its unit; `None` where nothing is known.
+    /// Least and greatest prediction of the channel at `position`, in its unit. `None` if unknown.
     pub fn of(&self, position: usize) -> Option<[f64; 2]> {
         self.0[position].map(|bounds| [bounds.least, bounds.greatest])
     }
 
-    /// Whether `prediction`, as the model gives it, lies beyond the bounds of the channel at `position`; `None` where there are none.
+    /// True if the unbounded `prediction` exceeds the bounds of the channel at `position`. `None` if bounds are unknown.
     ///
-    /// A label that never changes bounds nothing that was learnt: no prediction of it counts as beyond.
+    /// Always false for a constant label.
     pub fn is_beyond(&self, position: usize, prediction: f64) -> Option<bool> {
         let bounds = self.0[position]?;
         Some(bounds.varies && !(bounds.least..=bounds.greatest).contains(&prediction))
     }
 
-    /// Brings `predictions`, a row a sample, within their bounds.
+    /// Clamps `predictions`, one row per sample, to their bounds.
     ///
     /// # Shapes
     /// `[samples, channels]`.
@@ -92,7 +92,7 @@ impl LabelBounds {
 }
 
 impl Model {
-    /// The bounds of its predictions; an angle with a period has none.
+    /// Bounds of predictions. Unknown for angles with a period.
     pub fn label_bounds(&self) -> LabelBounds {
         let bounds = self.channels.as_they_are().map(|position| {
             let channel = &self.card.channels[position?];

@@ -1,11 +1,11 @@
-//! The card of a model that was fitted just now.
+//! Cards of newly fitted models.
 
 use super::input::FitInput;
 use crate::training::card::{AutoCard, ChannelCard, ModelCard, SampleCounts};
 use crate::training::fit::ModelFit;
 use crate::training::label_scaling::label_means;
 
-/// How far beyond the labels of the training part predictions may go, as a share of their range.
+/// Allowed excess of predictions over the training labels, as a share of their range.
 pub(super) const MARGIN: f64 = 0.25;
 
 impl ModelCard {

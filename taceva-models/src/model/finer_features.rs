@@ -1,4 +1,4 @@
-//! A fit that chooses among models of which some see finer features.
+//! Fits that choose among models, some with finer features.
 
 use taceva_core::{Features, ModelError, Progress};
 
@@ -9,20 +9,20 @@ use crate::linalg::invalid;
 /// Finer features of the samples of a fit.
 #[derive(Clone, Copy, Debug)]
 pub struct CloserFeatures<'a> {
-    /// What they are.
+    /// Specification of the features.
     pub spec: FeatureSpec,
-    /// Of the training part, sample by sample.
+    /// Features of the training part, by sample.
     pub training: &'a Features,
-    /// Of the validation part, where there is one.
+    /// Features of the validation part, if there is one.
     pub validation: Option<&'a Features>,
 }
 
 impl Model {
-    /// As [`fit`](Model::fit), with finer features too for what [looks closer](crate::ModelEstimator::looks_closer): the model is the one that fitting
-    /// what was chosen, on the features that it sees, gives.
+    /// Like [`fit`](Model::fit), with finer features for estimators that [look closer](crate::ModelEstimator::looks_closer). Chooses an
+    /// estimator and fits it on its features.
     ///
     /// # Errors
-    /// As [`fit`](Model::fit), and if there are finer features of the one part alone.
+    /// Errors of [`fit`](Model::fit), and if finer features are given for only one of two parts.
     pub fn fit_closer(
         input: FitInput<'_>,
         closer: CloserFeatures<'_>,

@@ -1,4 +1,4 @@
-//! All that a model is fitted from.
+//! Input of a fit.
 
 use taceva_core::{InputInfo, TrainingSet};
 
@@ -7,20 +7,20 @@ use crate::settings::ModelSettings;
 use crate::training::card::Provenance;
 use crate::training::fit::ModelEstimator;
 
-/// All that a model is fitted from.
+/// Input of a fit.
 pub struct FitInput<'a> {
-    /// The model, not fitted yet.
+    /// Unfitted model.
     pub estimator: &'a dyn ModelEstimator,
-    /// The settings it was made with, as typed.
+    /// Settings of the model, as typed.
     pub settings: &'a ModelSettings,
-    /// What it sees of a frame, or of signals.
+    /// Features of the model.
     pub features: FeatureSpec,
-    /// What the features were taken from: frames of a kind, or signals of a grid.
+    /// Source of the features: frames of one kind, or signals of one grid.
     pub input: InputInfo,
-    /// What is learnt from. Its features are those of an [`Extractor`](crate::Extractor); principal components are found here.
+    /// Training part, with features of an [`Extractor`](crate::Extractor). Principal components are computed later.
     pub training: TrainingSet<'a>,
-    /// What settings are chosen by.
+    /// Validation part, which chooses settings.
     pub validation: Option<TrainingSet<'a>>,
-    /// Where the samples come from.
+    /// Provenance of the samples.
     pub provenance: Provenance,
 }

@@ -1,53 +1,53 @@
-//! Why settings cannot be used.
+//! Errors of settings.
 
 use taceva_core::ArgError;
 use taceva_network::{GpuError, GpuKind};
 
 use super::Suggestion;
 
-/// Why settings cannot be used.
+/// Error of settings.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SettingError {
-    /// A word without `=`.
+    /// A word has no `=`.
     #[error("`{word}`: expected key=value", word = taceva_core::shown(word))]
     Form {
-        /// The word as typed.
+        /// Word as typed.
         word: String,
     },
-    /// A key given twice.
+    /// A key is repeated.
     #[error("`{key}`: given twice", key = taceva_core::shown(key))]
     Twice {
-        /// The key.
+        /// Repeated key.
         key: String,
     },
-    /// A key that nobody reads.
+    /// A key is unknown.
     #[error("`{key}`: unknown key, {suggestion}", key = taceva_core::shown(key))]
     Unknown {
-        /// The key as typed.
+        /// Key as typed.
         key: String,
-        /// What it may have been meant to be.
+        /// Suggested keys.
         suggestion: Suggestion,
     },
-    /// A value outside what its key accepts.
+    /// A value is not accepted by its key.
     #[error("`{key}={found}`: expected {accepts}", found = taceva_core::shown(found))]
     Value {
         /// The key.
         key: &'static str,
-        /// The value as typed.
+        /// Value as typed.
         found: String,
-        /// What would be accepted.
+        /// Accepted values.
         accepts: &'static str,
     },
-    /// A device that this program cannot reach.
+    /// The device is not available in this program.
     #[error("`device={kind}`: {source}")]
     Device {
-        /// How it would be reached.
+        /// Requested programming interface.
         kind: GpuKind,
-        /// Why it cannot be.
+        /// Reason.
         source: GpuError,
     },
-    /// A setting that the estimator of a plugin does not take.
+    /// A plugin estimator rejects a setting.
     #[error(transparent)]
     Argument(#[from] ArgError),
 }

@@ -1,8 +1,8 @@
-//! What a wrong word may have been meant to be.
+//! Suggestions for unknown words.
 
 use std::fmt;
 
-/// The nearest of some known words, where one is near; otherwise all of them.
+/// The most similar known word if one is similar; otherwise all known words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Suggestion {
     nearest: Option<String>,
@@ -10,7 +10,7 @@ pub struct Suggestion {
 }
 
 impl Suggestion {
-    /// What `word` may have been meant to be.
+    /// Suggests known words for `word`.
     pub fn of<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Suggestion {
         let known: Vec<String> = known.into_iter().map(str::to_owned).collect();
         let nearest = taceva_core::nearest(word, known.iter().map(String::as_str));
@@ -18,7 +18,7 @@ impl Suggestion {
         Suggestion { nearest, known }
     }
 
-    /// The nearest word, if one is near.
+    /// Most similar word. `None` if no word is similar.
     pub fn nearest(&self) -> Option<&str> {
         self.nearest.as_deref()
     }

@@ -1,4 +1,4 @@
-//! The part of every sample.
+//! Assignment of samples to parts.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -11,23 +11,23 @@ use super::spec::{ColumnSplit, SplitKind, SplitSpec};
 use crate::settings::Suggestion;
 use taceva_core::random::SplitMix64;
 
-/// The rows of each part, ascending.
+/// Rows of each part, ascending.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Split {
-    /// Learnt from.
+    /// Training rows.
     pub train: Vec<usize>,
-    /// Settings are chosen by them.
+    /// Rows that choose settings.
     pub validation: Vec<usize>,
-    /// Measured on.
+    /// Test rows.
     pub test: Vec<usize>,
-    /// Rows in none of the parts.
+    /// Rows outside all parts.
     pub left_out: Vec<usize>,
-    /// What a reader of the result should know.
+    /// Note for readers of results.
     pub note: Option<String>,
 }
 
 impl Split {
-    /// The rows of `part`.
+    /// Rows of `part`.
     pub fn rows(&self, part: Part) -> &[usize] {
         match part {
             Part::Train => &self.train,
@@ -36,10 +36,10 @@ impl Split {
         }
     }
 
-    /// This split as one of a recording of `all` rows, of which its own were `rows`, ascending: all others are left out.
+    /// Maps this split of the rows `rows`, ascending, to a recording of `all` rows. Leaves out all other rows.
     ///
     /// # Panics
-    /// If the split has a row that `rows` has not.
+    /// If the split refers to a row beyond `rows`.
     #[must_use]
     pub fn among(mut self, rows: &[usize], all: usize) -> Split {
         for part in [
@@ -72,7 +72,7 @@ impl Split {
 }
 
 impl SplitSpec {
-    /// The part of every row of `input`; the same for the same seed on every machine.
+    /// Assigns every row of `input` to a part. The same seed gives the same parts on every machine.
     ///
     /// ```
     /// use taceva_models::{SplitInput, SplitSpec};
@@ -84,8 +84,8 @@ impl SplitSpec {
     /// ```
     ///
     /// # Errors
-    /// [`SplitError`] if `input` lacks what decides, or a part would stay empty. Validation may stay empty where a person
-    /// or the recording names the parts.
+    /// [`SplitError`] if `input` lacks the required columns, or the training or test part is empty. The validation part may be empty if
+    /// parts are named.
     pub fn assign(&self, input: &SplitInput<'_>, seed: u64) -> Result<Split, SplitError> {
         input.check()?;
         let split = match &self.kind {
@@ -108,7 +108,7 @@ impl SplitSpec {
             SplitKind::ByRecording(parts) => by_recording(input, parts, self.fractions, seed),
             SplitKind::ByBlock => {
                 let blocks = input.blocks.ok_or(SplitError::NoBlocks)?;
-                // Blocks of a recording of several are never shared, so chance may begin anew with each.
+                // Recordings share no blocks, so random draws can restart for each.
                 by_cluster(blocks.names, input, self.fractions, seed, "blocks")
                     .map(|split| input.apart(split))
             }
@@ -132,7 +132,7 @@ impl SplitSpec {
         }
     }
 
-    /// What the person asked for; parts that are named always count as asked for.
+    /// Requested share of a part; 1 for every part if parts are named.
     fn share_of(&self, part: Part) -> f64 {
         if self.kind == SplitKind::All {
             return if part == Part::Train { 1.0 } else { 0.0 };
@@ -151,7 +151,7 @@ impl SplitSpec {
     }
 }
 
-/// The sections of the rows, in order; whether a recording begins with each.
+/// Sections of rows in order, each with a flag that is true if a recording begins there.
 fn sections<'a>(input: &'a SplitInput<'a>) -> impl Iterator<Item = (Range<usize>, bool)> + 'a {
     let starts = std::iter::once(0).chain(input.sections.iter().copied());
     let ends = input.sections.iter().copied().chain([input.rows]);
@@ -161,10 +161,10 @@ fn sections<'a>(input: &'a SplitInput<'a>) -> impl Iterator<Item = (Range<usize>
     })
 }
 
-/// Whole clusters, by chance. Clusters count alike, however many rows they have; where each row is one, this is the
-/// random split. Clusters are numbered by their first row, so a seed gives rows, not names, their part.
+/// Assigns whole clusters at random. All clusters have equal weight, regardless of their rows. With one row per cluster, this is
+/// the random split. Clusters are numbered by their first row, so a seed assigns rows, not names.
 ///
-/// A cluster has the part of its first section. Chance begins anew with each recording, which is divided as it would be alone.
+/// A cluster keeps the part of its first section. Random draws restart with each recording, which is therefore split as if alone.
 fn by_cluster<N: Ord>(
     names: &[N],
     input: &SplitInput<'_>,
@@ -195,7 +195,7 @@ fn by_cluster<N: Ord>(
     ))
 }
 
-/// The parts of `total` clusters of a section: of one of several a part may stay empty.
+/// Parts of `total` clusters of a section. A part may be empty if there are several sections.
 fn parts_of_section(
     total: usize,
     input: &SplitInput<'_>,
@@ -220,7 +220,7 @@ fn by_recording(
         split: "by-recording",
     })?;
     if parts.is_empty() {
-        // A recording is a cluster, whenever its samples were added.
+        // A recording is one cluster, even if its samples were added at different times.
         let together = SplitInput {
             sections: &[],
             ..input.clone()
@@ -247,7 +247,7 @@ fn by_recording(
     Ok(assigned)
 }
 
-/// `total` parts: training first, then validation, then test; each with a share gets at least one.
+/// `total` parts: training first, then validation, then test. Each part with a share gets at least one cluster.
 fn parts_in_order(
     total: usize,
     fractions: Fractions,
@@ -268,7 +268,7 @@ fn parts_in_order(
     Ok(in_order(counts))
 }
 
-/// So many of each part, training first.
+/// Repeats each part `counts` times, training first.
 fn in_order(counts: [usize; 3]) -> Vec<Part> {
     let counted = Part::ALL.into_iter().zip(counts);
     counted
@@ -284,7 +284,7 @@ fn chronological(input: &SplitInput<'_>, fractions: Fractions) -> Result<Split, 
     let mut parts = vec![None; input.rows];
     for (rows, _) in sections(input) {
         let mut order: Vec<usize> = rows.collect();
-        // Stable, so ties keep the order of rows; -0 and 0 are one time.
+        // A stable sort keeps the row order of ties; −0 and 0 are equal times.
         order.sort_by(|&a, &b| (times[a] + 0.0).total_cmp(&(times[b] + 0.0)));
         let ranked = parts_of_section(order.len(), input, fractions, "samples")?;
         for (row, part) in order.into_iter().zip(ranked) {

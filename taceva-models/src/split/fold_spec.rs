@@ -1,4 +1,4 @@
-//! Cross-validation as people write it.
+//! Specification of cross-validation.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,34 +6,34 @@ use std::str::FromStr;
 use super::error::SplitError;
 use crate::settings::Suggestion;
 
-/// Cross-validation as people write it: how many folds, and what stays together in one.
+/// Specification of cross-validation: number of folds, and groups that stay together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FoldSpec {
-    /// Number of folds; one for each group if `None`.
+    /// Number of folds. `None` for one per group.
     pub count: Option<usize>,
-    /// Samples that stay together.
+    /// Groups of samples that stay together.
     pub by: FoldGroups,
 }
 
-/// Samples that stay together in one fold.
+/// Groups of samples that stay together in one fold.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum FoldGroups {
-    /// The groups that the recording shows: points that repeat, groups or blocks of time where neighbours resemble each other, else single samples.
+    /// Groups found in the recording: repeated points, otherwise blocks of similar neighbouring samples, otherwise single samples.
     #[default]
     Detected,
     /// Single samples.
     Samples,
-    /// Samples of one contact point.
+    /// Samples of the same contact point.
     Points,
-    /// Samples of one block of time.
+    /// Samples of the same block of time.
     Blocks,
-    /// Samples of one recording, of several.
+    /// Samples of the same recording.
     Recordings,
-    /// Samples with one value in the column of this name.
+    /// Samples with the same value in this column.
     Column(String),
 }
 
-/// Words of what stays together, in the order of suggestions.
+/// Words for groups, in the order of suggestions.
 const GROUPS: [&str; 5] = [
     "random",
     "by-point",
@@ -43,7 +43,7 @@ const GROUPS: [&str; 5] = [
 ];
 
 impl FoldSpec {
-    /// The cross-validation that `text` means, such as `cv:5`, `cv:10 by-point` or `loo by-column:object`; `None` if it means none.
+    /// Parses cross-validations such as `cv:5`, `cv:10 by-point` or `loo by-column:object`. `None` for other splits.
     pub(super) fn parse(text: &str) -> Option<Result<FoldSpec, SplitError>> {
         let (word, by) = text.split_once(' ').unwrap_or((text, ""));
         let count = match (word, word.strip_prefix("cv:")) {

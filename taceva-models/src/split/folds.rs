@@ -1,4 +1,4 @@
-//! Folds of a cross-validation: each group of samples is tested on once, by a model that was fitted on the others.
+//! Folds of a cross-validation: each group of samples is tested once, by a model fitted on other groups.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,18 +12,18 @@ use super::input::SplitInput;
 use super::part::Part;
 use crate::settings::Suggestion;
 
-/// Folds of a recording: for each a division, and the group of every sample.
+/// Folds of a recording, with the group of every sample.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Folds {
-    /// A division a fold; together their test parts have every sample once that is in a group.
+    /// One split per fold. Every sample of a group is in exactly one test part.
     pub splits: Vec<Split>,
-    /// The name of the group of each sample; empty where there is none.
+    /// Group name of each sample; empty for samples without a group.
     pub groups: Vec<String>,
 }
 
 impl FoldSpec {
-    /// The folds of `input`, the same for the same seed on every machine. Of the groups that a fold does not test on, some are for choosing
-    /// settings, in the shares that `fractions` give training and validation.
+    /// Computes the folds of `input`. The same seed gives the same folds on every machine. Untested groups of a fold are divided into
+    /// training and validation, in the shares of `fractions`.
     ///
     /// ```
     /// use taceva_models::{Fractions, FoldGroups, FoldSpec, SplitInput};
@@ -36,7 +36,7 @@ impl FoldSpec {
     /// ```
     ///
     /// # Errors
-    /// [`SplitError`] if `input` lacks what names groups, or has fewer of them than folds.
+    /// [`SplitError`] if `input` lacks the names of groups, or has fewer groups than folds.
     pub fn folds(
         &self,
         input: &SplitInput<'_>,
@@ -72,10 +72,10 @@ impl FoldSpec {
         })
     }
 
-    /// The name of the group of every row of `input`; empty where it is in none.
+    /// Group name of every row of `input`; empty for rows without a group.
     ///
     /// # Errors
-    /// [`SplitError`] if `input` lacks what names them.
+    /// [`SplitError`] if `input` lacks the names of groups.
     pub fn groups(&self, input: &SplitInput<'_>) -> Result<Vec<String>, SplitError> {
         let samples = || (0..input.rows).map(|row| format!("{row}")).collect();
         Ok(match &self.by {
@@ -105,7 +105,7 @@ impl FoldSpec {
     }
 }
 
-/// The part of each group in fold number `fold` of `count`. Groups take turns; those behind the tested ones choose settings.
+/// Part of each group in fold `fold` of `count`. Groups are tested in turn; the groups after the tested ones choose settings.
 fn parts<'a>(
     order: &[&'a str],
     fold: usize,
@@ -113,7 +113,7 @@ fn parts<'a>(
     fractions: Fractions,
 ) -> BTreeMap<&'a str, Part> {
     let mut parts = BTreeMap::new();
-    // Other groups from the next fold on, so that each fold chooses by other groups.
+    // Starts at the next fold, so that every fold chooses settings by other groups.
     let mut others = Vec::new();
     for turn in 0..count {
         let own = order.iter().skip((fold + turn) % count).step_by(count);

@@ -1,10 +1,10 @@
-//! The shares of the three parts.
+//! Shares of the three parts.
 
 use std::fmt;
 
 use super::error::SplitError;
 
-/// The shares of the three parts.
+/// Shares of the three parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fractions {
     shares: [f64; 3],
@@ -20,10 +20,10 @@ impl Default for Fractions {
 }
 
 impl Fractions {
-    /// The shares of `train`, `validation` and `test`; any unit, they are divided by their sum.
+    /// Shares of `train`, `validation` and `test` in any unit. They are divided by their sum.
     ///
     /// # Errors
-    /// [`SplitError::Fractions`] unless all are finite, none is negative, and training has a share.
+    /// [`SplitError::Fractions`] unless all are finite and nonnegative, and training has a share.
     pub fn new(train: f64, validation: f64, test: f64) -> Result<Fractions, SplitError> {
         let given = [train, validation, test];
         let sum: f64 = given.iter().sum();
@@ -36,7 +36,7 @@ impl Fractions {
         }
     }
 
-    /// The number of `total` groups that choose settings: none where there is no share for it, and never all.
+    /// Number of validation groups among `total` training and validation groups: 0 without a validation share, and never all.
     pub(super) fn validation_of_rest(&self, total: usize) -> usize {
         let [train, validation, _] = self.shares;
         let rest = Fractions {
@@ -47,12 +47,12 @@ impl Fractions {
         wanted.max(least).min(total.saturating_sub(1))
     }
 
-    /// The shares in the order of [`Part::ALL`](crate::Part::ALL); they sum to 1.
+    /// Shares in the order of [`Part::ALL`](crate::Part::ALL), with the sum 1.
     pub fn shares(&self) -> [f64; 3] {
         self.shares
     }
 
-    /// Whole numbers of `total` things by the largest remainder; of equal remainders the earlier part gets more.
+    /// Divides `total` by the largest-remainder method. Ties go to the earlier part.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -60,7 +60,7 @@ impl Fractions {
     )]
     pub(super) fn counts(&self, total: usize) -> [usize; 3] {
         let exact = self.shares.map(|share| share * total as f64);
-        // 0.7 × 10 is 7.000…: what is a whole number but for rounding counts as one.
+        // 0.7 × 10 is 7.000…: a number that is an integer to within rounding counts as one.
         let whole = exact.map(|exact| (exact + 1e-9).floor());
         let mut counts = whole.map(|whole| whole as usize);
         let mut order = [0, 1, 2];

@@ -1,4 +1,4 @@
-//! The columns that a division looks at.
+//! Columns of a recording on which a split depends.
 
 use std::collections::BTreeMap;
 
@@ -6,42 +6,42 @@ use super::assign::Split;
 use super::error::SplitError;
 use super::part::Part;
 
-/// What a split may look at.
+/// Columns on which a split may depend.
 ///
 /// # Shapes
-/// Every list but `sections` has a value a row.
+/// Every list except `sections` has one value per row.
 #[derive(Clone, Debug, Default)]
 pub struct SplitInput<'a> {
     /// Number of samples.
     pub rows: usize,
-    /// The contact point of each sample.
+    /// Contact point of each sample.
     pub points: Option<&'a [String]>,
-    /// The time of each sample in s.
+    /// Time of each sample, s.
     pub times_s: Option<&'a [f64]>,
-    /// The part that the recording itself names.
+    /// Part of each sample declared by the recording.
     pub parts: Option<&'a [String]>,
     /// Columns by name.
     pub columns: BTreeMap<&'a str, &'a [String]>,
-    /// The recording of each sample, where several are divided.
+    /// Recording of each sample, if there are several.
     pub recordings: Option<&'a [String]>,
-    /// Blocks of time, where there are such.
+    /// Blocks of time, if there are any.
     pub blocks: Option<SplitBlocks<'a>>,
-    /// The first row of each section but the first, ascending: samples that were recorded, or added, later. Chance and time divide section by
-    /// section, so that samples which come later change the part of none that was there; empty: all samples are one section.
+    /// First row of every section except the first, ascending. Later sections were recorded or added later. Random and chronological splits
+    /// divide each section separately, so that later samples change no earlier part. Empty for a single section.
     pub sections: &'a [usize],
 }
 
-/// Blocks of time: samples in a row that stay together.
+/// Blocks of time: consecutive samples that stay together.
 ///
 /// # Shapes
-/// Both lists have a value a row.
+/// Both lists have one value per row.
 #[derive(Clone, Copy, Debug)]
 pub struct SplitBlocks<'a> {
-    /// The block of each sample; empty of a sample in none.
+    /// Block of each sample; empty for samples without a block.
     pub names: &'a [String],
-    /// The place of each sample in time, counted in samples; places of samples that do not follow each other are further apart than the gap.
+    /// Position of each sample in time, in samples. Positions of unrelated samples differ by more than the gap.
     pub places: &'a [usize],
-    /// Samples that are left out between blocks of different parts.
+    /// Samples left out between blocks of different parts.
     pub gap: usize,
 }
 
@@ -73,8 +73,8 @@ impl SplitInput<'_> {
         }
     }
 
-    /// The split without samples that stand, within the gap, beside a sample of a part that judges them: training samples beside any other part, and
-    /// validation samples beside the test part.
+    /// Removes samples within the gap of a part that evaluates them: training samples near validation or test samples, and
+    /// validation samples near test samples.
     pub(super) fn apart(&self, split: Split) -> Split {
         let Some(SplitBlocks { places, gap, .. }) = self.blocks.filter(|blocks| blocks.gap > 0)
         else {
@@ -89,7 +89,7 @@ impl SplitInput<'_> {
         }
         let mut order: Vec<usize> = (0..self.rows).collect();
         order.sort_by_key(|&row| places[row]);
-        // The last place so far, from either side, of a part that judges the training part, and of the test part.
+        // Last position so far, from either side, of a validation or test sample, and of a test sample.
         let mut near = vec![false; self.rows];
         let mut look = |order: &mut dyn Iterator<Item = usize>| {
             let mut last: [Option<usize>; 2] = [None, None];

@@ -1,4 +1,4 @@
-//! A split as a record, so that others can use the same parts.
+//! Record of a split, so that others can reuse its parts.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,43 +7,43 @@ use super::error::SplitError;
 use super::part::Part;
 use super::spec::SplitSpec;
 
-/// Which samples went where, by their ids.
+/// Record of the parts of samples, by their ids.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitManifest {
-    /// The split as people write it, with its fractions.
+    /// Split as written, with its fractions.
     pub split: String,
-    /// The seed.
+    /// Random seed.
     pub seed: u64,
-    /// Samples in each part.
+    /// Number of samples in each part.
     pub counts: SplitCounts,
-    /// What a reader should know.
+    /// Note for readers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// The ids of the samples learnt from.
+    /// Ids of the training samples.
     pub train: Vec<String>,
-    /// The ids of the samples by which settings are chosen.
+    /// Ids of the validation samples, which choose settings.
     pub validation: Vec<String>,
-    /// The ids of the samples measured on.
+    /// Ids of the test samples.
     pub test: Vec<String>,
 }
 
-/// Samples in each part.
+/// Number of samples in each part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitCounts {
-    /// Learnt from.
+    /// Training samples.
     pub train: usize,
-    /// Settings are chosen by them.
+    /// Validation samples, which choose settings.
     pub validation: usize,
-    /// Measured on.
+    /// Test samples.
     pub test: usize,
-    /// In none of the parts.
+    /// Samples outside all parts.
     pub left_out: usize,
 }
 
 impl SplitCounts {
-    /// The counts of `split`.
+    /// Counts of `split`.
     pub fn of(split: &Split) -> SplitCounts {
         SplitCounts {
             train: split.train.len(),
@@ -55,10 +55,10 @@ impl SplitCounts {
 }
 
 impl SplitManifest {
-    /// The record of `split`, whose rows have `ids`.
+    /// Records `split`, whose rows have `ids`.
     ///
     /// # Errors
-    /// [`SplitError::Length`] if `ids` are fewer or more than the rows of the split.
+    /// [`SplitError::Length`] if the number of `ids` differs from the rows of the split.
     pub fn new(
         spec: &SplitSpec,
         seed: u64,

@@ -1,26 +1,26 @@
-//! What a sample is used for.
+//! Parts of a split.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// What a sample is used for.
+/// Part of a split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Part {
-    /// Learnt from.
+    /// Training samples.
     Train,
-    /// Settings are chosen by it.
+    /// Validation samples, which choose settings.
     Validation,
-    /// Measured on, and never seen before.
+    /// Test samples, which are unseen during the fit.
     Test,
 }
 
 impl Part {
-    /// Every part, in order.
+    /// All parts, in order.
     pub const ALL: [Part; 3] = [Part::Train, Part::Validation, Part::Test];
 
-    /// The part called `train`, `val`, `validation` or `test`.
+    /// Parses `train`, `val`, `validation` or `test`. `None` for other names.
     pub fn from_name(name: &str) -> Option<Part> {
         match name {
             "train" => Some(Part::Train),
@@ -30,7 +30,7 @@ impl Part {
         }
     }
 
-    /// How it is written.
+    /// Name of the part.
     pub const fn name(self) -> &'static str {
         match self {
             Part::Train => "train",

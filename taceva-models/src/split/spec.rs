@@ -1,4 +1,4 @@
-//! How a recording is to be split, as people write it.
+//! Specification of a split.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,47 +10,47 @@ use super::fractions::Fractions;
 use super::part::Part;
 use crate::settings::Suggestion;
 
-/// How a recording is split into training, validation and test parts.
+/// Specification of a split into training, validation and test parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SplitSpec {
-    /// What decides on the part of a sample.
+    /// Method of assignment.
     pub kind: SplitKind,
-    /// How large the parts are; not used where the parts are named.
+    /// Sizes of the parts. Not used if parts are named.
     pub fractions: Fractions,
 }
 
-/// What decides on the part of a sample.
+/// Method of assigning samples to parts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SplitKind {
-    /// Chance, sample by sample.
+    /// Random by sample.
     Random,
-    /// Time: the first samples are learnt from, the last ones tested on.
+    /// By time: the first samples are trained on, the last ones tested.
     Chronological,
-    /// Chance, contact point by contact point: the presses of a point are all in one part.
+    /// Random by contact point: all presses of a point are in one part.
     #[default]
     ByPoint,
-    /// A column of the recording.
+    /// By the values of a column.
     ByColumn(ColumnSplit),
-    /// Of several recordings: chance, recording by recording, or the part that a person names for each; empty: chance.
+    /// By recording: named parts, or random if empty.
     ByRecording(BTreeMap<String, Part>),
-    /// Chance, block of time by block of time, with a gap between blocks of different parts.
+    /// Random by block of time, with a gap between blocks of different parts.
     ByBlock,
-    /// Of several recordings: each is tested on by a model that was fitted on all others.
+    /// Each of several recordings is tested by a model fitted on all others.
     LeaveOneRecordingOut,
-    /// Cross-validation: each group is tested on by a model that was fitted on others.
+    /// Cross-validation: each group is tested by a model fitted on others.
     Folds(FoldSpec),
-    /// The recording itself.
+    /// Parts declared by the recording.
     Declared,
-    /// Nothing: every sample is learnt from, for a final model that other recordings judge.
+    /// No split: every sample is trained on, for a final model that is tested on other recordings.
     All,
 }
 
-/// A column whose values decide.
+/// A column whose values determine the part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColumnSplit {
-    /// The name of the column.
+    /// Name of the column.
     pub column: String,
-    /// The part of each value; empty: chance, value by value.
+    /// Part of each value. Random by value if empty.
     pub parts: BTreeMap<String, Part>,
 }
 
@@ -71,9 +71,9 @@ const KINDS: [&str; 11] = [
 impl FromStr for SplitSpec {
     type Err = SplitError;
 
-    /// Reads `random`, `chronological`, `by-point`, `by-block`, `cv:5`, `cv:5 by-point`, `loo`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4`, `by-recording`,
-    /// `by-recording=train:a,b;test:c`, `leave-one-recording-out`, `declared` or `all`, and after a blank the shares: `random 70/20/10`. A `\` takes the
-    /// `,`, `;` or `\` behind it for a letter of the value. What a split is displayed as reads back as the same split.
+    /// Parses `random`, `chronological`, `by-point`, `by-block`, `cv:5`, `cv:5 by-point`, `loo`, `by-column:NAME`,
+    /// `by-column:NAME=train:1,2;val:3;test:4`, `by-recording`, `by-recording=train:a,b;test:c`, `leave-one-recording-out`, `declared` or
+    /// `all`, and shares after a space: `random 70/20/10`. A `\` escapes `,`, `;` and `\` in values. Inverse of `Display`.
     fn from_str(text: &str) -> Result<SplitSpec, SplitError> {
         let shares = text
             .rsplit_once(' ')
@@ -121,13 +121,13 @@ impl FromStr for SplitSpec {
     }
 }
 
-/// `70/20/10`.
+/// Parses three numbers such as `70/20/10`.
 fn three_numbers(text: &str) -> Option<[f64; 3]> {
     let numbers: Option<Vec<f64>> = text.split('/').map(|number| number.parse().ok()).collect();
     numbers?.try_into().ok()
 }
 
-/// Refuses shares at the end of `text` that come neither to 100 nor to 1. Infinite and other odd ones are left to [`Fractions::new`].
+/// Rejects shares at the end of `text` with a sum other than 100 or 1. [`Fractions::new`] rejects infinite and negative shares.
 fn check_sum(text: &str, shares: [f64; 3]) -> Result<(), SplitError> {
     let sum: f64 = shares.iter().sum();
     let is_whole = [100.0, 1.0]
@@ -162,7 +162,7 @@ fn column_split(text: &str) -> Result<ColumnSplit, SplitError> {
     })
 }
 
-/// `train:1,2;val:3;test:4`, which is the end of `text`.
+/// Parses `train:1,2;val:3;test:4`, the end of `text`.
 fn named_parts(text: &str, assignment: &str) -> Result<BTreeMap<String, Part>, SplitError> {
     let malformed = |found: &str| SplitError::Assignment {
         found: found.to_owned(),
@@ -188,7 +188,7 @@ fn named_parts(text: &str, assignment: &str) -> Result<BTreeMap<String, Part>, S
     }
 }
 
-/// The pieces of `text` between separators; one behind a `\` is a letter.
+/// Splits `text` at separators that are not escaped by `\`.
 fn pieces(text: &str, separator: char) -> Vec<&str> {
     let (mut pieces, mut begin, mut is_letter) = (Vec::new(), 0, false);
     for (at, letter) in text.char_indices() {
@@ -202,10 +202,10 @@ fn pieces(text: &str, separator: char) -> Vec<&str> {
     pieces
 }
 
-/// What marks a value from the next, or takes such a mark for a letter.
+/// Separators of values, and the escape character.
 const MARKS: [char; 3] = [',', ';', '\\'];
 
-/// The value that is written as `text`.
+/// Removes escapes from a value.
 fn letters(text: &str) -> String {
     let mut value = String::with_capacity(text.len());
     let mut rest = text.chars().peekable();
@@ -216,7 +216,7 @@ fn letters(text: &str) -> String {
     value
 }
 
-/// How a value is written.
+/// Escapes a value.
 fn written(value: &str) -> String {
     let mut text = String::with_capacity(value.len());
     for letter in value.chars() {

@@ -1,4 +1,4 @@
-//! What a model is, what it was fitted on, and how well it did there.
+//! Model cards: kind of model, training data, and errors of the fit.
 
 mod auto;
 mod distance;
@@ -20,118 +20,118 @@ use crate::features::choice::FeatureChoice;
 use crate::training::choice::Choice;
 use crate::training::file::limits::FORMAT;
 
-/// The description kept in a model file.
+/// Description stored in a model file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelCard {
-    /// The version of the file format, `major.minor`.
+    /// Version of the file format, `major.minor`.
     pub format: String,
-    /// The version of TacEva that fitted it.
+    /// Version of TacEva that fitted the model.
     pub taceva: String,
-    /// The name of the model.
+    /// Name of the model.
     pub model: String,
-    /// The settings a person gave, as `key=value`.
+    /// Settings given by the user, as `key=value`.
     pub settings: Vec<String>,
-    /// What was chosen for each channel, and the error there.
+    /// Chosen setting and error of each channel.
     pub choice: Choice,
-    /// Whether the validation part was learnt from too, once the settings were chosen.
+    /// True if the model was refitted on training and validation parts with the chosen settings.
     pub refitted: bool,
-    /// What it sees of a frame, or of signals.
+    /// Features of frames or signals.
     pub features: FeatureSpec,
-    /// The share of the training part's variance that the principal components keep, if there are any.
+    /// Share of the training variance kept by principal components, if there are any.
     pub pca_variance: Option<f64>,
-    /// What it was fitted on, and the only thing it takes: `frame` in the file, or `signals`.
+    /// Only accepted input: size and format of frames (`frame` in the file), or grid of signals (`signals`).
     #[serde(flatten)]
     pub input: InputInfo,
-    /// What the numbers of each channel of a place are divided by, a power of two next to its spread over the training part; of signals alone.
+    /// Divisors of each channel of a taxel: spread over the training part, rounded to a power of two. `None` for frames.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spread: Option<Vec<f64>>,
-    /// How far beyond the labels of the training part predictions may go, as a share of their range.
+    /// Allowed excess of predictions over the training labels, as a share of their range.
     pub margin: f64,
-    /// What it learnt: each channel that it predicts, of an angle with a period its sine and cosine.
+    /// Learnt channels: each predicted channel, or sine and cosine of an angle with a period.
     pub channels: Vec<ChannelCard>,
-    /// The angles among what it predicts that have a period.
+    /// Predicted angles with a period.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub angles: Vec<AngleCard>,
-    /// Limits of the distance from its training samples; absent of a model that looks at nothing or is of before models said so.
+    /// Limits of the distance from the training samples. `None` for a model that uses no features, or in older files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distance: Option<DistanceCard>,
-    /// How many samples it was fitted on.
+    /// Number of samples of each part.
     pub samples: SampleCounts,
-    /// Where the samples come from.
+    /// Provenance of the samples.
     pub provenance: Provenance,
-    /// What it is where it is neither linear nor a network.
+    /// Form of a model that is neither linear nor a network.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub form: Option<Form>,
-    /// How the model was chosen, where a person left that open.
+    /// Record of an automatic choice of model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub auto: Option<AutoCard>,
-    /// How its features were chosen, where a person left that open.
+    /// Record of an automatic choice of features.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feature_choice: Option<FeatureChoice>,
-    /// The network, where the model is one.
+    /// Network settings, for a network.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network: Option<NetworkCard>,
-    /// The networks, where the model is the mean of several.
+    /// Network settings of each member, for an ensemble.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ensemble: Vec<NetworkCard>,
-    /// The library that fitted it and is needed to read it, where the model is of one.
+    /// Library that fitted the model and is needed to read it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub library: Option<LibraryCard>,
-    /// The plugin that fitted it and is needed to predict with it, where the model is of one.
+    /// Plugin that fitted the model and is needed for predictions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<PluginCard>,
 }
 
-/// What a model that is neither linear nor a network consists of.
+/// Form of a model that is neither linear nor a network.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Form {
-    /// A kernel of landmarks.
+    /// Kernel on landmarks.
     Kernel {
-        /// How many landmarks there are: training samples with which every sample is compared.
+        /// Number of landmarks: training samples with which every sample is compared.
         landmarks: usize,
-        /// How far the kernel reaches, in typical distances of a sample from the mean.
+        /// Kernel length, in typical distances of a sample from the mean.
         length: f64,
-        /// Whether it estimates the standard deviation of its predictions.
+        /// True if the model estimates standard deviations of its predictions.
         deviations: bool,
     },
-    /// Training samples that are looked up.
+    /// Nearest training samples.
     Neighbours {
-        /// How many are kept.
+        /// Number of stored samples.
         samples: usize,
     },
-    /// Classes.
+    /// Classification.
     Classes {
-        /// How many there are, over all channels.
+        /// Number of classes, summed over channels.
         classes: usize,
     },
-    /// Trees whose answers are added up.
+    /// Sum of trees.
     Trees {
-        /// How many there are.
+        /// Number of trees.
         trees: usize,
     },
-    /// Parameters of another library's model.
+    /// Model of another library.
     Library,
 }
 
-/// A channel, and the labels it was learnt from.
+/// A channel and its training labels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChannelCard {
-    /// The name.
+    /// Name.
     pub name: String,
-    /// The unit of predictions.
+    /// Unit of predictions.
     pub unit: Unit,
-    /// The least label of the training part.
+    /// Least training label.
     pub minimum: f64,
-    /// Greatest minus least label of the training part; 1 where that is 0.
+    /// Range of the training labels; 1 if they are constant.
     pub span: f64,
-    /// The mean label of the training part, the best constant answer, by which skill is measured.
+    /// Mean training label: the best constant prediction, to which skill compares.
     pub mean: f64,
-    /// Whether every label of the training part is the same: the channel is predicted as that.
+    /// True if all training labels are equal. The channel is then predicted as this label.
     pub constant_label: bool,
 }
 
-/// An angle with a period, which is learnt as the channels `NAME_sin` and `NAME_cos`.
+/// An angle with a period, learnt as the channels `NAME_sin` and `NAME_cos`.
 ///
 /// ```
 /// let text = r#"{"name": "yaw", "period": 360, "from_zero": false, "mean": -12.5}"#;
@@ -141,88 +141,88 @@ pub struct ChannelCard {
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AngleCard {
-    /// The name.
+    /// Name.
     pub name: String,
-    /// Degrees after which it repeats.
+    /// Period, degrees.
     pub period: u16,
-    /// True if predictions run from 0 to the period, as the labels do, and not from minus half of it.
+    /// True for predictions from 0 to the period, like the labels; false for predictions around 0.
     pub from_zero: bool,
-    /// The mean direction of the training part, degrees.
+    /// Mean direction of the training part, degrees.
     pub mean: f64,
 }
 
-/// Samples of each part.
+/// Number of samples of each part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SampleCounts {
-    /// Learnt from.
+    /// Training samples.
     pub train: usize,
-    /// Settings were chosen by them.
+    /// Validation samples, which chose settings.
     pub validation: usize,
 }
 
-/// Where samples come from.
+/// Provenance of samples.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// The digest of the recording, `sha256:…`; of several that of all of them in their order.
+    /// Digest of the recording, `sha256:…`. For several recordings: digest of all, in order.
     pub data: Option<String>,
-    /// The digest of each recording, in their order, where there were several.
+    /// Digest of each recording, in order, if there are several.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<String>,
-    /// The view of its frames, of a recording whose samples have several pictures: `left`, or `left+right` side by side.
+    /// View of the frames, if samples have several pictures: `left`, or `left+right` side by side.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
-    /// What made the recording.
+    /// Origin of the recording.
     pub source: Source,
-    /// How it was split.
+    /// Split of the recording.
     pub split: Option<SplitCard>,
-    /// What else a reader should know.
+    /// Further notes for readers.
     pub notes: Vec<String>,
-    /// Scores of models fitted alike on samples that they have not seen, of a model that was fitted on every sample.
+    /// Cross-validation scores, for a model fitted on every sample.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validation: Option<ValidationCard>,
 }
 
-/// Cross-validation behind a model that was fitted on every sample.
+/// Cross-validation of a model that was fitted on every sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ValidationCard {
-    /// The split, such as `cv:5 by-point`.
+    /// Split, such as `cv:5 by-point`.
     pub split: String,
-    /// The seed of the split.
+    /// Seed of the split.
     pub seed: u64,
-    /// Samples that were predicted, each once.
+    /// Number of predicted samples.
     pub samples: usize,
-    /// Findings on neighbouring samples that resemble each other.
+    /// Findings about similar neighbouring samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
-    /// The scores.
+    /// Scores.
     pub scores: Vec<ValidationScore>,
 }
 
 /// Score of a cross-validation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ValidationScore {
-    /// The metric: `mae`.
+    /// Metric, such as `mae`.
     pub metric: String,
-    /// The channel.
+    /// Channel.
     pub channel: String,
-    /// The value, in the unit of the metric and channel.
+    /// Value, in the unit of metric and channel.
     pub value: f64,
-    /// Both ends of its interval of 95 %, where there is one.
+    /// 95 % interval, if there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<[f64; 2]>,
 }
 
-/// What made a recording.
+/// Origin of a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
-    /// A real sensor.
+    /// Real sensor.
     Recorded,
-    /// A simulated sensor.
+    /// Simulated sensor.
     Simulated,
-    /// Numbers made up for a test.
+    /// Synthetic numbers for a test.
     Synthetic,
-    /// Nobody wrote it down.
+    /// Not recorded.
     #[default]
     Unknown,
 }
@@ -230,13 +230,13 @@ pub enum Source {
 /// A split and its seed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SplitCard {
-    /// As people write it, with its fractions.
+    /// Split as written, with its fractions.
     pub split: String,
-    /// The seed.
+    /// Seed of the split.
     pub seed: u64,
 }
 
-/// The parts of a card that describe a kind of model.
+/// Entries of a card that describe the kind of model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct KindCard {
     pub(crate) form: Option<Form>,
@@ -256,10 +256,10 @@ impl From<Form> for KindCard {
 }
 
 impl ModelCard {
-    /// The version of the format that this crate writes.
+    /// Version of the format that this crate writes.
     pub const FORMAT: &'static str = FORMAT;
 
-    /// The parts that describe the kind of model.
+    /// Entries that describe the kind of model.
     pub(crate) fn kind(&self) -> KindCard {
         KindCard {
             form: self.form,

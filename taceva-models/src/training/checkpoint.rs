@@ -1,4 +1,4 @@
-//! Checkpoints of trainings on disk: after a power cut a training goes on from the last one, and its result is the same.
+//! Training checkpoints on disk. After a power cut, training resumes from the last checkpoint with the same result.
 
 mod bytes;
 mod error;
@@ -14,33 +14,33 @@ use taceva_network::{Checkpoint, Trainer};
 pub use error::CheckpointError;
 pub(crate) use identity::Identity;
 
-/// Where checkpoints of a training are kept, and how often they are written.
+/// Location and interval of the checkpoints of a training.
 ///
-/// Nothing of this changes what is learnt: a training that is resumed ends with the same bits as one that was never interrupted.
+/// Checkpoints do not affect the result: a resumed training ends with the same bits as an uninterrupted one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoints {
-    /// The file. It is written beside its place as `.<name>.partial`, forced to disk and renamed.
+    /// Checkpoint file. Written first as `.<name>.partial` in the same folder, synchronised to disk and renamed.
     pub path: PathBuf,
-    /// It is written after the first step that ends so long after the last time, and when the training is stopped on request.
+    /// Interval between checkpoints, applied after a step. A cancelled training writes one too.
     pub every: Duration,
-    /// What is done with a file that another training left.
+    /// Treatment of a file of another training.
     pub foreign: Foreign,
 }
 
-/// What is done with a checkpoint of another training.
+/// Treatment of a checkpoint of another training.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Foreign {
-    /// It stays, and the training does not begin.
+    /// Keeps the file and fails.
     Refuse,
-    /// It is written over by the next checkpoint.
+    /// Overwrites the file at the next checkpoint.
     Replace,
 }
 
 impl Checkpoints {
-    /// Every half a minute: what can be lost is short, and writing takes a small part of the time.
+    /// Default interval of 30 s: little work is lost, and writing takes a small part of the time.
     pub const EVERY: Duration = Duration::from_secs(30);
 
-    /// In the file at `path`, every [`EVERY`](Checkpoints::EVERY), never over that of another training.
+    /// Checkpoints at `path`, every [`EVERY`](Checkpoints::EVERY), without overwriting those of another training.
     pub fn at(path: PathBuf) -> Checkpoints {
         Checkpoints {
             path,
@@ -49,10 +49,10 @@ impl Checkpoints {
         }
     }
 
-    /// Removes the checkpoint, for whoever has the model in a safe place.
+    /// Removes the checkpoint, once the model is saved.
     ///
     /// # Errors
-    /// Those of the system, but not that there is none.
+    /// Errors of the system, except for a missing file.
     pub fn remove(&self) -> io::Result<()> {
         for path in [&self.path, &self.beside()] {
             match fs::remove_file(path) {
@@ -63,14 +63,14 @@ impl Checkpoints {
         Ok(())
     }
 
-    /// Where the file is written before it is renamed. It is always the same name, so that a file that was left incomplete is overwritten.
+    /// Path of the incomplete file. The name is constant, so that an abandoned file is overwritten.
     fn beside(&self) -> PathBuf {
         let name = self.path.file_name().unwrap_or_default();
         self.path
             .with_file_name(format!(".{}.partial", name.to_string_lossy()))
     }
 
-    /// The checkpoint of the training that is `identity`, if it is there.
+    /// Reads the checkpoint of the training `identity`. `None` if there is none.
     pub(crate) fn take(&self, identity: &Identity) -> Result<Option<Checkpoint>, CheckpointError> {
         let refuse = |problem: String| CheckpointError::Damaged {
             path: self.path.clone(),
@@ -98,7 +98,7 @@ impl Checkpoints {
         }
     }
 
-    /// Writes the checkpoint of `trainer`, whose training is `identity`.
+    /// Writes a checkpoint of `trainer`, whose training is `identity`.
     fn put(&self, identity: &Identity, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         let checkpoint = trainer.checkpoint().map_err(CheckpointError::Unread)?;
         taceva_files::replace(&self.path, &self.beside(), |beside| {
@@ -111,7 +111,7 @@ impl Checkpoints {
     }
 }
 
-/// The checkpoint of one training while it goes on.
+/// Checkpoint of a running training.
 pub(crate) struct Shelf<'a> {
     checkpoints: &'a Checkpoints,
     identity: Identity,
@@ -131,7 +131,7 @@ impl<'a> Shelf<'a> {
         &self.checkpoints.path
     }
 
-    /// The checkpoint of this training, if there is one.
+    /// Reads the checkpoint of this training. `None` if there is none.
     pub(crate) fn take(&self) -> Result<Option<Checkpoint>, CheckpointError> {
         self.checkpoints.take(&self.identity)
     }
@@ -142,7 +142,7 @@ impl<'a> Shelf<'a> {
         Ok(())
     }
 
-    /// Writes a checkpoint if the last one is old enough.
+    /// Writes a checkpoint if the interval has passed.
     pub(crate) fn put_if_due(&mut self, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         if self.last.elapsed() >= self.checkpoints.every {
             self.put(trainer)?;
@@ -151,9 +151,9 @@ impl<'a> Shelf<'a> {
     }
 }
 
-/// The bytes of the file at `path`, at most one more than a checkpoint has; `None` if there is no file.
+/// Reads at most one byte more than the limit of a checkpoint. `None` if there is no file.
 fn read_capped(path: &Path) -> io::Result<Option<Vec<u8>>> {
-    // Asked before opening: opening a pipe would wait for whoever writes into it.
+    // Checks before opening: opening a pipe would block until it has a writer.
     match fs::metadata(path) {
         Ok(found) if found.is_file() => {}
         Ok(_) => return Err(io::Error::other("not a regular file")),

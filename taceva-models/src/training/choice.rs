@@ -1,39 +1,39 @@
-//! Which settings were chosen, and by what.
+//! Chosen settings and their criterion.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{ModelError, Regressor, TrainingSet};
 
-/// What a setting was chosen by.
+/// Criterion for choosing a setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ChosenBy {
-    /// There is nothing to choose, or a person set it.
+    /// No choice: the model has no such setting, or the user set it.
     Nobody,
-    /// The least squared error on the validation part.
+    /// Least squared error on the validation part.
     Validation,
-    /// The least squared error on groups left out one after the other.
+    /// Least squared error on groups left out in turn.
     LeaveOneGroupOut,
-    /// The likelihood of the labels that were learnt from.
+    /// Likelihood of the training labels.
     Likelihood,
-    /// The least squared error on samples left out one after the other.
+    /// Least squared error on samples left out in turn.
     LeaveOneOut,
-    /// The least squared error on ten folds left out one after the other: whole groups, or runs of neighbouring samples.
+    /// Least squared error on ten folds left out in turn: whole groups, or runs of neighbouring samples.
     TenFolds,
 }
 
-/// The choice for every channel.
+/// Choice for every channel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
-    /// What it was chosen by.
+    /// Criterion.
     pub by: ChosenBy,
-    /// The name of what was chosen: `strength`, `components`.
+    /// Name of the chosen setting, such as `strength` or `components`.
     pub setting: Option<String>,
-    /// A choice a channel.
+    /// Choice for each channel.
     pub channels: Vec<ChannelChoice>,
 }
 
 impl Choice {
-    /// Nothing was chosen, and each channel has that error on the validation part, where there is one.
+    /// Record without a choice, with the validation error of each channel, if known.
     pub(crate) fn nobodys(errors: impl IntoIterator<Item = Option<f64>>) -> Choice {
         let scored = |rmse| ChannelChoice {
             rmse,
@@ -47,22 +47,22 @@ impl Choice {
     }
 }
 
-/// The choice for one channel.
+/// Choice for one channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChannelChoice {
-    /// The value of the setting.
+    /// Value of the setting.
     pub value: Option<f64>,
-    /// The root mean square error there, in the unit of the channel, on what the choice was made by or on the validation
-    /// part; `None` if there was neither, or rounding left no number.
+    /// Root mean square error in the unit of the channel, on the samples of the choice or on the validation part. `None` if there
+    /// are neither, or the error is not finite.
     pub rmse: Option<f64>,
-    /// Whether the value is the first or the last that was tried: a better one may lie beyond.
+    /// True for the first or last candidate: a better value may be outside the range.
     pub at_edge: bool,
 }
 
-/// The mean squared error of each channel (inner) at each candidate (outer).
+/// Mean squared error of each channel (inner) at each candidate (outer).
 pub(crate) type Errors = Vec<Vec<f64>>;
 
-/// The candidate of least error for each channel; of equals, the one that `candidates` lists last: the plainer model.
+/// Candidate of least error for a channel. Of equal errors the last, plainest candidate is taken.
 pub(crate) fn least(errors: &Errors, channel: usize) -> usize {
     let mut best = errors.len().saturating_sub(1);
     for candidate in (0..best).rev() {
@@ -73,7 +73,7 @@ pub(crate) fn least(errors: &Errors, channel: usize) -> usize {
     best
 }
 
-/// The error of each channel on the validation part.
+/// Root mean square error of each channel on the validation part.
 pub(crate) fn errors(
     regressor: &dyn Regressor,
     set: &TrainingSet<'_>,
@@ -94,7 +94,7 @@ pub(crate) fn errors(
     Ok((0..channels).map(of).collect())
 }
 
-/// The root of a mean squared error in the unit of a channel whose labels span `span`.
+/// Root of a mean squared error, in the unit of a channel with the label range `span`. `None` if it is not finite.
 pub(crate) fn rmse(mean_squared: f64, span: f64) -> Option<f64> {
     let rmse = mean_squared.sqrt() * span;
     rmse.is_finite().then_some(rmse)

@@ -1,4 +1,4 @@
-//! A regressor of principal components, kept with them: what is not linear cannot be folded into weights of pixels.
+//! Regressors of principal components. Unlike linear ones, they cannot be folded into weights of pixels.
 
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
@@ -9,7 +9,7 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::check_call;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Principal components, and what predicts from them.
+/// Principal components and a regressor of them.
 #[derive(Debug)]
 pub(crate) struct ProjectedRegressor {
     pca: Pca,
@@ -25,7 +25,7 @@ impl ProjectedRegressor {
         ProjectedRegressor { pca, inner }
     }
 
-    /// The components that a file holds.
+    /// Reads the components from a file.
     pub(crate) fn pca_from(
         tensors: &Tensors<'_>,
         shape: FeatureShape,

@@ -1,4 +1,4 @@
-//! The tensors of a model file, the limits of one, and why bytes are no model.
+//! Model files: tensors, limits and errors.
 
 pub(crate) mod content;
 pub(crate) mod error;

@@ -1,4 +1,4 @@
-//! What fitting gives, whichever kind of model it is: a regressor that a model file can keep, and what was chosen on the way.
+//! Interface of estimators, and the results of their fits: a regressor for a model file, and the choices made.
 
 use taceva_core::{Estimator, Features, ModelError, Progress, SignalInfo, TrainingSet};
 
@@ -9,7 +9,7 @@ use crate::training::choice::Choice;
 use crate::training::label_scaling::LabelScaling;
 use crate::training::regressor::ModelRegressor;
 
-/// Implements [`Estimator`] for a [`ModelEstimator`]: its name, and the regressor that it fits.
+/// Implements [`Estimator`] for a [`ModelEstimator`], from its name and `fit_model`.
 macro_rules! estimator {
     ($estimator:ty, |$own:pat_param| $name:expr) => {
         impl taceva_core::Estimator for $estimator {
@@ -33,13 +33,13 @@ macro_rules! estimator {
 }
 pub(crate) use estimator;
 
-/// An estimator whose regressor a model file can keep, and that can say what it chose.
+/// An estimator whose regressor can be stored in a model file, and that reports its choices.
 pub trait ModelEstimator: Estimator {
-    /// The estimator that takes the place of this one on `training`, and why; `None` for every one but that which only chooses. Some of those that it
-    /// chooses from see finer features, `closer`, of the same samples, where there are such.
+    /// Chooses another estimator for `training` and returns it with a record. `None` for estimators that do not choose. Some candidates
+    /// use finer features `closer` of the same samples, if given.
     ///
     /// # Errors
-    /// As [`Estimator::fit`].
+    /// Errors of [`Estimator::fit`].
     fn choose(
         &self,
         _training: &TrainingSet<'_>,
@@ -49,21 +49,21 @@ pub trait ModelEstimator: Estimator {
         Ok(None)
     }
 
-    /// Whether it would look at finer features in [`choose`](ModelEstimator::choose): so many samples of so many such features, and channels. `false`
-    /// for every one but that which only chooses.
+    /// True if [`choose`](ModelEstimator::choose) would use finer features, given `[samples, finer features, channels]`. False for
+    /// estimators that do not choose.
     fn looks_closer(&self, _: [usize; 3]) -> bool {
         false
     }
 
-    /// The same with `share` of its training, for a first look at what it can do; `None` for every one but those that are trained step by step.
+    /// Copy with `share` of its training, for a first look. `None` for estimators that are not trained step by step.
     fn first_look(&self, _share: f64) -> Option<Box<dyn ModelEstimator>> {
         None
     }
 
-    /// Learns as [`Estimator::fit`] does.
+    /// Fits like [`Estimator::fit`].
     ///
     /// # Errors
-    /// As [`Estimator::fit`].
+    /// Errors of [`Estimator::fit`].
     fn fit_model(
         &self,
         training: &TrainingSet<'_>,
@@ -71,11 +71,11 @@ pub trait ModelEstimator: Estimator {
         progress: &dyn Progress,
     ) -> Result<ModelFit, ModelError>;
 
-    /// The estimator that takes the place of this one where signals of `info` are learnt from; `None` for every one but those that are made for
+    /// Estimator that replaces this one for signals of `info`. `None` for estimators that are not specific to
     /// pictures.
     ///
     /// # Errors
-    /// [`FeatureError::NarrowGrid`] if it cannot learn from a grid of so few places.
+    /// [`FeatureError::NarrowGrid`] if the grid is too small.
     fn of_signals(
         &self,
         _info: SignalInfo,
@@ -83,29 +83,29 @@ pub trait ModelEstimator: Estimator {
         Ok(None)
     }
 
-    /// Keeps checkpoints of trainings from now on, and resumes from what is found there; a model that is fitted in one step keeps none.
+    /// Enables checkpoints: trainings write them and resume from them. Ignored by models that are fitted in one step.
     fn keep_checkpoints(&mut self, _: Checkpoints) {}
 }
 
-/// A model that was chosen among others.
+/// Result of a choice among models.
 pub struct Chosen {
-    /// The model.
+    /// Chosen estimator.
     pub estimator: Box<dyn ModelEstimator>,
-    /// What was tried, and what came of it.
+    /// Record of the trials.
     pub card: AutoCard,
-    /// Whether it sees the finer features.
+    /// True if it uses the finer features.
     pub is_closer: bool,
 }
 
-/// What fitting gave.
+/// Result of a fit.
 #[derive(Clone, Debug)]
 pub struct ModelFit {
-    /// The fitted model, in the units of the channels.
+    /// Fitted model, in the units of the channels.
     pub regressor: ModelRegressor,
-    /// What was chosen for each channel, and how well it did.
+    /// Chosen setting and error of each channel.
     pub choice: Choice,
-    /// The label ranges of the training part.
+    /// Label ranges of the training part.
     pub scaling: LabelScaling,
-    /// Whether the validation part was learnt from too, once the settings were chosen.
+    /// True if the model was refitted on training and validation parts with the chosen settings.
     pub refitted: bool,
 }

@@ -1,29 +1,29 @@
-//! A model before its settings are known.
+//! Registry entries of models.
 
 use crate::features::FeatureSpec;
 use crate::settings::{ModelSettings, SettingError, SettingInfo};
 use crate::training::file::content::Load;
 use crate::training::fit::ModelEstimator;
 
-/// A model that people can choose: its name, what it is, and what can be set.
+/// Registry entry of a model: name, description and settings.
 #[derive(Clone, Copy, Debug)]
 pub struct ModelInfo {
-    /// The word people type.
+    /// Name on the command line.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// Description in one line.
     pub about: &'static str,
-    /// What can be set.
+    /// Accepted settings.
     pub settings: &'static [SettingInfo],
-    /// What it sees of a frame where nothing else is asked for; `None` if its predictions do not depend on what is seen, so that no
-    /// frame need be decoded for it.
+    /// Default features. `None` if predictions do not depend on features, so that no
+    /// frame must be decoded.
     pub features: Option<FeatureSpec>,
     pub(crate) make: fn(&ModelSettings) -> Result<Box<dyn ModelEstimator>, SettingError>,
-    /// Loads a fitted one.
+    /// Loads a fitted model.
     pub(crate) load: Load,
 }
 
 impl ModelInfo {
-    /// The model as `settings` ask for, not fitted yet.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.

@@ -1,12 +1,12 @@
-//! Labels brought to 0..1 by the range of the training part, and predictions brought back.
+//! Scaling of labels to 0..1 by the range of the training part, and its inverse.
 
 use faer::Mat;
 use taceva_core::Targets;
 
-/// The range of each channel over the training part.
+/// Range of each channel over the training part.
 ///
-/// Models learn (label − minimum) / span; what they predict is always brought back to the unit of the channel. A label that
-/// never changes has the span 1, maps to 0, and is [marked as constant](LabelScaling::is_constant).
+/// Models learn (label − minimum) / span. Predictions are always converted back to the unit of the channel. A constant label
+/// has the span 1, maps to 0, and is [marked as constant](LabelScaling::is_constant).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelScaling {
     minimum: Vec<f64>,
@@ -15,7 +15,7 @@ pub struct LabelScaling {
 }
 
 impl LabelScaling {
-    /// The ranges of `targets`, which hold a sample.
+    /// Ranges of `targets`, which must not be empty.
     pub(crate) fn of(targets: Targets<'_>) -> LabelScaling {
         let channels = targets.channels.len();
         let column = |channel: usize| {
@@ -39,22 +39,22 @@ impl LabelScaling {
         }
     }
 
-    /// The least label of each channel, in the unit of the channel.
+    /// Least label of each channel, in the unit of the channel.
     pub fn minimum(&self) -> &[f64] {
         &self.minimum
     }
 
-    /// Greatest minus least label of each channel, in the unit of the channel; 1 where that is 0.
+    /// Label range of each channel, in the unit of the channel; 1 for constant labels.
     pub fn span(&self) -> &[f64] {
         &self.span
     }
 
-    /// Whether the label at `position` never changes.
+    /// True if the label at `position` is constant.
     pub fn is_constant(&self, position: usize) -> bool {
         self.constant[position]
     }
 
-    /// The scaled labels, a row a sample.
+    /// Scaled labels, one row per sample.
     pub(crate) fn scaled(&self, targets: Targets<'_>) -> Mat<f64> {
         let channels = self.span.len();
         let samples = targets.values.len() / channels.max(1);
@@ -65,13 +65,13 @@ impl LabelScaling {
     }
 }
 
-/// The mean label of each channel, in the unit of the channel: the best constant prediction of `targets`, which hold a sample.
+/// Mean label of each channel, in its unit: the best constant prediction of `targets`, which must not be empty.
 pub fn label_means(targets: Targets<'_>) -> Vec<f64> {
     let channels = targets.channels.len();
     let mean = |channel: usize| {
         let own = || targets.values.iter().skip(channel).step_by(channels.max(1));
         let (sum, count) = own().fold((0.0, 0.0), |(sum, count), label| (sum + label, count + 1.0));
-        // Rounding takes no mean beyond its labels: of equal ones it is their value.
+        // Limits the rounded mean to the label range: for equal labels it is their value.
         let least = own().copied().fold(f64::INFINITY, f64::min);
         let greatest = own().copied().fold(f64::NEG_INFINITY, f64::max);
         (sum / count).max(least).min(greatest)

@@ -1,11 +1,11 @@
-//! What every regressor checks before it predicts and after, and how scaled predictions become units.
+//! Checks of predictions, and conversion of scaled predictions to units.
 
 use taceva_core::{Channels, ErrorKind, FeatureShape, Features, ModelError};
 
 use crate::linalg::invalid;
 use crate::training::problem::Problem;
 
-/// Refuses features of another shape and a buffer of another length.
+/// Rejects features of the wrong shape and a buffer of the wrong length.
 pub(crate) fn check_call(
     channels: &Channels,
     shape: FeatureShape,
@@ -29,7 +29,7 @@ pub(crate) fn check_call(
     Ok(())
 }
 
-/// Refuses a prediction that is not finite.
+/// Rejects predictions that are not finite.
 pub(crate) fn check_finite(channels: &Channels, predictions: &[f64]) -> Result<(), ModelError> {
     match predictions.iter().position(|value| !value.is_finite()) {
         None => Ok(()),
@@ -44,7 +44,7 @@ pub(crate) fn check_finite(channels: &Channels, predictions: &[f64]) -> Result<(
     }
 }
 
-/// From centred, scaled labels back to the units of the channels: offset + span · value.
+/// Conversion of centred, scaled labels to the units of the channels: offset + span · value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct OutputScale {
     pub(crate) offset: Vec<f64>,
@@ -52,7 +52,7 @@ pub(crate) struct OutputScale {
 }
 
 impl OutputScale {
-    /// The same for values about a mean that lies `shift` away.
+    /// Adjusts the offset for values centred at a mean that is `shift` higher.
     pub(crate) fn moved(mut self, shift: &[f64]) -> OutputScale {
         let moved = self.span.iter().zip(shift);
         let places = self.offset.iter_mut().zip(moved);
@@ -60,7 +60,7 @@ impl OutputScale {
         self
     }
 
-    /// That of the labels of `problem`.
+    /// Output scale of the labels of `problem`.
     pub(crate) fn of(problem: &Problem<'_>) -> OutputScale {
         let span = problem.scaling.span().to_vec();
         let minimum = problem.scaling.minimum().iter();
@@ -74,14 +74,14 @@ impl OutputScale {
         }
     }
 
-    /// Whether all numbers are finite and there is one of each for `channels` channels.
+    /// True if all numbers are finite and the lengths equal `channels`.
     pub(crate) fn is_valid(&self, channels: usize) -> bool {
         let mut numbers = self.offset.iter().chain(&self.span);
         [self.offset.len(), self.span.len()] == [channels; 2]
             && numbers.all(|value| value.is_finite())
     }
 
-    /// Brings the centred, scaled predictions of a sample back.
+    /// Converts the centred, scaled predictions of a sample to units.
     pub(crate) fn unscale(&self, sample: &mut [f64]) {
         let own = self.offset.iter().zip(&self.span);
         for (place, (offset, span)) in sample.iter_mut().zip(own) {

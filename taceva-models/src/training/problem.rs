@@ -1,4 +1,4 @@
-//! What every estimator starts from: checked features and labels, scaled and centred.
+//! Checked, scaled and centred training data, the start of every fit.
 
 use faer::Mat;
 use taceva_core::{Features, ModelError, TrainingSet};
@@ -6,19 +6,19 @@ use taceva_core::{Features, ModelError, TrainingSet};
 use crate::linalg::invalid;
 use crate::training::label_scaling::LabelScaling;
 
-/// A training part that something can be learnt from.
+/// Checked training part.
 #[derive(Debug)]
 pub(crate) struct Problem<'a> {
     pub(crate) training: TrainingSet<'a>,
     pub(crate) scaling: LabelScaling,
-    /// The mean of each scaled label.
+    /// Mean of each scaled label.
     pub(crate) mean: Vec<f64>,
-    /// Scaled labels minus their mean, a row a sample.
+    /// Scaled labels minus their mean, one row per sample.
     pub(crate) centred: Mat<f64>,
 }
 
 impl<'a> Problem<'a> {
-    /// Least number of samples that a model can be fitted on.
+    /// Fewest samples for a fit.
     pub(crate) const SAMPLES_MIN: usize = 2;
 
     pub(crate) fn new(training: TrainingSet<'a>) -> Result<Problem<'a>, ModelError> {
@@ -40,7 +40,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The validation part, if it has a sample and fits the training part.
+    /// Checks and scales the validation part. `None` if it has no samples.
     pub(crate) fn validation<'v>(
         &self,
         validation: Option<&TrainingSet<'v>>,
@@ -67,7 +67,7 @@ impl<'a> Problem<'a> {
         }))
     }
 
-    /// The groups of the training part, if there are at least two to choose from.
+    /// Rows of each group of the training part. `None` for fewer than two groups.
     pub(crate) fn groups(&self) -> Option<Vec<Vec<usize>>> {
         let groups = self.training.groups?;
         let mut members = std::collections::BTreeMap::<u32, Vec<usize>>::new();
@@ -82,7 +82,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// A validation part in the labels of the training part.
+/// Validation part with labels scaled by the training part.
 #[derive(Debug)]
 pub(crate) struct Validation<'v> {
     pub(crate) features: &'v Features,
@@ -90,7 +90,7 @@ pub(crate) struct Validation<'v> {
     pub(crate) labels: Mat<f64>,
 }
 
-/// The mean of each column, and the columns without it.
+/// Returns the mean of each column and the centred columns.
 pub(crate) fn centred(mut values: Mat<f64>) -> (Vec<f64>, Mat<f64>) {
     let rows = values.nrows() as f64;
     let mean: Vec<f64> = (0..values.ncols())
@@ -109,7 +109,7 @@ fn subtract(values: &mut Mat<f64>, mean: &[f64]) {
     }
 }
 
-/// One matrix under the other.
+/// Stacks one matrix above the other.
 pub(crate) fn stacked(upper: &Mat<f64>, lower: &Mat<f64>) -> Mat<f64> {
     let mut whole = Mat::zeros(upper.nrows() + lower.nrows(), upper.ncols());
     whole.subrows_mut(0, upper.nrows()).copy_from(upper);
@@ -119,7 +119,7 @@ pub(crate) fn stacked(upper: &Mat<f64>, lower: &Mat<f64>) -> Mat<f64> {
     whole
 }
 
-/// The samples of one part after those of another, which was checked to have the same shape.
+/// Concatenates the samples of two parts of the same shape.
 pub(crate) fn joined(first: &Features, second: &Features) -> Features {
     first.followed_by(second).expect("samples of one shape")
 }

@@ -1,4 +1,4 @@
-//! A fitted model of any kind: predictions, and what a file keeps of it.
+//! Fitted models of any kind: predictions and stored tensors.
 
 use std::any::Any;
 use std::fmt;
@@ -11,36 +11,36 @@ use crate::training::card::KindCard;
 use crate::training::components::ProjectedRegressor;
 use crate::training::file::tensors::Raw;
 
-/// A regressor that a model file keeps.
+/// A regressor that can be stored in a model file.
 pub(crate) trait FittedModel: Regressor + Any + fmt::Debug {
-    /// The parts of the card that describe this kind of model; none of a linear one.
+    /// Card entries of this kind of model; empty for a linear one.
     fn kind(&self) -> KindCard {
         KindCard::default()
     }
 
-    /// The tensors of a file.
+    /// Tensors for a file.
     fn tensors(&self) -> Vec<Raw>;
 
-    /// Whether predictions depend on what is seen.
+    /// True if predictions depend on features.
     fn reads_features(&self) -> bool;
 
-    /// Whether it knows the standard deviations of its predictions.
+    /// True if the model estimates standard deviations of its predictions.
     fn knows_deviations(&self) -> bool {
         false
     }
 
-    /// The standard deviation of every prediction, `[samples, channels]`; `None` for a model that does not know it.
+    /// Standard deviation of every prediction, `[samples, channels]`. `None` if the model does not estimate it.
     fn deviations(&self, _: &Features) -> Result<Option<Vec<f64>>, ModelError> {
         Ok(None)
     }
 
-    /// The regressor of pixels into which the components of `pca` are folded; `None` if the components have to be kept beside the model.
+    /// Folds the components of `pca` into a regressor of pixels. `None` if the components must be stored beside the model.
     fn through(&self, _: &Pca) -> Result<Option<ModelRegressor>, ModelError> {
         Ok(None)
     }
 }
 
-/// A fitted model of a kind that a file can keep; copies share it.
+/// Fitted model that can be stored in a file. Copies share the data.
 #[derive(Clone)]
 pub struct ModelRegressor(Arc<dyn FittedModel>);
 
@@ -49,16 +49,16 @@ impl ModelRegressor {
         ModelRegressor(Arc::new(model))
     }
 
-    /// The regressor as a `T`; `None` if the model is of another kind.
+    /// Casts the regressor to `T`. `None` for another kind of model.
     pub fn get<T: Regressor + 'static>(&self) -> Option<&T> {
         let own: &dyn Any = &*self.0;
         own.downcast_ref()
     }
 
-    /// The regressor of pixels that equals `self` on the components of `pca`.
+    /// Converts a regressor of the components of `pca` to a regressor of pixels.
     ///
     /// # Errors
-    /// [`ModelError`] for a network, which reads pictures, and for a plugin's, whose weights are not accessible.
+    /// [`ModelError`] for a network, which reads pictures, and for a plugin model, whose weights are not accessible.
     pub(crate) fn through(self, pca: Pca) -> Result<ModelRegressor, ModelError> {
         let folded = self.0.through(&pca)?;
         Ok(folded.unwrap_or_else(|| ModelRegressor::new(ProjectedRegressor::new(pca, self))))
@@ -72,24 +72,24 @@ impl ModelRegressor {
         self.0.tensors()
     }
 
-    /// Whether predictions depend on what is seen: a linear model without weights needs no frame.
+    /// True if predictions depend on features. A linear model without weights needs no frame.
     pub(crate) fn reads_features(&self) -> bool {
         self.0.reads_features()
     }
 
-    /// Whether it knows the standard deviations of its predictions.
+    /// True if the model estimates standard deviations of its predictions.
     pub fn knows_deviations(&self) -> bool {
         self.0.knows_deviations()
     }
 
-    /// The standard deviation of every prediction; `None` for a model that does not know it.
+    /// Standard deviation of every prediction. `None` if the model does not estimate it.
     ///
     /// # Shapes
     /// `[samples, channels]`.
     /// # Units
-    /// Those of the channels.
+    /// Units of the channels.
     /// # Errors
-    /// [`ModelError`] if the features are of another shape.
+    /// [`ModelError`] if the shape of the features differs.
     pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
         self.0.deviations(features)
     }
@@ -109,7 +109,7 @@ impl Regressor for ModelRegressor {
     }
 }
 
-/// Models of which a file keeps the same are the same.
+/// Models are equal if their files would be equal.
 impl PartialEq for ModelRegressor {
     fn eq(&self, other: &ModelRegressor) -> bool {
         self.kind() == other.kind()

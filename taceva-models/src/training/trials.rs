@@ -1,4 +1,4 @@
-//! Trials of settings: which samples are learnt from and which are held out, and the error that follows.
+//! Trials of settings: training and held-out samples of each trial, and their errors.
 
 use std::borrow::Cow;
 
@@ -9,22 +9,22 @@ use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::training::problem::{Problem, Validation, joined, stacked};
 
-/// Fits that choosing without a validation part costs at most.
+/// Most fits of a choice without a validation part.
 pub(crate) const FOLDS: usize = 10;
 
-/// All samples that a choice may use, and the rounds it is made in.
+/// All samples of a choice, and its rounds.
 #[derive(Debug)]
 pub(crate) struct Trials<'a> {
-    /// Those of the training part, then those of the validation part.
+    /// Features of the training part, then of the validation part.
     pub(crate) features: Cow<'a, Features>,
-    /// Their labels, scaled and centred by the training part.
+    /// Labels of both parts, scaled and centred by the training part.
     pub(crate) labels: Mat<f64>,
     by: ChosenBy,
     rounds: Vec<Round>,
     training: usize,
 }
 
-/// Rows that are learnt from, and rows that are predicted.
+/// Training rows and held-out rows.
 #[derive(Debug)]
 pub(crate) struct Round {
     pub(crate) learnt: Vec<usize>,
@@ -32,8 +32,8 @@ pub(crate) struct Round {
 }
 
 impl<'a> Trials<'a> {
-    /// The validation part held out, where there is one; else the groups of the training part one after the other, more than
-    /// ten assigned to ten folds; else ten runs of neighbouring samples. Without a choice nothing but a validation part is held out.
+    /// Holds out the validation part if there is one. Otherwise the groups of the training part in turn, more than ten combined in
+    /// ten folds, or ten runs of neighbouring samples. Without a choice, only a validation part is held out.
     pub(crate) fn new(
         problem: &Problem<'a>,
         validation: Option<&Validation<'_>>,
@@ -82,7 +82,7 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// The rows that the model learns from once everything is chosen.
+    /// Rows for the final fit.
     pub(crate) fn learnt(&self, refit: bool) -> Vec<usize> {
         if refit {
             (0..self.labels.nrows()).collect()
@@ -91,12 +91,12 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// Whether there is a validation part to learn from too.
+    /// True if there is a validation part for the final fit.
     pub(crate) fn has_validation(&self) -> bool {
         self.labels.nrows() > self.training
     }
 
-    /// The mean squared error of each channel at each candidate; `squares` gives the summed squares of a round.
+    /// Mean squared error of each channel at each candidate. `squares` returns the summed squares of a round.
     pub(crate) fn errors(
         &self,
         progress: &dyn Progress,
@@ -126,7 +126,7 @@ impl<'a> Trials<'a> {
         Ok(total)
     }
 
-    /// The candidate of each channel of least error, and what a card says of it; `values` go with the candidates.
+    /// Candidate of least error for each channel, and the record for a card. `values` are the values of the candidates.
     pub(crate) fn choose(
         &self,
         problem: &Problem<'_>,
@@ -155,7 +155,7 @@ impl<'a> Trials<'a> {
     }
 }
 
-/// Many groups assigned to ten folds, each kept whole: every fold left out costs a fit.
+/// Combines groups in ten folds, each group whole, because every left-out fold costs a fit.
 pub(crate) fn folds_of(groups: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     let mut folds = vec![Vec::new(); FOLDS];
     for (position, group) in groups.into_iter().enumerate() {
@@ -164,7 +164,7 @@ pub(crate) fn folds_of(groups: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     folds
 }
 
-/// Ten runs of neighbouring samples, or as many as there are samples.
+/// Ten runs of neighbouring samples, or one per sample if there are fewer.
 pub(crate) fn folds(samples: usize) -> Vec<Vec<usize>> {
     let count = FOLDS.min(samples);
     (0..count)
@@ -172,7 +172,7 @@ pub(crate) fn folds(samples: usize) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// Of some rows of `labels`, row by row.
+/// Selects `rows` of `labels`.
 pub(crate) fn rows_of(labels: &Mat<f64>, rows: &[usize]) -> Mat<f64> {
     Mat::from_fn(rows.len(), labels.ncols(), |row, channel| {
         labels[(rows[row], channel)]

@@ -24,12 +24,12 @@ pub(crate) fn numbers(seed: u64) -> impl FnMut() -> f64 {
 }
 
 #[derive(Clone, Copy)]
-/// What pictures to draw; lengths in pixels.
+/// Pictures to draw; lengths in pixels.
 pub(crate) struct Blob {
     pub(crate) shape: FeatureShape,
-    /// The least y and x of the middle.
+    /// Least y and x of the centre.
     pub(crate) from: f64,
-    /// How far y and x of the middle go from there.
+    /// Range of y and x of the centre from there on.
     pub(crate) reach: [f64; 2],
     /// Twice the square of the standard deviation.
     pub(crate) spread: f64,

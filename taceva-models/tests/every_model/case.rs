@@ -16,12 +16,12 @@ pub(crate) struct Case {
     pub(crate) words: &'static [&'static str],
     /// Samples without which it cannot be fitted.
     pub(crate) least: usize,
-    /// How far predictions may move, relative to the largest, where training samples come in another order; `None` where the order is
-    /// part of what is drawn.
+    /// Largest change of predictions, relative to the largest one, when training samples are reordered. `None` if the order is
+    /// drawn at random.
     pub(crate) order: Option<f64>,
-    /// Whether it is but a deeper form of another, which stands for it where every model is fitted several times.
+    /// True for a deeper form of another model, which represents it where every model is fitted several times.
     pub(crate) deeper: bool,
-    /// Whether principal components may take the place of pixels.
+    /// True if principal components may replace pixels.
     pub(crate) components: bool,
     /// The largest root mean square error on the blobs, whose labels deviate by 4.
     pub(crate) error: f64,

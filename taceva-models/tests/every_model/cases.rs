@@ -84,7 +84,7 @@ pub(crate) const LIBRARIES: &[Case] = match cfg!(all(feature = "linfa", feature 
             order: Some(1e-2),
             ..case("smartcore/lasso", &["strength=0.1"], 0.9)
         },
-        // It needs at least as many samples as features.
+        // Needs at least as many samples as features.
         Case {
             least: 16,
             order: Some(1e-2),

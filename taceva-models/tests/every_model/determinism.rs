@@ -1,4 +1,4 @@
-//! What predictions do not depend on.
+//! Independence of predictions from threads, other samples and the order of training samples.
 
 use super::case::{bits, cases, predict};
 

@@ -1,4 +1,4 @@
-//! What is learnt, from a blob to a label that never changes.
+//! Fits of every model, from a blob to a constant label.
 
 use taceva_core::Features;
 

@@ -1,4 +1,4 @@
-//! What some models promise beyond what all do.
+//! Promises of single models beyond those of all.
 
 use taceva_core::Features;
 use taceva_models::Model;
@@ -60,7 +60,7 @@ fn predictions_stay_within_the_bounds_outside_the_training_range() {
     assert_eq!(beyond(&model, &seen), [0, 0]);
 }
 
-/// How many of `predictions` lie beyond the bounds, channel by channel.
+/// Number of `predictions` beyond the bounds, by channel.
 fn beyond(model: &Model, predictions: &[f64]) -> Vec<usize> {
     let channels = model.channels().len();
     let of = |position: usize| {

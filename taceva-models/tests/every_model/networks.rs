@@ -1,4 +1,4 @@
-//! What networks promise beyond what all models do.
+//! Promises of networks beyond those of all models.
 
 use taceva_core::{ErrorKind, Frame, SilentProgress};
 use taceva_models::{Model, ModelEstimator, ModelSettings, NetworkRegressor, find};

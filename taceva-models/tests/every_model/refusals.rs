@@ -1,4 +1,4 @@
-//! What cannot be learnt from, and a fit that is cancelled.
+//! Data that cannot be learnt from, and cancelled fits.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -1,4 +1,4 @@
-//! What is registered, and what a program without a library says.
+//! Registered library models, and errors of a program without a library.
 
 use taceva_models::{Form, Models, library_models};
 

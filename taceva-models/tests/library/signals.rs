@@ -52,7 +52,7 @@ fn every_model_of_a_library_takes_signals() {
             .map(|(found, force)| (found - force).powi(2))
             .sum();
         let rmse = (squares / 80.0).sqrt();
-        // Of forces from 0 to 19 N, whose deviation is 5.8 N.
+        // For forces from 0 to 19 N, with a standard deviation of 5.8 N.
         assert!(rmse < 3.0, "{name}: {rmse}");
         fitted += 1;
     }

@@ -1,4 +1,4 @@
-//! What comes back of a model that was written.
+//! Content that survives writing and reading a model.
 
 use taceva_core::{FeatureShape, Features, FrameInfo, Unit};
 use taceva_models::{FeatureError, FeatureKind, FeatureSpec, Model, NetworkCard, NetworkRegressor};

@@ -1,4 +1,4 @@
-//! What is no model, or another one than was written.
+//! Rejected files: no model, or a changed one.
 
 use std::path::Path;
 
@@ -221,7 +221,7 @@ fn damaged_files_never_panic_and_truncated_ones_are_never_models() {
             let position = next(damaged.len());
             damaged[position] = u8::try_from(next(256)).expect("a byte");
         }
-        // What still opens has finite numbers of the shape its card names.
+        // A file that still opens has finite values of the shape in its card.
         if let Ok(model) = Model::from_bytes(&damaged) {
             let linear = model.regressor().get::<LinearRegressor>();
             let linear = linear.expect("a linear model stays one");

@@ -1,9 +1,9 @@
-//! Pictures of one blob on a noisy ground, and where it lies and how large it is.
+//! Pictures of one blob on a noisy background, with its position and size.
 
 use taceva_core::random::Draws;
 use taceva_network::{Labels, Samples};
 
-/// What is to be learnt of each picture: in shares of its side.
+/// Labels of each picture, as shares of its side.
 pub(crate) const LABELS: [&str; 3] = ["x", "y", "size"];
 
 /// The standard deviation of the noise of each pixel; a blob is half as bright as 1 to as bright.

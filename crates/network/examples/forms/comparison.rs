@@ -1,4 +1,4 @@
-//! What trainings in two forms gave, beside how far seeds spread.
+//! Results of trainings in two forms, beside their spread over seeds.
 
 use taceva_network::ConvolutionForm;
 
@@ -7,15 +7,15 @@ use crate::blobs::LABELS;
 /// Steps, counted from 0, whose losses are printed, beside the last.
 const STEPS: [usize; 3] = [10, 50, 100];
 
-/// What one training gave.
+/// Result of one training.
 pub(crate) struct Course {
     pub(crate) form: ConvolutionForm,
     pub(crate) seed: u64,
-    /// Of each step.
+    /// Loss of each step.
     pub(crate) losses: Vec<f64>,
     /// R² of each held-out label.
     pub(crate) scores: [f64; LABELS.len()],
-    /// By the wall clock, with whatever ran beside it.
+    /// Wall-clock time, including the load of other programs.
     pub(crate) seconds: f64,
 }
 

@@ -1,21 +1,21 @@
-//! How the last pictures become features.
+//! Reduction of the last pictures to features.
 
 use serde::{Deserialize, Serialize};
 
 use crate::picture::Picture;
 
-/// How the last pictures become features.
+/// Reduction of the last pictures to features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Pooling {
     /// The mean of each channel over the pixels.
     Average,
-    /// Every number of every pixel, `[height, width, channels]`.
+    /// Every value of every pixel, `[height, width, channels]`.
     Flatten,
 }
 
 impl Pooling {
-    /// Features of a picture.
+    /// Number of features of one picture.
     pub(crate) const fn features(self, picture: Picture) -> usize {
         match self {
             Pooling::Average => picture.channels,

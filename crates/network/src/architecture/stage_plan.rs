@@ -1,4 +1,4 @@
-//! A stage of a network, before it has weights.
+//! Stages of a network, before they have weights.
 
 use super::PlainLayer;
 use crate::convolution::Convolution;
@@ -6,27 +6,27 @@ use crate::max_pool;
 use crate::picture::Picture;
 use crate::planes::Layout;
 
-/// A part of a network that is computed as a whole.
+/// Layers that are computed together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StagePlan {
     /// A convolution of 7 × 7 with stride 2, then max pooling over 3 × 3 with stride 2.
     Stem {
-        /// Channels it gives.
+        /// Output channels.
         channels: usize,
     },
     /// A convolution.
     Plain(PlainLayer),
-    /// Two convolutions of 3 × 3 and the shortcut past them: the input itself, or a convolution of 1 × 1 where pictures change their shape.
+    /// Two convolutions of 3 × 3 and a shortcut: the input itself, or a convolution of 1 × 1 where the picture shape changes.
     Block {
-        /// Channels it gives.
+        /// Output channels.
         channels: usize,
-        /// Pixels from one place of the first kernel to the next.
+        /// Stride of the first convolution, pixels.
         stride: usize,
     },
 }
 
 impl StagePlan {
-    /// Its first convolution, of pictures with `inputs` channels.
+    /// First convolution, for pictures with `inputs` channels.
     pub(crate) const fn first(&self, inputs: usize) -> Convolution {
         match *self {
             StagePlan::Stem { channels } => Convolution {
@@ -54,7 +54,7 @@ impl StagePlan {
         }
     }
 
-    /// Weights, gains and biases that it learns, of pictures with `inputs` channels.
+    /// Number of trainable parameters for pictures with `inputs` channels.
     pub(super) fn parameters(&self, inputs: usize) -> u128 {
         let first = self.first(inputs);
         let normed = |inputs: usize, taps: usize| {
@@ -70,7 +70,7 @@ impl StagePlan {
         normed(inputs, first.taps()) + past
     }
 
-    /// The picture that it makes of `input`.
+    /// Shape of the output for an input of shape `input`.
     pub(crate) const fn output(&self, input: Picture) -> Picture {
         let convolved = self.first(input.channels).output(input);
         match self {
@@ -79,7 +79,7 @@ impl StagePlan {
         }
     }
 
-    /// How pictures that it reads lie.
+    /// Memory layout of the input pictures, with the border that the first convolution reads.
     pub(crate) fn input_layout(&self, picture: Picture) -> Layout {
         let padding = self.first(picture.channels).padding();
         Layout {

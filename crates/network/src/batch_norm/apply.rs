@@ -1,4 +1,4 @@
-//! Normalised pictures, a shortcut added to them, then ReLU.
+//! Normalises pictures, adds a shortcut and applies ReLU.
 
 use rayon::prelude::*;
 
@@ -8,14 +8,13 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// What is added to normalised pictures before they are cut at zero.
+/// Pictures added to the normalised ones before ReLU.
 #[derive(Clone, Copy)]
 pub(crate) enum Shortcut<'a> {
-    /// Nothing.
     Nothing,
-    /// Pictures.
+    /// Pictures added unchanged.
     Identity(&'a Planes),
-    /// Pictures that are normalised too.
+    /// Pictures that are normalised first.
     Normalised(&'a Planes, &'a Moments),
 }
 
@@ -60,7 +59,7 @@ pub(crate) fn apply(
         });
 }
 
-/// As [`Shortcut`], of one picture.
+/// [`Shortcut`] of one picture.
 #[derive(Clone, Copy)]
 enum RowShortcut<'a> {
     Nothing,
@@ -68,9 +67,9 @@ enum RowShortcut<'a> {
     Normalised(&'a [f32], &'a Moments),
 }
 
-/// One picture.
+/// Work for one picture.
 struct Apply<'a> {
-    /// Without a border.
+    /// Raw values without a border.
     raw: &'a [f32],
     moments: &'a Moments,
     shortcut: RowShortcut<'a>,
@@ -109,7 +108,7 @@ impl Job for Apply<'_> {
     }
 }
 
-/// Normalises a row, lets `add` add to each number, and cuts at zero.
+/// Normalises a row, adds the shortcut by `add`, and applies ReLU.
 #[inline(always)]
 fn each_panel(
     raw: &[f32],
@@ -133,7 +132,7 @@ fn each_panel(
     }
 }
 
-/// Zero below zero; NaN stays, so that it is found.
+/// ReLU. Keeps NaN, so that a diverged training is detected.
 #[inline(always)]
 pub(crate) fn relu(value: f32) -> f32 {
     if value < 0.0 { 0.0 } else { value }

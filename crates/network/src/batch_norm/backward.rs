@@ -1,4 +1,4 @@
-//! The gradients of batch normalisation and of the ReLU behind it.
+//! Gradients of batch normalisation followed by ReLU.
 
 use rayon::prelude::*;
 
@@ -9,18 +9,18 @@ use crate::panel::{Aligned, PANEL};
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// Where a gradient passes: where the output was above zero.
+/// Mask of a gradient by ReLU: it passes where the output was positive.
 #[derive(Clone, Copy)]
 pub(crate) enum Gate<'a> {
-    /// Everywhere: it was cut already.
+    /// No mask: the gradient is masked already.
     Open,
-    /// Where the normalised picture was above zero.
+    /// Passes where the normalised picture was positive.
     Normalised,
-    /// Where these pictures are above zero; the gradient is set to zero elsewhere.
+    /// Passes where these pictures are positive. Other values of the gradient are overwritten with zero.
     Output(&'a Planes),
 }
 
-/// Sums over a batch that the gradients are made of, one number per channel.
+/// Sums over a batch for the gradients, one value per channel.
 #[derive(Clone, Debug)]
 pub(crate) struct GradientSums {
     /// Σ g, the gradient of the bias.
@@ -33,7 +33,7 @@ pub(crate) struct GradientSums {
     pub(crate) slope: Aligned,
 }
 
-/// The sums over the gradients of the first `count` pictures; `sums` is room for those of each picture.
+/// Sums over the gradients of the first `count` pictures. `sums` is a buffer for the sums of each picture.
 pub(crate) fn gradient_sums(
     machine: Machine,
     raw: &Planes,
@@ -70,7 +70,7 @@ pub(crate) fn gradient_sums(
 }
 
 impl GradientSums {
-    /// The sums over a batch of `samples` numbers per channel, from those of its pictures: Σ g and Σ g · (x − mean).
+    /// Sums over a batch of `samples` values per channel, from the sums of its pictures: Σ g and Σ g · (x − mean).
     #[expect(
         clippy::cast_possible_truncation,
         reason = "summed in double precision and used in single"
@@ -100,7 +100,7 @@ impl GradientSums {
     }
 }
 
-/// Writes the gradient of what was normalised:
+/// Writes the gradient of the input of the normalisation,
 /// scale · (g − Σg/n − (x − mean) · inverse² · Σ(g · (x − mean))/n), for the first `count` pictures.
 pub(crate) fn input_gradient(
     machine: Machine,
@@ -115,7 +115,7 @@ pub(crate) fn input_gradient(
     let gradients = gradient.first(count).par_chunks_exact(length);
     let layout = into.layout();
     let images = into.first_mut(count).par_chunks_exact_mut(layout.len());
-    // What an output's gate keeps back is zero already.
+    // `Gate::Output` has zeroed the masked values already.
     let is_gated = matches!(gate, Gate::Normalised);
     images
         .zip(raws)
@@ -133,7 +133,7 @@ pub(crate) fn input_gradient(
         });
 }
 
-/// As [`Gate`], of one picture.
+/// [`Gate`] of one picture.
 #[derive(Clone, Copy)]
 enum PictureGate<'a> {
     Open,
@@ -141,7 +141,7 @@ enum PictureGate<'a> {
     Output(&'a [f32], Layout),
 }
 
-/// The sums of one picture.
+/// Work of [`gradient_sums`] for one picture.
 struct Sums<'a> {
     raw: &'a [f32],
     moments: &'a Moments,
@@ -202,7 +202,7 @@ impl Job for Sums<'_> {
     }
 }
 
-/// The gradient of one picture.
+/// Work of [`input_gradient`] for one picture.
 struct Apply<'a> {
     raw: &'a [f32],
     moments: &'a Moments,

@@ -1,13 +1,13 @@
-//! Sums of one picture's channels.
+//! Sums over the pixels of one picture, by channel.
 
 use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::simd::{Job, Vector};
 
-/// Pixels that are summed in single precision before their sum joins those in double.
+/// Pixels summed in single precision before their sum is added in double precision.
 pub(super) const PIXELS_AT_ONCE: usize = 64;
 
-/// Two sums of each channel of one picture: of numbers and of their squares, or of gradients and of their products.
+/// Two sums of each channel of one picture: values and squares, or gradients and their products with centred values.
 #[derive(Clone, Debug)]
 pub(crate) struct ChannelSums {
     /// `[2, channels]`.
@@ -15,7 +15,7 @@ pub(crate) struct ChannelSums {
 }
 
 impl ChannelSums {
-    /// Room for those of `channels`.
+    /// Zeroed sums of `channels` channels.
     pub(crate) fn zeros(channels: usize) -> ChannelSums {
         let values = vec![0.0; 2 * channels];
         ChannelSums { values }
@@ -29,7 +29,7 @@ impl ChannelSums {
         self.values[self.values.len() / 2 + channel]
     }
 
-    /// Becomes the sums of `pixels`.
+    /// Overwrites the sums with those of `pixels`.
     ///
     /// # Shapes
     /// `pixels`: `[pixels, channels]`.
@@ -42,7 +42,7 @@ impl ChannelSums {
         });
     }
 
-    /// Both sums, to be written.
+    /// Mutable views of both sums.
     pub(crate) fn split(&mut self) -> (&mut [f64], &mut [f64]) {
         let channels = self.values.len() / 2;
         self.values.split_at_mut(channels)
@@ -65,7 +65,7 @@ impl Job for Measure<'_> {
         let (sums, _) = self.sums.as_chunks_mut::<PANEL>();
         let (squares, _) = self.squares.as_chunks_mut::<PANEL>();
         let panels = channels / PANEL;
-        // Distances from the first pixel: a mean far from zero costs the variance no digits.
+        // Sums distances from the first pixel, so that a mean far from zero costs the variance no precision.
         let pivot = &pixels[..panels];
         sums.iter_mut()
             .chain(squares.iter_mut())

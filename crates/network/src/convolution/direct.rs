@@ -1,4 +1,4 @@
-//! Convolutions as sums of products of pixels with weights.
+//! Direct convolution: sums of products of pixels and weights.
 
 mod border;
 mod correlation;

@@ -1,42 +1,42 @@
-//! How the outputs of one picture are divided among threads. Each is the same sum in the same order wherever it is made, so that
-//! a division changes the time that a pass takes, and no bit.
+//! Division of the outputs of one picture among threads. Every output is the same sum in the same order, so a division affects
+//! only the time, not the result.
 
 use crate::panel::PANEL;
 
-/// Products that are worth a part of their own: about ten microseconds.
+/// Fewest products in a part: about ten microseconds of work.
 const PRODUCTS_WORTH_A_PART: usize = 1 << 18;
 
-/// Pixels that take as long to multiply with a row of weights as the row takes to come from a cache of the second or third level.
+/// Cost of reading a row of weights from the second- or third-level cache, as the number of pixels multiplied in that time.
 const PIXELS_OF_A_READ: usize = 8;
 
-/// How the outputs of one picture are divided.
+/// Division of the outputs of one picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Division {
-    /// Not at all.
+    /// Undivided.
     Whole,
-    /// Into so many stretches of pixels: all parts read all weights.
+    /// Number of stretches of pixels. Each part reads all weights.
     Pixels(usize),
-    /// Into so many groups of panels of channels: all parts read all of the picture.
+    /// Number of groups of channel panels. Each part reads the whole picture.
     Panels(usize),
 }
 
-/// What there is to be divided.
+/// Size of the work to be divided.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outputs {
-    /// Pixels that are summed one by one: of tiles, those of one point.
+    /// Pixels, or tiles in Winograd's form.
     pub(super) pixels: usize,
-    /// Such pixels that stay together.
+    /// Pixels per indivisible group.
     pub(super) together: usize,
-    /// Panels of channels that are written.
+    /// Output panels of channels.
     pub(super) panels: usize,
-    /// Products of one pixel and channel.
+    /// Products per pixel and output channel.
     pub(super) products: usize,
-    /// Of how many such sums: the points of tiles.
+    /// Points per tile in Winograd's form, otherwise 1.
     pub(super) points: usize,
 }
 
 impl Outputs {
-    /// Into as many as `parts` parts, as will be done first.
+    /// Fastest division into at most `parts` parts.
     pub(super) fn divided(self, parts: usize) -> Division {
         let all = self.pixels * self.points * self.products * self.panels * PANEL;
         let parts = parts.min(all / PRODUCTS_WORTH_A_PART);
@@ -56,8 +56,8 @@ impl Outputs {
     }
 }
 
-/// About how long a part of so many pixels and panels takes, in quarters of what a pixel and a panel do. Four panels at once are as many as tiles of
-/// sums have at most; with fewer of them a number is loaded for fewer products.
+/// Estimated time of a part, in quarters of the time of one pixel and panel. A tile of sums holds at most four panels. With fewer,
+/// a loaded value serves fewer products.
 fn time(pixels: usize, panels: usize) -> usize {
     let effort = 4 * panels + if panels.is_multiple_of(4) { 0 } else { 2 };
     pixels * effort + PIXELS_OF_A_READ * 4 * panels

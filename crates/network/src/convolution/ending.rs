@@ -1,53 +1,52 @@
-//! What sums of a pass begin with, and what is done with them once they are finished.
+//! Start values of sums, and operations on finished sums.
 
 use std::ops::Range;
 
-/// What is added to sums and done with them, for whole batches.
+/// Bias and operations for the sums of whole batches.
 #[derive(Clone, Copy)]
 pub(crate) enum Epilogue<'a> {
-    /// Nothing.
+    /// Bare sums.
     Raw,
-    /// A bias, and zero below zero.
+    /// A bias, then ReLU.
     BiasRelu(&'a [f32]),
-    /// A bias, as many pictures that lie as the output does, and zero below zero.
+    /// A bias and pictures with the layout of the output, then ReLU.
     BiasAddRelu(&'a [f32], &'a [f32]),
     /// A bias alone.
     Bias(&'a [f32]),
 }
 
-/// What a gradient is written onto.
+/// Write mode of a gradient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Onto {
-    /// In place of what was there.
+    /// Overwrites the target.
     Nothing,
-    /// Added to what is there.
+    /// Adds to the target.
     Sum,
 }
 
-/// What sums begin with.
+/// Start value of sums.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Start<'a> {
-    /// Nothing.
     Zero,
-    /// What the output holds.
+    /// Present values of the output.
     Output,
-    /// One number per channel.
+    /// One value per channel.
     Bias(&'a [f32]),
 }
 
-/// What is done with finished sums.
+/// Operation on finished sums.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Finish<'a> {
-    /// They are kept.
+    /// Keeps the sums.
     Keep,
-    /// Those below zero become zero.
+    /// ReLU.
     Relu,
-    /// A tensor that lies as the output does is added, then those below zero become zero.
+    /// Adds a tensor with the layout of the output, then ReLU.
     AddThenRelu(&'a [f32]),
 }
 
 impl Start<'_> {
-    /// The same for the channels from `channel` on.
+    /// Start values of the channels from `channel` on.
     pub(super) fn from(self, channel: usize) -> Self {
         match self {
             Start::Bias(bias) => Start::Bias(&bias[channel..]),
@@ -57,7 +56,7 @@ impl Start<'_> {
 }
 
 impl<'a> Epilogue<'a> {
-    /// The same for those numbers of the output that lie in `range`.
+    /// Start and finish for the output values in `range`.
     pub(super) fn within(self, range: Range<usize>) -> (Start<'a>, Finish<'a>) {
         match self {
             Epilogue::Raw => (Start::Zero, Finish::Keep),
@@ -71,7 +70,7 @@ impl<'a> Epilogue<'a> {
 }
 
 impl Onto {
-    /// What sums begin with.
+    /// Start value of the sums.
     pub(super) fn start(self) -> Start<'static> {
         match self {
             Onto::Nothing => Start::Zero,

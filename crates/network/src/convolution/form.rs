@@ -1,27 +1,27 @@
-//! The forms in which convolutions can be computed.
+//! Algorithms for convolutions.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Convolution, winograd};
 use crate::picture::Picture;
 
-/// Numbers of transformed weights that a tile of a picture is worth reading: of 128 channels where a picture has four tiles, of 256 where it has thirteen.
+/// Most transformed weights per tile of a picture in [`ConvolutionForm::Mixed`]: 128 channels at 4 tiles, 256 at 13.
 const WEIGHTS_A_TILE: usize = 3 << 16;
 
-/// How convolutions with a kernel of 3 × 3 and a stride of 1 are computed. The forms round differently, so that results differ in last digits.
+/// Algorithm for convolutions with a 3 × 3 kernel and stride 1. The forms round differently, so results differ in the last digits.
 ///
-/// Other convolutions are direct in either form, and so are those of pictures where Winograd's would not multiply less: of 2 × 2 pixels, and
-/// of one row or one column. That depends on shapes alone, never on a machine, a clock or the number of threads.
+/// Every form computes other convolutions directly. It does so too for pictures where Winograd's form saves no products: 2 × 2
+/// pixels, one row or one column. The choice depends on shapes alone, never on machine, clock or number of threads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum ConvolutionForm {
-    /// Each output is a sum of products of pixels with weights.
+    /// Sums of products of pixels and weights.
     Direct,
-    /// Winograd's where weights are few for what a picture has of tiles, direct where most of the time would go into reading transformed weights,
-    /// which are four times as many. The fastest form for single pictures.
+    /// Winograd's form where the weights are few compared to the tiles of a picture, otherwise direct. Transformed weights are four times
+    /// as many, and reading them would dominate. Fastest for single pictures.
     Mixed,
-    /// Winograd's F(4 × 4, 3 × 3): tiles of 4 × 4 outputs with a quarter of the products. The faster form for batches, and that of training.
+    /// Winograd's F(4 × 4, 3 × 3): tiles of 4 × 4 outputs with a quarter of the products. Fastest for batches; used in training.
     ///
     /// # Reference
     /// A. Lavin, S. Gray, "Fast algorithms for convolutional neural networks", CVPR 2016; here with the points 0, ±√½, ±√2 and ∞, whose
@@ -38,7 +38,7 @@ impl ConvolutionForm {
         ConvolutionForm::Winograd,
     ];
 
-    /// Whether `convolution` into pictures of `output` is Winograd's.
+    /// True if `convolution` into pictures of shape `output` uses Winograd's form.
     pub(super) fn is_winograd(self, convolution: Convolution, output: Picture) -> bool {
         winograd::is_for(convolution, output)
             && match self {
@@ -54,7 +54,7 @@ impl ConvolutionForm {
             }
     }
 
-    /// The word in files.
+    /// Name of the form in files.
     pub const fn name(self) -> &'static str {
         match self {
             ConvolutionForm::Direct => "direct",
@@ -91,14 +91,14 @@ mod tests {
             let forms = ConvolutionForm::ALL;
             forms.map(|form| form.is_winograd(convolution, output))
         };
-        // ResNet-18 at 64² and at 112²: which of its layers, and at 2 × 2 pixels none in any form.
+        // ResNet-18 at 64² and at 112², by layer. At 2 × 2 pixels no form selects Winograd's.
         assert_eq!(is_winograd(64, 16), [false, true, true]);
         assert_eq!(is_winograd(128, 8), [false, true, true]);
         assert_eq!(is_winograd(256, 4), [false, false, true]);
         assert_eq!(is_winograd(512, 2), [false, false, false]);
         assert_eq!(is_winograd(128, 14), [false, true, true]);
         assert_eq!(is_winograd(256, 7), [false, false, true]);
-        // Larger pictures are worth more weights.
+        // Larger pictures allow more weights.
         assert_eq!(is_winograd(256, 28), [false, true, true]);
         assert_eq!(is_winograd(512, 4), [false, false, true]);
     }

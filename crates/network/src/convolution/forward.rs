@@ -1,4 +1,4 @@
-//! The forward pass, in the form that goes with its shape.
+//! Forward pass in either form.
 
 use super::ending::Epilogue;
 use super::form::ConvolutionForm;
@@ -10,7 +10,7 @@ use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 
-/// A forward pass over pictures of one layout, ready to be run.
+/// Forward pass, prepared for pictures of one layout.
 #[derive(Clone, Debug)]
 pub(crate) enum Forward {
     Direct(direct::Forward),
@@ -18,8 +18,8 @@ pub(crate) enum Forward {
 }
 
 impl Forward {
-    /// The pass of `convolution` from pictures of layout `input` to those of layout `output`; Winograd's where `form` says so and it
-    /// multiplies less.
+    /// Pass of `convolution` from pictures of layout `input` to those of layout `output`.
+    /// Uses Winograd's form if `form` selects it for these shapes.
     pub(crate) fn new(
         convolution: Convolution,
         input: Layout,
@@ -32,7 +32,7 @@ impl Forward {
         }
     }
 
-    /// Numbers that transformed weights take; none where they are read as they are.
+    /// Length of the transformed weights; 0 if weights are read untransformed.
     pub(crate) fn transformed_len(&self) -> usize {
         match self {
             Forward::Direct(_) => 0,
@@ -40,7 +40,7 @@ impl Forward {
         }
     }
 
-    /// The weights as this pass reads them: as they are, or transformed into the first numbers of `room`.
+    /// Weights as this pass reads them: unchanged, or transformed into the start of `room`.
     pub(crate) fn weights<'a>(
         &self,
         machine: Machine,
@@ -53,7 +53,7 @@ impl Forward {
         }
     }
 
-    /// Runs it, into the first pictures of `output`; `each` of a picture sees its output while that is still in a cache.
+    /// Runs the pass into the first pictures of `output`. The callback of `each` receives each picture's output while still cached.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,

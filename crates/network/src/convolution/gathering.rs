@@ -1,18 +1,18 @@
-//! Outputs that were written apart, each part its own panels of channels, brought together as pictures lie.
+//! Gathers outputs of separate parts, each of its own channel panels, into one picture.
 
 use super::ending::Finish;
 use crate::panel::PANEL;
 use crate::planes::Layout;
 use crate::simd::{Job, Tile, Vector};
 
-/// One picture whose panels lie apart.
+/// One picture whose panels are stored separately.
 pub(super) struct Gathering<'a> {
     /// `[part, pixel, channel of the part]`; the last part may have fewer channels.
     pub(super) parts: &'a [f32],
-    /// Channels of a part.
+    /// Channels per part.
     pub(super) channels: usize,
     pub(super) output: (&'a mut [f32], Layout),
-    /// What is done with the sums.
+    /// Operation on finished sums.
     pub(super) finish: Finish<'a>,
 }
 

@@ -1,4 +1,4 @@
-//! The gradient of the input, in the form that goes with its shape.
+//! Input gradient in either form.
 
 use super::ending::Onto;
 use super::form::ConvolutionForm;
@@ -9,7 +9,7 @@ use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 
-/// The pass that gives the gradient of the input, ready to be run.
+/// Input-gradient pass, prepared for pictures of one layout.
 #[derive(Clone, Debug)]
 pub(crate) enum InputGradient {
     Direct(direct::InputGradient),
@@ -17,9 +17,9 @@ pub(crate) enum InputGradient {
 }
 
 impl InputGradient {
-    /// The pass from gradients of the output, of layout `output`, to those of the input, of layout `input`.
+    /// Pass from output gradients of layout `output` to input gradients of layout `input`.
     ///
-    /// The border of `output` is at least the padding.
+    /// The border of `output` must be at least the padding.
     pub(crate) fn new(
         convolution: Convolution,
         output: Layout,
@@ -33,7 +33,7 @@ impl InputGradient {
         }
     }
 
-    /// Numbers that transformed weights take; none where they are read as they are.
+    /// Length of the transformed weights; 0 if weights are read untransformed.
     pub(crate) fn transformed_len(&self) -> usize {
         match self {
             InputGradient::Direct(_) => 0,
@@ -41,7 +41,7 @@ impl InputGradient {
         }
     }
 
-    /// Runs it on the first `count` pictures; `exchanged` is room for as many numbers as there are weights.
+    /// Runs the pass on the first `count` pictures. `exchanged` is a buffer as long as the weights.
     pub(crate) fn run(
         &self,
         machine: Machine,

@@ -1,16 +1,16 @@
-//! What a forward pass reads.
+//! Input of a forward pass.
 
 use crate::planes::Planes;
 
-/// What a forward pass reads.
+/// Input of a forward pass.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'a> {
-    /// As [`Forward::weights`](super::Forward::weights) gives them.
+    /// Weights as returned by [`Forward::weights`](super::Forward::weights).
     pub(crate) weights: &'a [f32],
     pub(crate) input: &'a Planes,
-    /// The first picture that is read.
+    /// Index of the first picture.
     pub(crate) first: usize,
-    /// How many pictures.
+    /// Number of pictures.
     pub(crate) count: usize,
 }
 

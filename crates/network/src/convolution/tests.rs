@@ -55,7 +55,7 @@ fn for_each_product(
     }
 }
 
-/// The form that passes take where their shape goes with it.
+/// Form of the pass, if its shape supports it.
 const FORM: ConvolutionForm = ConvolutionForm::Winograd;
 
 /// A convolution of some pictures.
@@ -66,7 +66,7 @@ pub(crate) struct Case {
     pub(crate) batch: usize,
 }
 
-/// Numbers for the passes of a case: pictures, weights and gradients of the output, channels last but in weights, which are
+/// Values for the passes of a case: pictures, weights and output gradients. Channels are last, except in weights, which are
 /// `[outputs, inputs, kernel row, kernel column]`.
 pub(crate) struct Numbers {
     pub(crate) pictures: Vec<f32>,
@@ -91,7 +91,7 @@ impl Case {
         }
     }
 
-    /// What the passes are to give, in double precision: outputs, twice the gradients of the input, gradients of the weights.
+    /// Expected results in double precision: outputs, twice the input gradients, weight gradients.
     pub(crate) fn definition(&self, numbers: &Numbers) -> [Vec<f64>; 3] {
         let (input, output) = (self.input, self.output());
         let mut outputs = vec![0.0; output.len() * self.batch];
@@ -138,18 +138,18 @@ fn cases() -> Vec<Case> {
         case(16, 80, 3, 2, 8, 7, 2),
         case(64, 32, 1, 2, 8, 7, 2),
         case(16, 16, 5, 1, 4, 6, 1),
-        // So many weights that the passes go in rounds.
+        // Enough weights for several rounds.
         case(320, 320, 3, 1, 2, 2, 2),
-        // As Winograd's: parts of tiles beside and below, five panels, several pieces, the last not full.
+        // For Winograd's form: partial tiles below and beside, five panels, several pieces, the last not full.
         case(32, 80, 3, 1, 13, 6, 7),
         // Tiles larger than the picture.
         case(16, 16, 3, 1, 3, 2, 1),
-        // So many tiles that their gradients are summed in several rounds.
+        // Enough tiles for several rounds of gradient sums.
         case(96, 96, 3, 1, 17, 17, 4),
     ]
 }
 
-/// The first relative difference above what sums of `terms` products in single precision explain.
+/// First relative difference that exceeds the rounding error of sums of `terms` products in single precision.
 fn assert_close(found: &[f32], expected: &[f64], terms: usize, what: &str) {
     assert_eq!(found.len(), expected.len());
     for (place, (&found, &expected)) in found.iter().zip(expected).enumerate() {
@@ -182,8 +182,8 @@ pub(crate) fn values(planes: &Planes, batch: usize) -> Vec<f32> {
         .collect()
 }
 
-/// Outputs, gradients of the input, written and then added once more, and gradients of the weights. Where the first convolution of a network
-/// reads channels that are no whole panels, nobody asks for gradients of the input: there are none.
+/// Outputs, input gradients, written and then added once more, and weight gradients. Without input gradients for a first convolution
+/// whose input channels are no whole panels.
 pub(crate) fn passes(case: &Case, machine: Machine, numbers: &Numbers) -> [Vec<f32>; 3] {
     let Case {
         convolution,
@@ -218,7 +218,7 @@ pub(crate) fn passes(case: &Case, machine: Machine, numbers: &Numbers) -> [Vec<f
         );
         let mut room = Aligned::zeros(weights.values().len());
         let mut transformed = Aligned::zeros(pass.transformed_len());
-        // What lies there is overwritten, and then added to.
+        // Overwrites the old values, then adds to the new.
         input_gradient.first_mut(batch).fill(9.0);
         for onto in [Onto::Nothing, Onto::Sum] {
             let rooms = Rooms {
@@ -236,12 +236,12 @@ pub(crate) fn passes(case: &Case, machine: Machine, numbers: &Numbers) -> [Vec<f
     ]
 }
 
-/// Whether the gradient of the input can be asked for.
+/// True if the input gradient is supported.
 pub(crate) fn reads_panels(convolution: Convolution) -> bool {
     convolution.inputs.is_multiple_of(crate::panel::PANEL)
 }
 
-/// The outputs for pictures, as sums alone.
+/// Outputs for pictures, without bias.
 pub(crate) fn forward(
     weights: &ConvolutionWeights,
     pictures: &Planes,
@@ -360,7 +360,7 @@ fn epilogues_add_bias_and_pictures_and_cut_at_zero() {
             let sum = pass(Epilogue::BiasAddRelu(&bias, other.first(batch)));
             for place in 0..raw.len() {
                 let biased = raw[place] + bias[place % output.channels];
-                // Of direct sums the bias is where they begin, so that roundings differ: as many as there are terms.
+                // Direct sums begin with the bias, so that roundings differ: one per term.
                 assert!((plain[place] - biased).abs() < 2e-6, "{isa} {form}");
                 assert_eq!(
                     relu[place].to_bits(),

@@ -1,4 +1,4 @@
-//! The gradient of the weights, in the form that goes with its shape.
+//! Weight gradient in either form.
 
 use super::form::ConvolutionForm;
 use super::winograd;
@@ -7,7 +7,7 @@ use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 
-/// The pass that gives the gradient of the weights, ready to be run.
+/// Weight-gradient pass, prepared for pictures of one layout.
 #[derive(Clone, Debug)]
 pub(crate) enum WeightGradient {
     Direct(direct::WeightGradient),
@@ -15,7 +15,7 @@ pub(crate) enum WeightGradient {
 }
 
 impl WeightGradient {
-    /// The pass from pictures of layout `input` and gradients of layout `output`.
+    /// Pass from pictures of layout `input` and gradients of layout `output`.
     pub(crate) fn new(
         convolution: Convolution,
         input: Layout,
@@ -30,7 +30,7 @@ impl WeightGradient {
         }
     }
 
-    /// Numbers that the gradient of transformed weights takes; none where there are no such weights.
+    /// Length of the gradient of transformed weights; 0 in the direct form.
     pub(crate) fn transformed_len(&self) -> usize {
         match self {
             WeightGradient::Direct(_) => 0,
@@ -38,10 +38,10 @@ impl WeightGradient {
         }
     }
 
-    /// Runs it on the first `count` pictures.
+    /// Runs the pass on the first `count` pictures.
     ///
     /// # Shapes
-    /// `into`: that of the weights.
+    /// `into`: shape of the weights.
     pub(crate) fn run(
         &self,
         machine: Machine,

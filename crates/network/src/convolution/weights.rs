@@ -1,4 +1,4 @@
-//! The weights of a convolution, as its passes read them and as others write them.
+//! Weights of a convolution, in packed and in plain order.
 
 use rayon::prelude::*;
 
@@ -10,7 +10,7 @@ use crate::simd::{Job, Vector};
 /// The weights of a convolution.
 ///
 /// # Shapes
-/// `[outputs / PANEL, kernel row, kernel column, inputs, PANEL]`: the gradient has the same.
+/// `[outputs / PANEL, kernel row, kernel column, inputs, PANEL]`. The gradient has the same shape.
 #[derive(Clone, Debug)]
 pub(crate) struct ConvolutionWeights {
     convolution: Convolution,
@@ -40,20 +40,19 @@ impl ConvolutionWeights {
         &mut self.values
     }
 
-    /// The weights in the order `[outputs, inputs, kernel row, kernel column]`.
+    /// Copies the weights in the order `[outputs, inputs, kernel row, kernel column]`.
     pub(crate) fn to_plain(&self) -> Vec<f32> {
         plain(self.convolution, &self.values)
     }
 
-    /// Takes weights in the order `[outputs, inputs, kernel row, kernel column]`.
+    /// Sets the weights from the order `[outputs, inputs, kernel row, kernel column]`.
     pub(crate) fn set_plain(&mut self, plain: &[f32]) {
         for (place, at) in places(self.convolution).enumerate() {
             self.values[at] = plain[place];
         }
     }
 
-    /// Writes the weights with inputs and outputs exchanged, `[inputs / PANEL, taps, outputs, PANEL]`, as the gradient of the
-    /// input reads them.
+    /// Writes the weights with inputs and outputs exchanged, `[inputs / PANEL, taps, outputs, PANEL]`, for the input gradient.
     pub(crate) fn exchange(&self, machine: Machine, into: &mut [f32]) {
         let Convolution {
             inputs, outputs, ..
@@ -73,12 +72,12 @@ impl ConvolutionWeights {
     }
 }
 
-/// A gradient or weights of `convolution`, in the order `[outputs, inputs, kernel row, kernel column]`.
+/// Converts a gradient or weights of `convolution` to the order `[outputs, inputs, kernel row, kernel column]`.
 pub(crate) fn plain(convolution: Convolution, values: &[f32]) -> Vec<f32> {
     places(convolution).map(|at| values[at]).collect()
 }
 
-/// Where the weights lie, in the order `[outputs, inputs, kernel row, kernel column]`.
+/// Offsets of the weights, in the order `[outputs, inputs, kernel row, kernel column]`.
 fn places(convolution: Convolution) -> impl Iterator<Item = usize> {
     let (inputs, taps) = (convolution.inputs, convolution.taps());
     (0..convolution.outputs).flat_map(move |output| {
@@ -90,10 +89,10 @@ fn places(convolution: Convolution) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Panels of inputs that are written at once: what they read lies side by side.
+/// Input panels written at once. Their sources are adjacent in memory.
 const PANELS_AT_ONCE: usize = 2;
 
-/// Some panels of inputs of the exchanged weights.
+/// Exchange of some input panels.
 struct Exchange<'a> {
     weights: &'a [f32],
     taps: usize,
@@ -111,7 +110,7 @@ impl Job for Exchange<'_> {
     fn run<V: Vector>(self, _proof: V::Proof) {
         let panels = self.outputs / PANEL;
         let blocks = self.taps * panels;
-        // Square blocks of a length that the compiler knows, which it exchanges with vectors.
+        // Square blocks of constant size, which the compiler transposes with vector instructions.
         let (into, _) = self
             .into
             .as_chunks_mut::<PANEL>()

@@ -1,7 +1,7 @@
-//! Winograd's minimal filtering F(4 × 4, 3 × 3) of convolutions with a stride of 1: tiles of 6 × 6 inputs and kernels of 3 × 3 become
-//! values at 36 points, where a product is all that a convolution takes, and of their sums become tiles of 4 × 4 outputs.
+//! Winograd's minimal filtering F(4 × 4, 3 × 3) of convolutions with stride 1. Tiles of 6 × 6 inputs and 3 × 3 kernels are transformed
+//! to 36 points. At each point the convolution is a product. The sums are transformed back to tiles of 4 × 4 outputs.
 //!
-//! Tile by tile and channel by channel the same operations in the same order, so that neither threads nor vectors change a bit.
+//! Every tile and channel has the same operations in the same order, so threads and vectors change no bit of the result.
 //!
 //! # Reference
 //! A. Lavin, S. Gray, "Fast algorithms for convolutional neural networks", CVPR 2016.
@@ -24,17 +24,17 @@ use super::Convolution;
 use crate::panel::PANEL;
 use crate::picture::Picture;
 
-/// Rows and columns of a tile of outputs.
+/// Side of a tile of outputs, pixels.
 const TILE: usize = 4;
 
-/// Points of one dimension: as many as a tile of inputs has rows.
+/// Points along one dimension, and the side of a tile of inputs.
 const SIDE: usize = TILE + 2;
 
-/// Points of both.
+/// Points of a tile.
 const POINTS: usize = SIDE * SIDE;
 
-/// Whether this form takes a convolution into pictures of `output`, and multiplies less there: not at 2 × 2 pixels, of which a tile
-/// has all and twelve more.
+/// True if this form supports the convolution into pictures of shape `output` and saves products. At 2 × 2 pixels it saves none,
+/// because a tile computes twelve outputs more.
 pub(super) fn is_for(convolution: Convolution, output: Picture) -> bool {
     let Convolution {
         inputs,
@@ -48,23 +48,23 @@ pub(super) fn is_for(convolution: Convolution, output: Picture) -> bool {
         && POINTS * tiles(output) < convolution.taps() * output.pixels()
 }
 
-/// Tiles of a picture of outputs.
+/// Number of tiles of one output picture.
 pub(super) fn tiles(output: Picture) -> usize {
     Tiles::of(output).per_picture
 }
 
-/// Numbers from what lies at one point to what lies at the next: a panel more than needed, as powers of two would send all of them to
-/// the same lines of a cache.
+/// Stride between points, values. One panel longer than needed: strides of powers of two would map all points to the same cache
+/// lines.
 const fn slab(rows: usize, width: usize) -> usize {
     rows * width + PANEL
 }
 
-/// Numbers of transformed weights, or of their gradient.
+/// Length of the transformed weights or their gradient.
 pub(super) const fn transformed_len(inputs: usize, outputs: usize) -> usize {
     outputs / PANEL * POINTS * slab(inputs, PANEL)
 }
 
-/// Tiles of outputs, counted row by row and picture after picture.
+/// Tiles of outputs, counted row by row and picture by picture.
 #[derive(Clone, Copy, Debug)]
 struct Tiles {
     height: usize,
@@ -73,11 +73,11 @@ struct Tiles {
     per_picture: usize,
 }
 
-/// Where a tile lies.
+/// Position of a tile.
 #[derive(Clone, Copy, Debug)]
 struct TilePlace {
     image: usize,
-    /// Its first row and column.
+    /// First row and column.
     y: usize,
     x: usize,
     /// Rows and columns from there to the end of the picture.

@@ -1,24 +1,24 @@
-//! Room that the passes work in.
+//! Buffers of the passes.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::panel::Aligned;
 
-/// Room for one pass.
+/// Buffers for one pass.
 pub(crate) struct Rooms<'a> {
-    /// For transformed weights or their gradient.
+    /// Buffer for transformed weights or their gradient.
     pub(crate) transformed: &'a mut [f32],
     pub(crate) tiles: &'a TileRooms,
 }
 
-/// Rooms for transformed tiles and for outputs that lie apart: a thread takes one, or makes one, and gives it back.
+/// Pool of buffers for transformed tiles and for outputs of separate parts. A thread takes or allocates one and returns it.
 #[derive(Debug, Default)]
 pub(crate) struct TileRooms {
     spare: Mutex<Vec<Aligned>>,
 }
 
 impl TileRooms {
-    /// Does `work` with room for `length` numbers, which holds anything.
+    /// Calls `work` with a buffer of `length` values, which are unspecified.
     pub(super) fn with<R>(&self, length: usize, work: impl FnOnce(&mut [f32]) -> R) -> R {
         let mut room = self.taken(length).unwrap_or_else(|| Aligned::zeros(length));
         let result = work(&mut room[..length]);
@@ -26,7 +26,7 @@ impl TileRooms {
         result
     }
 
-    /// The latest room that is long enough; where there is none, one that is not makes way for another.
+    /// Takes the most recently returned buffer that is long enough. If none is, drops one and returns `None`.
     fn taken(&self, length: usize) -> Option<Aligned> {
         let mut spare = self.spare();
         let position = spare.iter().rposition(|room| length <= room.len());

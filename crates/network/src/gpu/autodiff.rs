@@ -11,7 +11,7 @@ use burn_tensor::{Tensor, TensorPrimitive};
 use crate::gpu::convolution::Convolution;
 use crate::gpu::products::Products;
 
-/// What a step back needs.
+/// State kept for the backward pass.
 #[derive(Clone, Debug)]
 struct Kept<B: Backend> {
     convolution: Convolution<B>,
@@ -19,7 +19,7 @@ struct Kept<B: Backend> {
     weights: Tensor<B, 1>,
 }
 
-/// The step back through a convolution.
+/// Backward pass of a convolution.
 #[derive(Debug)]
 struct Convolved;
 
@@ -46,7 +46,7 @@ impl<B: Products> Backward<B, 2> for Convolved {
     }
 }
 
-/// `pictures` convolved with `weights`, so that both get their gradients.
+/// Convolves `pictures` with `weights`, with gradients for both.
 pub(crate) fn convolved<B: Products>(
     convolution: &Convolution<B>,
     pictures: Tensor<Autodiff<B>, 4>,

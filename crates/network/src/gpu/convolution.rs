@@ -1,7 +1,7 @@
-//! Convolutions as products of matrices: windows of pixels are gathered, and multiplied by the kernels.
+//! Convolutions as matrix products: windows of pixels are gathered and multiplied by the kernels.
 //!
-//! burn's own convolutions are not used: with tensor cores they are formed in TF32, and without them pixel by pixel; and burn 0.21
-//! drops the gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
+//! Reasons against burn's own convolutions: tensor cores compute them in TF32, and without tensor cores they go pixel by pixel.
+//! burn 0.21 also drops the gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
 
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
@@ -10,23 +10,23 @@ use crate::gpu::parts::{LINE, added, split, stack, together};
 use crate::gpu::products::Products;
 use crate::gpu::windows::{Way, Windows, given};
 
-/// A convolution of pictures of one size, which lie `[samples, height, width, channels]`; its weights lie as in PyTorch,
-/// `[outputs, inputs, kernel rows, kernel columns]`, in one vector.
+/// A convolution of pictures of one size, `[samples, height, width, channels]`. The weights are one vector in PyTorch's order,
+/// `[outputs, inputs, kernel rows, kernel columns]`.
 #[derive(Clone, Debug)]
 pub(crate) struct Convolution<B: Backend> {
     windows: Windows<B>,
     inputs: usize,
     outputs: usize,
     kernel: usize,
-    /// Numbers that windows take at most.
+    /// Most values of a tensor of windows.
     most: usize,
 }
 
-/// Numbers that windows take at most: what a storage buffer of WebGPU holds at least, 128 MiB.
+/// Most values of a tensor of windows: 128 MiB, the least size of a storage buffer that WebGPU guarantees.
 const MOST: usize = 1 << 25;
 
 impl<B: Backend> Convolution<B> {
-    /// One whose weights have `shape`, of pictures of `seen` height and width.
+    /// Convolution with weights of `shape`, for pictures of height and width `seen`.
     pub(crate) fn new(
         shape: [usize; 4],
         stride: usize,
@@ -43,17 +43,17 @@ impl<B: Backend> Convolution<B> {
         }
     }
 
-    /// Height and width of what it gives.
+    /// Height and width of the output.
     pub(crate) fn given(&self) -> [usize; 2] {
         self.windows.given
     }
 
-    /// Height and width after pooling over 3 × 3 with stride 2.
+    /// Height and width after 3 × 3 max pooling with stride 2.
     pub(crate) fn pooled(&self) -> [usize; 2] {
         self.windows.given.map(|length| given(length, 3, 2))
     }
 
-    /// The weights of each place of the kernel behind each other.
+    /// Weights reshaped to `[outputs, inputs, kernel rows, kernel columns]`.
     fn kernels(&self, weights: Tensor<B, 1>) -> Tensor<B, 4> {
         let kernel = self.kernel;
         weights.reshape([self.outputs, self.inputs, kernel, kernel])
@@ -61,7 +61,7 @@ impl<B: Backend> Convolution<B> {
 }
 
 impl<B: Products> Convolution<B> {
-    /// `pictures` convolved with `weights`.
+    /// Convolves `pictures` with `weights`.
     pub(crate) fn forward(&self, pictures: Tensor<B, 4>, weights: Tensor<B, 1>) -> Tensor<B, 4> {
         let inner = self.windows.taps * self.inputs;
         let kernels = self.kernels(weights).permute([2, 3, 1, 0]);
@@ -69,7 +69,7 @@ impl<B: Products> Convolution<B> {
         self.gathered(pictures, Way::Onward, &kernels)
     }
 
-    /// The gradient of the pictures, from `gradient`, that of what the convolution gave.
+    /// Gradient of the pictures, from the output gradient `gradient`.
     pub(crate) fn backward(&self, gradient: Tensor<B, 4>, weights: Tensor<B, 1>) -> Tensor<B, 4> {
         let inner = self.windows.taps * self.outputs;
         let kernels = self.kernels(weights).permute([2, 3, 0, 1]);
@@ -77,7 +77,7 @@ impl<B: Products> Convolution<B> {
         self.gathered(gradient, Way::Back, &kernels)
     }
 
-    /// The gradient of the weights.
+    /// Gradient of the weights, from the output gradient `gradient`.
     pub(crate) fn of_weights(
         &self,
         pictures: Tensor<B, 4>,
@@ -105,7 +105,7 @@ impl<B: Products> Convolution<B> {
         sum.permute([3, 2, 0, 1]).reshape([count])
     }
 
-    /// The windows of `pictures` multiplied by `kernels`, which are `[1, taps · channels, channels given]`.
+    /// Multiplies the windows of `pictures` by `kernels`, `[1, taps · channels, output channels]`.
     fn gathered(&self, pictures: Tensor<B, 4>, way: Way, kernels: &Tensor<B, 3>) -> Tensor<B, 4> {
         let [samples, ..] = pictures.dims();
         let [_, inner, channels] = kernels.dims();
@@ -127,7 +127,7 @@ impl<B: Products> Convolution<B> {
         together(parts, 1).reshape([samples, height, width, channels])
     }
 
-    /// The windows of `pictures`, of as many at once as memory allows.
+    /// Windows of `pictures`, in batches limited by `most`.
     fn parts(&self, pictures: Tensor<B, 4>, way: Way) -> impl Iterator<Item = Tensor<B, 3>> {
         split(pictures, self.at_once(way)).map(move |pictures| {
             let [samples, height, width, channels] = pictures.dims();
@@ -163,7 +163,7 @@ mod tests {
         Tensor::from_data(data, &B::Device::default())
     }
 
-    /// What a convolution and its gradients give for five pictures, with windows of so many numbers at once.
+    /// Outputs and gradients of a convolution for five pictures, with windows of at most `most` values.
     fn all<B: Products>(most: usize) -> [Vec<f32>; 3] {
         let device = B::Device::default();
         let mut convolution = Convolution::<B>::new([8, 4, 3, 3], 2, [9, 7], &device);
@@ -182,7 +182,7 @@ mod tests {
 
     fn check<B: Products>() {
         let whole = all::<B>(super::MOST);
-        // Windows of two pictures at once onward (5 × 4 × 9 × 4 numbers each), and of one on the way back.
+        // Windows of two pictures at once forward (5 × 4 × 9 × 4 values each), and of one backward.
         for (found, expected) in all::<B>(1500).iter().zip(&whole) {
             assert_eq!(found.len(), expected.len());
             for (found, expected) in found.iter().zip(expected) {

@@ -1,4 +1,4 @@
-//! A device that was found, and how each programming interface finds one.
+//! Devices, and their detection by each programming interface.
 
 #[cfg(feature = "cuda")]
 mod cuda;
@@ -9,19 +9,19 @@ use crate::error::NetworkError;
 use crate::gpu::{GpuError, GpuKind};
 use crate::training::{Engine, Recipe, Snapshot};
 
-/// A device that was found.
+/// A device of this machine.
 #[derive(Clone, Debug)]
 pub(crate) struct Device {
-    /// Its name, as its driver gives it.
+    /// Name of the device, as reported by its driver.
     pub(crate) name: String,
     pub(crate) begin: Begin,
 }
 
-/// Begins a training on a device that errors call by this name, with the backend of burn that its kind has.
+/// Starts a training on a device, named in errors by the first argument, with the burn backend of its kind.
 type Begin = fn(&str, &Snapshot, &Recipe) -> Result<Box<dyn Engine>, NetworkError>;
 
 impl Device {
-    /// The first device of `kind`.
+    /// Finds the first device of `kind`.
     ///
     /// # Errors
     /// [`GpuError::NotBuilt`] without the feature for that kind, [`GpuError::NotFound`] without a device.

@@ -1,6 +1,6 @@
-//! The devices that tests find.
+//! Devices for tests.
 
-/// Calls a function of a backend for each kind of GPU that is built in and at hand; skips, and says so, where none is.
+/// Calls a function of a backend for each kind of GPU that is built and present. Otherwise skips with a report.
 macro_rules! on_each {
     ($check:ident) => {
         for kind in crate::gpu::GpuKind::ALL {

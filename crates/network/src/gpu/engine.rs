@@ -1,4 +1,4 @@
-//! A network in training on a device.
+//! Training of a network on a device.
 
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
@@ -11,27 +11,27 @@ use crate::gpu::training::{Course, descend};
 use crate::gpu::weights::{Layout, Weights, named, upload};
 use crate::{Architecture, Batch, Engine, Moments, Network, NetworkError, Recipe, Rule, Snapshot};
 
-/// A network in training on a device of `B`.
+/// Training of a network on a device of `B`.
 #[derive(Debug)]
 struct DeviceEngine<B: Backend> {
     device: B::Device,
-    /// What to call the device.
+    /// Name of the device in errors.
     name: String,
     architecture: Architecture,
     recipe: Recipe,
     layout: Layout,
     passes: Passes<B>,
     weights: Weights<B>,
-    /// These weights ready to predict, once that was asked for.
+    /// Folded weights for prediction, built at the first prediction after a step.
     prediction: Option<Prediction<B>>,
     moments: Vec<Tensor<B, 1>>,
-    /// The last step, for the error that names where a weight was found that is not finite.
+    /// Last step, reported with weights that are not finite.
     last: u64,
-    /// Why the device failed in a step, which may be half done: no other is made.
+    /// Error of a failed step. The weights may be half updated, so every further step returns this error.
     failed: Option<NetworkError>,
 }
 
-/// A training on the first device of `B`, called `name`, that goes on from `snapshot`.
+/// Starts an engine on the first device of `B`, called `name` in errors, that continues from `snapshot`.
 pub(crate) fn begin<B: Products>(
     name: &str,
     snapshot: &Snapshot,
@@ -73,7 +73,7 @@ impl<B: Products> DeviceEngine<B> {
         );
         let course = Course::forward(&self.passes, &self.layout, &self.weights, pictures);
         let (outputs, width) = (course.outputs(), self.architecture.outputs);
-        // The loss is formed here, of a few numbers and by the one formula that there is.
+        // The loss is computed on the CPU: few numbers, and one formula for all engines.
         let mut gradient = Vec::new();
         let loss = self
             .recipe

@@ -1,27 +1,27 @@
-//! Why there is no GPU to train on.
+//! Errors of finding a GPU.
 
 use crate::gpu::GpuKind;
 
-/// Why there is no GPU to train on.
+/// Error of finding a GPU.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GpuError {
-    /// The program was built without the feature for that kind.
+    /// The program was built without the feature of this kind.
     #[error(
         "this program was built without the feature `{kind}`: build it with `--features {kind}`, or train with `device=cpu`"
     )]
     NotBuilt {
-        /// What was asked for; the feature has its name.
+        /// Requested kind, also the name of the feature.
         kind: GpuKind,
     },
-    /// No device of that kind was found.
+    /// No device of this kind was found.
     #[error("no device for `{kind}`: looked for {looked_for}; {found}")]
     NotFound {
-        /// What was asked for.
+        /// Requested kind.
         kind: GpuKind,
-        /// What is needed.
+        /// Requirements of this kind.
         looked_for: &'static str,
-        /// What was found instead.
+        /// Result of the search.
         found: String,
     },
 }

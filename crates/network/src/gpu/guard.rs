@@ -1,15 +1,15 @@
-//! Catches panics of burn and the libraries below it, which report a failed device in no other way.
+//! Catches panics of burn and its libraries, which are their only report of a failed device.
 
 use taceva_core::contained;
 
 use crate::error::NetworkError;
 
-/// What `work` gives, or why the device could not do it.
+/// Runs `work` and turns a panic into [`NetworkError::Device`].
 pub(crate) fn guard<T>(
     gpu: &str,
     work: impl FnOnce() -> Result<T, NetworkError>,
 ) -> Result<T, NetworkError> {
-    // What was half done is of no use: an engine whose step failed makes no other.
+    // Unwind safety: an engine whose step failed makes no further step.
     contained(work).unwrap_or_else(|problem| {
         Err(NetworkError::Device {
             device: gpu.to_owned(),

@@ -1,15 +1,15 @@
-//! The ways to reach a GPU.
+//! Programming interfaces of GPUs.
 
 use std::fmt;
 
 use crate::gpu::GpuError;
 
-/// How a GPU is reached.
+/// Programming interface of a GPU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GpuKind {
-    /// NVIDIA's driver, with kernels that NVRTC compiles when they are first used.
+    /// NVIDIA's driver, with kernels compiled by NVRTC at first use.
     Cuda,
-    /// Vulkan, Metal or DirectX 12, whichever the system has.
+    /// Vulkan, Metal or DirectX 12, depending on the system.
     Wgpu,
 }
 
@@ -17,7 +17,7 @@ impl GpuKind {
     /// Every kind.
     pub const ALL: [GpuKind; 2] = [GpuKind::Cuda, GpuKind::Wgpu];
 
-    /// Its name, which the feature has too.
+    /// Name of the kind and of its feature.
     pub const fn name(self) -> &'static str {
         match self {
             GpuKind::Cuda => "cuda",

@@ -1,4 +1,4 @@
-//! Normalisation by the moments of a batch, and its gradient, in few kernels.
+//! Batch normalisation and its gradient, in few kernels.
 
 use crate::Network;
 use burn_autodiff::Autodiff;
@@ -9,16 +9,16 @@ use burn_autodiff::ops::{Backward, Ops, OpsKind};
 use burn_tensor::backend::Backend;
 use burn_tensor::{Tensor, TensorPrimitive};
 
-/// What a step back needs.
+/// State kept for the backward pass.
 #[derive(Clone, Debug)]
 struct Kept<B: Backend> {
-    /// Of mean 0 and variance 1 in each channel.
+    /// Normalised pictures: mean 0 and variance 1 in each channel.
     normalised: Tensor<B, 4>,
-    /// The derivative of what was given by what came, moments held: gain over the root of the variance, `[1, 1, 1, channels]`.
+    /// Derivative of output by input at constant moments: gain / √(variance + ε), `[1, 1, 1, channels]`.
     scale: Tensor<B, 4>,
 }
 
-/// The step back through a normalisation.
+/// Backward pass of a normalisation.
 #[derive(Debug)]
 struct Normalised;
 
@@ -44,7 +44,7 @@ impl<B: Backend> Backward<B, 3> for Normalised {
             register(node.id, of_bias.clone().reshape([channels]));
         }
         if let Some(node) = raw {
-            // Mean and variance follow the pictures too: their share is taken out.
+            // Mean and variance depend on the pictures too: subtracts their share.
             let shared = normalised * (of_gain / pixels) + of_bias / pixels;
             let found = (gradient - shared) * scale;
             gradients.register::<B>(node.id, found.into_primitive().tensor());
@@ -55,13 +55,13 @@ impl<B: Backend> Backward<B, 3> for Normalised {
 /// Pictures normalised by their own moments.
 pub(crate) struct Batch<B: Backend> {
     pub(crate) given: Tensor<Autodiff<B>, 4>,
-    /// Of each channel.
+    /// Mean of each channel.
     pub(crate) mean: Tensor<B, 1>,
-    /// Of each channel, not biased.
+    /// Unbiased variance of each channel.
     pub(crate) variance: Tensor<B, 1>,
 }
 
-/// `raw` normalised by the moments of its channels, times `gain`, plus `bias`.
+/// Normalises `raw` by the moments of its channels, then applies `gain` and `bias`.
 pub(crate) fn normalised<B: Backend>(
     raw: Tensor<Autodiff<B>, 4>,
     gain: Tensor<Autodiff<B>, 1>,
@@ -99,13 +99,13 @@ pub(crate) fn normalised<B: Backend>(
     }
 }
 
-/// Pixels that one unit of a GPU adds up.
+/// Most pixels summed by one GPU thread.
 const ALONE: usize = 128;
 
-/// The sums of each channel, along rows first, then columns, then pictures, so that many units have work and roundings stay small.
+/// Sums of each channel: along rows, then columns, then pictures. Many GPU threads have work, and rounding errors stay small.
 ///
 /// # Shapes
-/// `pictures`: `[samples, height, width, channels]`; the sums: `[1, 1, 1, channels]`.
+/// `pictures`: `[samples, height, width, channels]`; returns `[1, 1, 1, channels]`.
 fn sums<B: Backend>(pictures: Tensor<B, 4>) -> Tensor<B, 4> {
     let [samples, height, width, channels] = pictures.dims();
     let lines = if height * width <= ALONE {

@@ -1,18 +1,18 @@
-//! Parts of what is too much at once, and of what is too little to keep a GPU busy.
+//! Splits work that exceeds the memory, and sums too few to fill a GPU.
 
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
 
-/// Tiles of 64 × 64 that a GPU is busy with: products of fewer are formed in parts, which are added up.
+/// Tiles of 64 × 64 that fill a GPU. Products with fewer tiles are computed in parts, which are added.
 const BUSY: usize = 512;
 
-/// Numbers of a window that stay together.
+/// Values of a window that stay in one part.
 pub(crate) const LINE: usize = 32;
 
-/// Products that a part of a sum has at least.
+/// Fewest products in a part of a sum.
 const LEAST: usize = 128;
 
-/// In how many equal parts sums of `length` products are formed for a matrix of `size`, so that the GPU is busy; each of whole lines.
+/// Number of equal parts for sums of `length` products in a matrix of `size`, to fill the GPU. Parts are multiples of `line`.
 pub(crate) fn stack(length: usize, line: usize, [rows, columns]: [usize; 2]) -> usize {
     let tiles = rows.div_ceil(64) * columns.div_ceil(64);
     let wanted = (BUSY / tiles).min(length / LEAST).max(1);
@@ -22,7 +22,7 @@ pub(crate) fn stack(length: usize, line: usize, [rows, columns]: [usize; 2]) -> 
         .unwrap_or(1)
 }
 
-/// `pictures`, at most `most` at once.
+/// Splits `pictures` into batches of at most `most`.
 pub(crate) fn split<B: Backend>(
     pictures: Tensor<B, 4>,
     most: usize,
@@ -38,7 +38,7 @@ pub(crate) fn split<B: Backend>(
     })
 }
 
-/// `parts` one behind the other.
+/// Concatenates `parts` along the dimension `along`.
 pub(crate) fn together<B: Backend>(mut parts: Vec<Tensor<B, 3>>, along: usize) -> Tensor<B, 3> {
     match parts.len() {
         1 => parts.remove(0),
@@ -46,7 +46,7 @@ pub(crate) fn together<B: Backend>(mut parts: Vec<Tensor<B, 3>>, along: usize) -
     }
 }
 
-/// The sum of a stack.
+/// Sum over the first dimension.
 pub(crate) fn added<B: Backend>(stack: Tensor<B, 3>) -> Tensor<B, 3> {
     match stack.dims() {
         [1, ..] => stack,

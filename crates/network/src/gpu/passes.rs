@@ -1,4 +1,4 @@
-//! The parts of a network and how pictures pass them, however a convolution and its normalisation are done.
+//! Layers of a network and their order, independent of the implementation of convolution and normalisation.
 
 use burn_tensor::Tensor;
 use burn_tensor::activation::relu;
@@ -9,7 +9,7 @@ use crate::gpu::convolution::Convolution;
 use crate::gpu::weights::Layout;
 use crate::{Architecture, PlainLayer, Pooling, StagePlan};
 
-/// The parts of a network on a device of `B`.
+/// Layers of a network on a device of `B`.
 #[derive(Clone, Debug)]
 pub(crate) struct Passes<B: Backend> {
     parts: Vec<Layer<B>>,
@@ -17,7 +17,7 @@ pub(crate) struct Passes<B: Backend> {
     head: Head<B>,
 }
 
-/// A layer, or a residual block, that is computed as a whole.
+/// A layer, or a residual block.
 #[derive(Clone, Debug)]
 #[expect(
     clippy::large_enum_variant,
@@ -33,7 +33,7 @@ enum Layer<B: Backend> {
     },
 }
 
-/// A convolution and its normalisation, by the positions of their tensors among those that are learnt and those that run.
+/// A convolution and its normalisation. Fields are indices of their tensors among the trained ones and the running moments.
 #[derive(Clone, Debug)]
 pub(crate) struct Normed<B: Backend> {
     pub(crate) convolution: Convolution<B>,
@@ -46,7 +46,7 @@ pub(crate) struct Normed<B: Backend> {
     pub(crate) shape: [usize; 4],
 }
 
-/// Outputs that are linear in features: a convolution of pictures of one pixel.
+/// Linear outputs, as a convolution of pictures of one pixel.
 #[derive(Clone, Debug)]
 pub(crate) struct Head<B: Backend> {
     pub(crate) convolution: Convolution<B>,
@@ -55,20 +55,20 @@ pub(crate) struct Head<B: Backend> {
     outputs: usize,
 }
 
-/// How convolutions are done, on tensors of `T`; `B` is the backend of the device.
+/// Implementation of convolutions on tensors of `T`. `B` is the backend of the device.
 pub(crate) trait Pass<B: Backend, T: Backend> {
-    /// Pictures convolved and normalised.
+    /// Convolves and normalises pictures.
     fn normed(&mut self, normed: &Normed<B>, pictures: Tensor<T, 4>) -> Tensor<T, 4>;
 
-    /// Features weighted, without the bias.
+    /// Multiplies features by the weights, without the bias.
     fn weighted(&self, head: &Head<B>, features: Tensor<T, 4>) -> Tensor<T, 4>;
 
-    /// A tensor that is learnt.
+    /// Trained tensor at `position`.
     fn learnt(&self, position: usize) -> Tensor<T, 1>;
 }
 
 impl<B: Backend> Passes<B> {
-    /// Those of `architecture`, whose tensors lie as `layout` says.
+    /// Layers of `architecture` with the tensors of `layout`.
     pub(crate) fn new(architecture: &Architecture, layout: &Layout, device: &B::Device) -> Self {
         let positions = layout.positions();
         let position = |name: &str| {
@@ -134,7 +134,7 @@ impl<B: Backend> Passes<B> {
         }
     }
 
-    /// Every convolution with its normalisation, in the order of the passes.
+    /// Every convolution with its normalisation, in the order of the forward pass.
     pub(crate) fn normed(&self) -> impl Iterator<Item = &Normed<B>> {
         self.parts.iter().flat_map(|part| match part {
             Layer::Stem(normed) | Layer::Plain(normed) => vec![normed],
@@ -146,10 +146,10 @@ impl<B: Backend> Passes<B> {
         })
     }
 
-    /// The outputs for `pictures`, with convolutions done by `pass`.
+    /// Computes the outputs for `pictures`, with convolutions by `pass`.
     ///
     /// # Shapes
-    /// `pictures`: `[samples, height, width, channels]`; the outputs: `[samples, outputs]`.
+    /// `pictures`: `[samples, height, width, channels]`; returns `[samples, outputs]`.
     pub(crate) fn run<T: Backend>(
         &self,
         pictures: Tensor<T, 4>,
@@ -189,9 +189,9 @@ impl<B: Backend> Passes<B> {
     }
 }
 
-/// The greatest of each 3 × 3 pixels, with stride 2.
+/// Max pooling over 3 × 3 pixels with stride 2.
 fn pooled<T: Backend>(pictures: Tensor<T, 4>) -> Tensor<T, 4> {
-    // Seen with channels before rows, as burn wants them; nothing is moved.
+    // Channels before rows, as burn expects. Only strides change; no data is copied.
     let seen = pictures.permute([0, 3, 1, 2]);
     max_pool2d(seen, [3, 3], [2, 2], [1, 1], [1, 1], false).permute([0, 2, 3, 1])
 }

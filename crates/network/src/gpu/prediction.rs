@@ -1,4 +1,4 @@
-//! Prediction: running moments are folded into the weights, so that only convolutions are left.
+//! Prediction with running moments folded into the weights, so that only convolutions remain.
 
 use burn_tensor::backend::Backend;
 use burn_tensor::{Tensor, TensorData};
@@ -8,14 +8,14 @@ use crate::gpu::products::Products;
 use crate::gpu::weights::{Layout, Weights, numbers};
 use crate::{Network, Picture};
 
-/// Pictures that are passed at once.
+/// Pictures per batch.
 const BATCH: usize = 256;
 
-/// The weights of a network ready to predict.
+/// Weights prepared for prediction.
 #[derive(Clone, Debug)]
 pub(crate) struct Prediction<B: Backend> {
     learnt: Vec<Tensor<B, 1>>,
-    /// The weights and the bias of each convolution, by the position of its weights.
+    /// Folded weights and bias of each convolution, at the index of its weights.
     folded: Vec<Option<(Tensor<B, 1>, Tensor<B, 1>)>>,
 }
 
@@ -41,7 +41,7 @@ impl<B: Products> Prediction<B> {
         Prediction { learnt, folded }
     }
 
-    /// The outputs for `pictures` of size `picture`, written to `into`.
+    /// Writes the outputs for `pictures` of size `picture` to `into`.
     pub(crate) fn run(
         &self,
         passes: &Passes<B>,
@@ -82,10 +82,10 @@ impl<B: Products> Pass<B, B> for &Prediction<B> {
     }
 }
 
-/// Pictures on the device.
+/// Uploads pictures to the device.
 ///
 /// # Shapes
-/// `values` and the tensor: `[samples, height, width, channels]`.
+/// `values` and the result: `[samples, height, width, channels]`.
 pub(crate) fn pictures_on<B: Backend>(
     picture: Picture,
     values: Vec<f32>,

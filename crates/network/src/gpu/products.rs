@@ -1,7 +1,7 @@
-//! Products of matrices in single precision.
+//! Matrix products in single precision.
 //!
-//! burn multiplies by whatever is fastest, which on NVIDIA's GPUs is tensor cores: they round both sides to TF32, eleven bits. Here every
-//! product is formed by the ordinary units, of f32 and in f32.
+//! burn chooses the fastest algorithm, on NVIDIA GPUs tensor cores, which round both factors to TF32 with eleven bits. Here every product
+//! is computed by ordinary units in f32.
 
 use burn_cubecl::cubecl::server::ComputeServer;
 use burn_cubecl::ops::numeric::empty_device_contiguous_dtype;
@@ -16,14 +16,14 @@ use cubek::std::InputBinding;
 
 /// A backend that multiplies matrices in single precision.
 pub(crate) trait Products: Backend {
-    /// `left` times `right`, for each matrix of a stack.
+    /// Multiplies `left` by `right`, for each matrix of a stack.
     ///
     /// # Shapes
-    /// `left`: `[stack, rows, inner]`; `right`: `[stack, inner, columns]`; the product: `[stack, rows, columns]`.
+    /// `left`: `[stack, rows, inner]`; `right`: `[stack, inner, columns]`; returns `[stack, rows, columns]`.
     fn product(left: Tensor<Self, 3>, right: Tensor<Self, 3>) -> Tensor<Self, 3>;
 }
 
-/// From how many products per sum on two buffers are used in turn, which is faster; of short sums cubek 0.2 makes wrong ones so.
+/// Fewest products per sum for double buffering, which is faster. For shorter sums, cubek 0.2 computes it wrongly.
 const LONG: usize = 128;
 
 impl<R, I, B> Products for CubeBackend<R, f32, I, B>
@@ -74,7 +74,7 @@ mod tests {
     use crate::gpu::devices::on_each;
     use burn_tensor::{Tensor, TensorData};
 
-    /// Stack, rows, inner, columns.
+    /// `[stack, rows, inner, columns]`.
     const SIZES: [[usize; 4]; 12] = [
         [1, 1, 512, 6],
         [1, 3, 1, 5],
@@ -108,7 +108,7 @@ mod tests {
             let left = numbers(stack * rows * inner, 1);
             let right = numbers(stack * inner * columns, 2);
             let right_there = tensor(&right, [stack, inner, columns]);
-            // As it lies, turned, and with parts of each row as matrices of a stack, as convolutions have them.
+            // Plain, transposed, and with parts of each row as matrices of a stack, as in convolutions.
             let plain = tensor(&left, [stack, rows, inner]);
             let turned = plain
                 .clone()

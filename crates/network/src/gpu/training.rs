@@ -1,5 +1,5 @@
-//! One step of training: forward with the moments of the batch, gradients by burn's automatic differentiation, and the rule by
-//! which weights follow.
+//! One training step: forward pass with batch moments, gradients by burn's automatic differentiation, and the update of the
+//! weights.
 
 use burn_autodiff::Autodiff;
 use burn_tensor::Tensor;
@@ -12,17 +12,17 @@ use crate::gpu::products::Products;
 use crate::gpu::weights::{Layout, Weights, numbers, vector};
 use crate::{Network, Rule};
 
-/// What a step makes of a batch.
+/// State of a step after the forward pass.
 pub(crate) struct Course<B: Backend> {
-    /// The tensors that are learnt, whose gradients are asked for.
+    /// Trained tensors, which track gradients.
     learnt: Vec<Tensor<Autodiff<B>, 1>>,
-    /// Mean and unbiased variance of the batch, as running moments lie.
+    /// Mean and unbiased variance of the batch, in the order of the running moments.
     moments: Vec<Option<Tensor<B, 1>>>,
     outputs: Tensor<Autodiff<B>, 2>,
 }
 
 impl<B: Products> Course<B> {
-    /// Passes `pictures`.
+    /// Runs the forward pass on `pictures`.
     pub(crate) fn forward(
         passes: &Passes<B>,
         layout: &Layout,
@@ -46,7 +46,7 @@ impl<B: Products> Course<B> {
         }
     }
 
-    /// The outputs, once the device has them.
+    /// Downloads the outputs, waiting for the device.
     ///
     /// # Shapes
     /// `[samples, outputs]`.
@@ -55,7 +55,7 @@ impl<B: Products> Course<B> {
         outputs.into_iter().map(f64::from).collect()
     }
 
-    /// The gradient of each number that is learnt, from `gradient`, that of the outputs.
+    /// Gradient of all trained values, from the output gradient `gradient`.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "formed in double precision and passed back in single"
@@ -64,7 +64,7 @@ impl<B: Products> Course<B> {
         let device = self.outputs.device();
         let gradient: Vec<f32> = gradient.iter().map(|number| *number as f32).collect();
         let gradient = vector::<Autodiff<B>>(gradient, &device).reshape(self.outputs.dims());
-        // The derivative of this product by the outputs is the gradient, whatever the loss was.
+        // The derivative of this product by the outputs is `gradient`, for any loss.
         let mut gradients = (self.outputs.clone() * gradient).sum().backward();
         let each = self.learnt.iter().map(|tensor| {
             let found = tensor.grad_remove(&mut gradients);
@@ -73,7 +73,7 @@ impl<B: Products> Course<B> {
         Tensor::cat(each.collect(), 0)
     }
 
-    /// Running moments after this batch.
+    /// Running moments updated by this batch.
     pub(crate) fn followed(&self, running: &Tensor<B, 1>) -> Tensor<B, 1> {
         let moments = self.moments.iter().cloned();
         let moments = moments.map(|moment| moment.expect("each normalisation was passed"));
@@ -83,7 +83,7 @@ impl<B: Products> Course<B> {
     }
 }
 
-/// Convolutions in a step: normalised by the moments of the batch, which are kept.
+/// Training pass: normalises by the batch moments and stores them.
 struct Step<'a, B: Backend> {
     learnt: &'a [Tensor<Autodiff<B>, 1>],
     moments: &'a mut [Option<Tensor<B, 1>>],
@@ -111,7 +111,7 @@ impl<B: Products> Pass<B, Autodiff<B>> for Step<'_, B> {
     }
 }
 
-/// The weights after a step by `rule`; `moments` are what the optimiser remembers, none before the first step.
+/// Weights after a step by `rule`. `moments` is the state of the optimiser, empty before the first step.
 pub(crate) fn descend<B: Backend>(
     rule: Rule,
     weights: &Tensor<B, 1>,

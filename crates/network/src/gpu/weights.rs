@@ -1,5 +1,5 @@
-//! Weights in and out: on a device a network is two long vectors, what it learns and its running moments, so that an optimiser's
-//! step is a few kernels however many layers there are.
+//! Upload and download of weights. On a device, a network is two long vectors: trained values and running moments. An optimiser
+//! step therefore takes few kernels for any number of layers.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -8,14 +8,14 @@ use crate::{Architecture, NamedTensor, Network, NetworkError};
 use burn_tensor::backend::Backend;
 use burn_tensor::{Tensor, TensorData};
 
-/// Where each tensor of a network lies in the two vectors.
+/// Offsets of each tensor of a network in the two vectors.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout {
     pub(crate) learnt: Vec<Slice>,
     pub(crate) running: Vec<Slice>,
 }
 
-/// Where a tensor lies in its vector.
+/// Location of a tensor in its vector.
 #[derive(Clone, Debug)]
 pub(crate) struct Slice {
     pub(crate) name: String,
@@ -23,7 +23,7 @@ pub(crate) struct Slice {
     pub(crate) range: Range<usize>,
 }
 
-/// The two vectors.
+/// Trained values and running moments.
 #[derive(Clone, Debug)]
 pub(crate) struct Weights<B: Backend> {
     pub(crate) learnt: Tensor<B, 1>,
@@ -31,7 +31,7 @@ pub(crate) struct Weights<B: Backend> {
 }
 
 impl Layout {
-    /// That of `tensors`, which are all of a network.
+    /// Layout of `tensors`, the complete list of a network.
     pub(crate) fn of(tensors: &[NamedTensor]) -> Layout {
         let (mut learnt, mut running) = (Vec::new(), Vec::new());
         for tensor in tensors {
@@ -50,7 +50,7 @@ impl Layout {
         Layout { learnt, running }
     }
 
-    /// The position of each tensor among its kind, by name.
+    /// Index of each tensor among its kind, by name.
     pub(crate) fn positions(&self) -> BTreeMap<&str, usize> {
         let kinds = [&self.learnt, &self.running];
         kinds
@@ -62,7 +62,7 @@ impl Layout {
 }
 
 impl Slice {
-    /// Its part of `vector`.
+    /// Values of this tensor in `vector`.
     pub(crate) fn of<B: Backend>(&self, vector: &Tensor<B, 1>) -> Tensor<B, 1> {
         vector.clone().slice([self.range.clone()])
     }
@@ -77,7 +77,7 @@ impl Slice {
 }
 
 impl<B: Backend> Weights<B> {
-    /// Those of a network whose tensors are `tensors`.
+    /// Uploads the tensors of a network.
     pub(crate) fn upload(tensors: &[NamedTensor], device: &B::Device) -> Weights<B> {
         let (learnt, running): (Vec<&NamedTensor>, Vec<_>) =
             tensors.iter().partition(|tensor| tensor.is_learnt());
@@ -87,7 +87,7 @@ impl<B: Backend> Weights<B> {
         }
     }
 
-    /// The network with these weights.
+    /// Downloads the network with these weights.
     pub(crate) fn download(
         &self,
         layout: &Layout,
@@ -99,7 +99,7 @@ impl<B: Backend> Weights<B> {
     }
 }
 
-/// The numbers of `tensors` one behind the other.
+/// Uploads the values of `tensors`, concatenated.
 pub(crate) fn upload<'a, B: Backend>(
     tensors: impl IntoIterator<Item = &'a NamedTensor>,
     device: &B::Device,
@@ -113,19 +113,19 @@ pub(crate) fn upload<'a, B: Backend>(
     )
 }
 
-/// `values` on the device.
+/// Uploads `values`.
 pub(crate) fn vector<B: Backend>(values: Vec<f32>, device: &B::Device) -> Tensor<B, 1> {
     let count = values.len();
     Tensor::from_data(TensorData::new(values, [count]), device)
 }
 
-/// The tensors that lie in `vector`.
+/// Downloads the tensors of `vector`.
 pub(crate) fn named<B: Backend>(slices: &[Slice], vector: &Tensor<B, 1>) -> Vec<NamedTensor> {
     let values = numbers(vector.clone());
     slices.iter().map(|slice| slice.named(&values)).collect()
 }
 
-/// The numbers of `tensor`, once the device has them.
+/// Downloads the values of `tensor`, waiting for the device.
 pub(crate) fn numbers<B: Backend, const D: usize>(tensor: Tensor<B, D>) -> Vec<f32> {
     tensor.into_data().iter::<f32>().collect()
 }

@@ -1,37 +1,37 @@
-//! Which pixels a convolution multiplies: tables of positions, by which a device gathers them.
+//! Windows of a convolution: index tables by which a device gathers pixels.
 
 use burn_tensor::backend::Backend;
 use burn_tensor::{Int, Tensor, TensorData};
 
-/// The windows of a kernel over pictures of one size.
+/// Windows of a kernel over pictures of one size.
 #[derive(Clone, Debug)]
 pub(crate) struct Windows<B: Backend> {
-    /// Height and width of the pictures.
+    /// Height and width of the input pictures.
     pub(crate) seen: [usize; 2],
-    /// Height and width of what the convolution gives.
+    /// Height and width of the output.
     pub(crate) given: [usize; 2],
-    /// Places of the kernel.
+    /// Number of kernel positions.
     pub(crate) taps: usize,
-    /// The pixels that are seen, for each that is given and each place of the kernel.
+    /// Input pixel for each output pixel and kernel position.
     onward: Table<B>,
-    /// The pixels that are given, for each that is seen and each place of the kernel: the way back of a gradient.
+    /// Output pixel for each input pixel and kernel position, for the backward pass.
     back: Table<B>,
 }
 
-/// A position for each pixel and each place of the kernel; none where each pixel is its own window.
+/// Pixel index for each pixel and kernel position. `None` if each pixel is its own window.
 type Table<B> = Option<Tensor<B, 1, Int>>;
 
-/// A direction.
+/// Direction of a pass.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Way {
-    /// From pictures to what a convolution gives.
+    /// Forward: from pictures to output.
     Onward,
-    /// From a gradient of what it gives to one of pictures.
+    /// Backward: from the output gradient to the input gradient.
     Back,
 }
 
 impl<B: Backend> Windows<B> {
-    /// Those of a square kernel, whose middle lies on each `stride`-th pixel of each `stride`-th row.
+    /// Windows of a square kernel, centred on every `stride`-th pixel of every `stride`-th row.
     pub(crate) fn new(seen: [usize; 2], kernel: usize, stride: usize, device: &B::Device) -> Self {
         let given = seen.map(|length| given(length, kernel, stride));
         let itself = kernel == 1 && stride == 1;
@@ -48,10 +48,10 @@ impl<B: Backend> Windows<B> {
         }
     }
 
-    /// The windows of `pixels`, side by side; zeros beyond the edge.
+    /// Gathers the windows of `pixels`, with zeros outside the picture.
     ///
     /// # Shapes
-    /// `pixels`: `[samples, pixels, channels]`; the windows: `[samples, windows, taps · channels]`.
+    /// `pixels`: `[samples, pixels, channels]`; returns `[samples, windows, taps · channels]`.
     pub(crate) fn of(&self, pixels: Tensor<B, 3>, way: Way) -> Tensor<B, 3> {
         let (table, windows) = match way {
             Way::Onward => (&self.onward, self.given),
@@ -68,12 +68,12 @@ impl<B: Backend> Windows<B> {
     }
 }
 
-/// Places of a kernel along a line of `length` pixels.
+/// Output length of a convolution along a line of `length` pixels.
 pub(crate) const fn given(length: usize, kernel: usize, stride: usize) -> usize {
     (length + 2 * (kernel / 2) - kernel) / stride + 1
 }
 
-/// For each pixel that is given and each place of the kernel the pixel that is seen there; the one behind the last beyond the edge.
+/// Input pixel for each output pixel and kernel position. The index after the last pixel means outside the picture.
 fn onward(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> Vec<i32> {
     let place = |at: usize, tap: usize, length: usize| {
         let found = (at * stride + tap).checked_sub(kernel / 2);
@@ -82,8 +82,7 @@ fn onward(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> 
     positions(given, seen, kernel, place)
 }
 
-/// For each pixel that is seen and each place of the kernel the pixel that is given where it is seen there; the one behind the last
-/// where there is none.
+/// Output pixel for each input pixel and kernel position. The index after the last pixel means none.
 fn back(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> Vec<i32> {
     let place = |at: usize, tap: usize, length: usize| {
         let middle = (at + kernel / 2).checked_sub(tap)?;
@@ -93,7 +92,7 @@ fn back(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> Ve
     positions(seen, given, kernel, place)
 }
 
-/// The position among pixels `of` a picture that `place` finds for each pixel of `each` and each place of a kernel.
+/// Pixel indices in a picture of size `of`, by `place`, for each pixel of a picture of size `each` and each kernel position.
 fn positions(
     each: [usize; 2],
     of: [usize; 2],

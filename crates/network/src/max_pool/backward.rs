@@ -1,4 +1,4 @@
-//! The gradients: of each output's, the whole goes to the pixel that it came from.
+//! Gradients: each output passes its whole gradient to the pixel that it came from.
 
 use rayon::prelude::*;
 
@@ -9,7 +9,7 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// What the forward pass wrote.
+/// Results of the forward pass.
 #[derive(Clone, Copy)]
 pub(crate) struct Pooled<'a> {
     pub(crate) output: &'a Planes,
@@ -17,8 +17,7 @@ pub(crate) struct Pooled<'a> {
     pub(crate) count: usize,
 }
 
-/// The sums that the gradients of normalisation are made of; `gradient`, that of the output, is set to zero where the output
-/// was cut.
+/// Sums for the gradients of the normalisation. Sets the output gradient `gradient` to zero where ReLU cut the output.
 pub(crate) fn gradient_sums(
     machine: Machine,
     raw: &Planes,
@@ -54,8 +53,8 @@ pub(crate) fn gradient_sums(
     GradientSums::over(&sums[..count], moments, count * from.picture.pixels())
 }
 
-/// Turns what was normalised into its gradient, in place: these are the largest pictures of a network, and they are not read any
-/// more. `gradient` is that of the output, cut.
+/// Replaces the raw pictures by their gradient, in place: they are the largest of a network and not needed again. `gradient` is the
+/// output gradient, masked by [`gradient_sums`].
 pub(crate) fn input_gradient(
     machine: Machine,
     raw: &mut Planes,
@@ -87,7 +86,7 @@ pub(crate) fn input_gradient(
     });
 }
 
-/// The sums of one picture.
+/// Work of [`gradient_sums`] for one picture.
 struct Sums<'a> {
     raw: &'a [f32],
     from: Layout,
@@ -159,7 +158,7 @@ impl Job for Sums<'_> {
     }
 }
 
-/// The gradient of one picture.
+/// Work of [`input_gradient`] for one picture.
 struct Apply<'a> {
     raw: &'a mut [f32],
     from: Layout,
@@ -194,7 +193,7 @@ impl Job for Apply<'_> {
                 let columns = windows(x, output.width);
                 for panel in 0..panels {
                     let mut passed = [0.0_f32; PANEL];
-                    // Every other row and column is compared by one window only.
+                    // Even rows and columns belong to one window only.
                     for (row, window_y) in rows.into_iter().filter(is_there) {
                         for (column, window_x) in columns.into_iter().filter(is_there) {
                             let at = (window_y * output.width + window_x) * panels + panel;
@@ -217,7 +216,7 @@ impl Job for Apply<'_> {
     }
 }
 
-/// Whether there is such a window.
+/// True if the window exists.
 #[inline(always)]
 fn is_there(&(place, _): &(u32, usize)) -> bool {
     place != NOWHERE

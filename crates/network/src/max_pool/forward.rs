@@ -9,8 +9,8 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// Pools the first `count` pictures once normalised and cut at zero; `choices` of each output says which place of the window
-/// it came from.
+/// Normalises the first `count` pictures, applies ReLU and pools them. Writes the window position of each output's source to
+/// `choices`.
 ///
 /// # Shapes
 /// `choices`: `[pictures, output pixels, channels]`.
@@ -41,7 +41,7 @@ pub(crate) fn pool_normalised(
         });
 }
 
-/// One picture.
+/// Work for one picture.
 struct Pool<'a> {
     raw: &'a [f32],
     from: Layout,
@@ -79,9 +79,9 @@ impl Job for Pool<'_> {
                 let columns = window(x, input.width).map(|x| x * panels);
                 let first_column = u32::from(x == 0);
                 for panel in 0..panels {
-                    // The first place of the window always wins, so that a NaN is kept; none is greater than it. What is beside the
-                    // picture never does: above and to the left by what follows, and below and to the right as it is no greater than
-                    // what it repeats.
+                    // The first position in the picture always wins, so that a NaN is kept: nothing is greater than NaN. Positions outside
+                    // the picture never win. Above and to the left `is_in` excludes them. Below and to the right they repeat a value that
+                    // is already compared.
                     let (mut best, mut choice) = ([0.0_f32; PANEL], [0_u32; PANEL]);
                     for (row, line) in PLACES.into_iter().zip(lines) {
                         for (column, start) in PLACES.into_iter().zip(columns) {

@@ -1,4 +1,4 @@
-//! Pooling alone, in prediction: of one picture, while that is still in a cache.
+//! Plain max pooling for prediction, of one picture while it is cached.
 
 use super::window;
 use crate::machine::Machine;
@@ -6,7 +6,7 @@ use crate::panel::PANEL;
 use crate::planes::Layout;
 use crate::simd::{Job, Vector};
 
-/// Pools `picture`, which lies as `from` says, into `into`, which lies as `layout` says.
+/// Pools `picture`, of layout `from`, into `into`, of layout `layout`.
 pub(crate) fn pool(
     machine: Machine,
     (picture, from): (&[f32], Layout),

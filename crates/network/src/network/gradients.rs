@@ -1,4 +1,4 @@
-//! The gradients of a batch, by name.
+//! Gradients of a batch, by name.
 
 use super::{NamedTensor, Network};
 use crate::convolution::{ConvolutionForm, plain};
@@ -8,16 +8,16 @@ use crate::samples::Samples;
 use crate::stage::Stage;
 use crate::update::Update;
 
-/// The loss of some samples, and how it changes with each parameter.
+/// Loss of some samples and its gradient by each parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradients {
-    /// The loss.
+    /// Loss.
     pub loss: f64,
-    /// The gradient of each parameter, under its name, sorted.
+    /// Gradients under the names of their parameters, sorted.
     pub tensors: Vec<NamedTensor>,
 }
 
-/// Keeps every gradient.
+/// Stores every gradient.
 struct Keep(Vec<Vec<f32>>);
 
 impl Update for Keep {
@@ -27,10 +27,10 @@ impl Update for Keep {
 }
 
 impl Network {
-    /// The loss of `samples` as one batch, normalised by its own moments, and its gradients. Running moments are updated.
+    /// Loss and gradients of `samples` as one batch, with batch moments. Updates the running moments.
     ///
     /// # Errors
-    /// [`NetworkError`] if the samples do not go with the network or the loss, or memory is short.
+    /// [`NetworkError`] if the samples do not match the network or the loss, or memory is short.
     pub fn gradients(
         &mut self,
         samples: Samples<'_>,
@@ -55,7 +55,7 @@ impl Network {
         })
     }
 
-    /// Gradients by slot, or what else is as they are, under the names of their parameters.
+    /// Names gradients, or other values of the same shape, given by slot.
     pub(crate) fn named(&self, mut gradients: Vec<Vec<f32>>) -> Vec<NamedTensor> {
         let mut values = std::collections::BTreeMap::new();
         for (prefix, stage) in self.architecture.stage_names().iter().zip(&self.stages) {

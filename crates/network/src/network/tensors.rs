@@ -1,4 +1,4 @@
-//! Weights by name, as PyTorch has them.
+//! Weights by name, as in PyTorch.
 
 use std::collections::BTreeMap;
 
@@ -8,29 +8,29 @@ use crate::error::NetworkError;
 use crate::panel::Aligned;
 use crate::stage::Stage;
 
-/// A tensor and its name: for residual networks those of torchvision, `layer1.0.conv1.weight`.
+/// A tensor with its name. Residual networks use torchvision's names, such as `layer1.0.conv1.weight`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedTensor {
-    /// The name.
+    /// Name.
     pub name: String,
-    /// Its sizes; those of a convolution are `[outputs, inputs, kernel rows, kernel columns]`.
+    /// Dimensions; `[outputs, inputs, kernel rows, kernel columns]` for a convolution.
     pub shape: Vec<usize>,
-    /// Its numbers, the last size fastest.
+    /// Values, last dimension fastest.
     pub values: Vec<f32>,
 }
 
 impl NamedTensor {
-    /// Whether it is learnt: all are but running moments.
+    /// True for trainable tensors: all except running moments.
     pub fn is_learnt(&self) -> bool {
         !self.name.contains(".running_")
     }
 }
 
-/// What PyTorch counts batches under; running moments do not depend on it here.
+/// Suffix of PyTorch's batch counters, which running moments do not need here.
 const COUNTER: &str = ".num_batches_tracked";
 
 impl Network {
-    /// Everything that predictions depend on, by name, sorted.
+    /// All tensors that predictions depend on, sorted by name.
     pub fn tensors(&self) -> Vec<NamedTensor> {
         let mut tensors = Vec::new();
         for (prefix, stage) in self.architecture.stage_names().iter().zip(&self.stages) {
@@ -70,10 +70,10 @@ impl Network {
         tensors
     }
 
-    /// The network of `architecture` with these tensors. PyTorch's counters of batches are ignored.
+    /// Builds a network from tensors. PyTorch's batch counters are ignored.
     ///
     /// # Errors
-    /// [`NetworkError`] if a tensor is missing, unexpected, of another shape, or not finite.
+    /// [`NetworkError`] if a tensor is missing, unexpected, of the wrong shape, or not finite.
     pub fn from_tensors(
         architecture: &Architecture,
         tensors: impl IntoIterator<Item = NamedTensor>,
@@ -110,14 +110,14 @@ impl Network {
         Ok(network)
     }
 
-    /// The tensors that are learnt, by name, sorted: all but the running moments.
+    /// Trainable tensors, sorted by name.
     pub(crate) fn learnt(&self) -> Vec<NamedTensor> {
         let mut tensors = self.tensors();
         tensors.retain(NamedTensor::is_learnt);
         tensors
     }
 
-    /// The numbers of `learnt`, which are as many under the names of [`learnt`](Network::learnt), as they lie in the slots.
+    /// Values of `learnt` in slot order. `learnt` must have the names and shapes of [`learnt`](Network::learnt).
     pub(crate) fn slotted(&self, learnt: &[NamedTensor]) -> Vec<Aligned> {
         let mut carrier = self.clone();
         let mut tensors = carrier.tensors();
@@ -134,7 +134,7 @@ impl Network {
             .collect()
     }
 
-    /// Takes tensors that are those of [`tensors`](Network::tensors) by name and shape.
+    /// Sets all tensors. Names and shapes must equal those of [`tensors`](Network::tensors).
     fn set_tensors(&mut self, tensors: &[NamedTensor]) {
         let by_name: BTreeMap<&str, &[f32]> = tensors
             .iter()

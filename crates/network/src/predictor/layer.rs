@@ -9,10 +9,10 @@ use crate::panel::Aligned;
 use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 
-/// Bytes of weights that stay in a thread's second-level cache beside pictures.
+/// Bytes of weights that fit into a thread's second-level cache beside pictures.
 const WEIGHTS_IN_CACHE: usize = 256 << 10;
 
-/// Pixels of a picture that are enough to be worth reading the weights for.
+/// Fewest pixels of a picture that amortise reading the weights.
 const PIXELS_WORTH_WEIGHTS: usize = 128;
 
 /// One convolution with a bias.
@@ -26,35 +26,35 @@ pub(super) struct Layer {
     products: usize,
 }
 
-/// The weights as they are, or as a pass reads them.
+/// Weights, untransformed or as a pass reads them.
 #[derive(Debug)]
 enum Weights {
     Plain(ConvolutionWeights),
     Transformed(Aligned),
 }
 
-/// What a part passes on, once its layers are prepared.
+/// Input of a prepared stage.
 #[derive(Clone, Copy)]
 pub(super) struct Pass<'a> {
     pub(super) machine: Machine,
     pub(super) input: &'a Planes,
-    /// The first picture of the input.
+    /// Index of the first picture.
     pub(super) first: usize,
-    /// How many pictures.
+    /// Number of pictures.
     pub(super) count: usize,
 }
 
-/// What follows the bias.
+/// Operation after the bias.
 #[derive(Clone, Copy)]
 pub(super) enum Ending<'a> {
     Keep,
     Relu,
-    /// These pictures lie as the output does.
+    /// Adds pictures with the layout of the output.
     AddThenRelu(&'a [f32]),
 }
 
 impl Layer {
-    /// The convolution of `normed` from pictures of layout `input` into those with such a border.
+    /// Convolution of `normed` from pictures of layout `input` to pictures with a border of `border` pixels.
     pub(super) fn new(
         normed: &Normed,
         input: Layout,
@@ -74,13 +74,13 @@ impl Layer {
             forward: Forward::new(convolution, input, output, form),
             output,
             products: output.picture.len() * convolution.taps() * convolution.inputs,
-            // Of a shape and not of a form, so that forms are passed by as many pictures at a time.
+            // Depends on shapes but not on the form, so that all forms pass the same number of pictures at a time.
             is_light: weights_bytes <= WEIGHTS_IN_CACHE
                 && output.picture.pixels() >= PIXELS_WORTH_WEIGHTS,
         }
     }
 
-    /// Numbers that are still to be had before its weights can be transformed.
+    /// Length of the transformed weights not yet allocated.
     pub(super) fn missing(&self) -> usize {
         match self.weights {
             Weights::Plain(_) => self.forward.transformed_len(),
@@ -88,10 +88,10 @@ impl Layer {
         }
     }
 
-    /// Transforms its weights, where its form asks for that; the others are dropped.
+    /// Transforms the weights if the form requires it, and drops the untransformed ones.
     ///
     /// # Errors
-    /// [`NetworkError::Memory`] if there is no room for them.
+    /// [`NetworkError::Memory`] if the transformed weights do not fit into memory.
     pub(super) fn prepare(&mut self, machine: Machine) -> Result<(), NetworkError> {
         let length = self.missing();
         if let (Weights::Plain(weights), 1..) = (&self.weights, length) {
@@ -102,17 +102,17 @@ impl Layer {
         Ok(())
     }
 
-    /// Products that one picture takes, as sums of pixels and weights.
+    /// Multiplications per picture in direct form.
     pub(super) fn products(&self) -> usize {
         self.products
     }
 
-    /// How what it gives lies.
+    /// Memory layout of the output.
     pub(super) fn output(&self) -> Layout {
         self.output
     }
 
-    /// Passes pictures on, into room of `scratch`.
+    /// Convolves pictures into a buffer of `scratch`.
     pub(super) fn pass(&self, pass: Pass<'_>, ending: Ending<'_>, scratch: &mut Scratch) -> Planes {
         let mut output = scratch.take(self.output, pass.count);
         let source = self.source(pass);
@@ -121,7 +121,7 @@ impl Layer {
             Ending::Relu => Epilogue::BiasRelu(&self.bias),
             Ending::AddThenRelu(other) => Epilogue::BiasAddRelu(&self.bias, other),
         };
-        // The outputs on the way are not needed.
+        // No callback reads the outputs.
         let each = (&mut vec![(); pass.count][..], |(): &mut (), _: &[f32]| {});
         let into = (&mut output, epilogue);
         self.forward
@@ -129,7 +129,7 @@ impl Layer {
         output
     }
 
-    /// Pools each picture while it is in a cache.
+    /// Convolves pictures and pools each output while cached.
     pub(super) fn pass_pooled(
         &self,
         pass: Pass<'_>,
@@ -164,7 +164,7 @@ impl Layer {
         }
     }
 
-    /// Whether its weights are few and its pictures large.
+    /// True for few weights and large pictures.
     pub(super) fn is_light(&self) -> bool {
         self.is_light
     }

@@ -1,4 +1,4 @@
-//! The stages of a predictor: convolutions with a bias, into which the running moments are folded.
+//! Stages of a predictor: convolutions with bias, with the running moments folded in.
 
 use super::layer::{Ending, Layer, Pass};
 use crate::convolution::ConvolutionForm;
@@ -7,16 +7,16 @@ use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 use crate::stage::Stage;
 
-/// A part of the network.
+/// One stage.
 #[derive(Debug)]
 pub(super) enum Folded {
-    /// A convolution, and how what is pooled of it lies.
+    /// A convolution, and the layout of its pooled output.
     Stem(Layer, Layout),
     Plain(Layer),
     Block(Box<FoldedBlock>),
 }
 
-/// Two convolutions, and the one that leads past them where pictures change their shape.
+/// Two convolutions, and the shortcut's convolution if the picture shape changes.
 #[derive(Debug)]
 pub(super) struct FoldedBlock {
     first: Layer,
@@ -41,7 +41,7 @@ impl Folded {
             Stage::Plain(normed) => Folded::Plain(layer(normed, input, border)),
             Stage::Block(block) => {
                 let first = layer(&block.first, input, 1);
-                // What leads past lies as the output does, so that the two can be added.
+                // The shortcut has the layout of the output, so that the two can be added.
                 let past = block.shortcut.as_ref();
                 Folded::Block(Box::new(FoldedBlock {
                     second: layer(&block.second, first.output(), border),
@@ -52,7 +52,7 @@ impl Folded {
         }
     }
 
-    /// How what it gives lies.
+    /// Memory layout of the output.
     pub(super) fn output(&self) -> Layout {
         match self {
             Folded::Stem(_, pooled) => *pooled,
@@ -61,7 +61,7 @@ impl Folded {
         }
     }
 
-    /// Whether its weights are few and its pictures large.
+    /// True for few weights and large pictures.
     pub(super) fn is_light(&self) -> bool {
         match self {
             Folded::Stem(layer, _) | Folded::Plain(layer) => layer.is_light(),
@@ -69,7 +69,7 @@ impl Folded {
         }
     }
 
-    /// Products that one picture takes, as sums of pixels and weights.
+    /// Multiplications per picture in direct form.
     pub(super) fn products(&self) -> usize {
         match self {
             Folded::Stem(layer, _) | Folded::Plain(layer) => layer.products(),
@@ -80,7 +80,7 @@ impl Folded {
         }
     }
 
-    /// Its convolutions.
+    /// All convolutions.
     pub(super) fn layers_mut(&mut self) -> Vec<&mut Layer> {
         match self {
             Folded::Stem(layer, _) | Folded::Plain(layer) => vec![layer],
@@ -96,7 +96,7 @@ impl Folded {
         }
     }
 
-    /// Passes pictures on, into room of `scratch`.
+    /// Runs the stage into a buffer of `scratch`.
     pub(super) fn pass(&self, pass: Pass<'_>, scratch: &mut Scratch) -> Planes {
         match self {
             Folded::Stem(layer, pooled) => layer.pass_pooled(pass, *pooled, scratch),

@@ -1,4 +1,4 @@
-//! AVX2 with fused multiplication: eight numbers per vector.
+//! AVX2 with fused multiply-add: eight f32 values per vector.
 
 #![expect(unsafe_code, reason = "vector instructions, loads and stores")]
 
@@ -9,17 +9,17 @@ use std::arch::x86_64::{
 
 use super::vector::{Job, Vector};
 
-/// Evidence that the machine has AVX2 with fused multiplication.
+/// Proof that the CPU has AVX2 with fused multiply-add.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 
 impl Avx2 {
-    /// The evidence, if there is any.
+    /// Returns the proof, or `None` if the CPU lacks the instructions.
     pub(crate) fn detect() -> Option<Avx2> {
         (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")).then_some(Avx2(()))
     }
 
-    /// Does `job` with these vectors.
+    /// Runs `job` with these vectors.
     pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
         #[target_feature(enable = "avx2,fma")]
         fn with_instructions<J: Job>(proof: Avx2, job: J) -> J::Output {
@@ -30,14 +30,14 @@ impl Avx2 {
     }
 }
 
-/// Eight numbers per vector; made from a proof or from others of its kind.
+/// Eight f32 values; constructed only from a proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Eight(__m256);
 
-/// One instruction on values whose existence proves that the machine has it.
+/// Executes one instruction on values whose existence proves that the CPU has it.
 macro_rules! proven {
     ($instruction:expr) => {
-        // SAFETY: a vector or its proof is at hand, which only machines with AVX2 with fused multiplication have; no memory is touched.
+        // SAFETY: a vector or proof exists only on CPUs with AVX2 and fused multiply-add; no memory is accessed.
         unsafe { $instruction }
     };
 }
@@ -55,19 +55,19 @@ impl Vector for Eight {
 
     #[inline(always)]
     unsafe fn splat(_proof: Avx2, place: *const f32) -> Eight {
-        // SAFETY: the machine has the instruction, and the caller promises a number at `place`.
+        // SAFETY: the CPU has the instruction, and the caller guarantees a number at `place`.
         Eight(unsafe { _mm256_broadcast_ss(&*place) })
     }
 
     #[inline(always)]
     unsafe fn load(_proof: Avx2, place: *const f32) -> Eight {
-        // SAFETY: the machine has the instruction, and the caller promises one number per lane at `place`.
+        // SAFETY: the CPU has the instruction, and the caller guarantees one number per lane at `place`.
         Eight(unsafe { _mm256_loadu_ps(place) })
     }
 
     #[inline(always)]
     unsafe fn store(self, place: *mut f32) {
-        // SAFETY: the machine has the instruction, and the caller promises room for one number per lane at `place`.
+        // SAFETY: the CPU has the instruction, and the caller guarantees space for one number per lane at `place`.
         unsafe { _mm256_storeu_ps(place, self.0) }
     }
 
@@ -88,7 +88,7 @@ impl Vector for Eight {
 
     #[inline(always)]
     fn positive_part(self) -> Eight {
-        // Of zero and NaN the instruction gives the second.
+        // If either operand is NaN, the instruction returns the second one.
         Eight(proven!(_mm256_max_ps(_mm256_setzero_ps(), self.0)))
     }
 }

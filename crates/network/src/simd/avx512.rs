@@ -1,4 +1,4 @@
-//! AVX-512: sixteen numbers per vector.
+//! AVX-512: sixteen f32 values per vector.
 
 #![expect(unsafe_code, reason = "vector instructions, loads and stores")]
 
@@ -9,18 +9,18 @@ use std::arch::x86_64::{
 
 use super::vector::{Job, Vector};
 
-/// Evidence that the machine has AVX-512.
+/// Proof that the CPU has AVX-512.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx512(());
 
 impl Avx512 {
-    /// The evidence, if there is any.
+    /// Returns the proof, or `None` if the CPU lacks the instructions.
     pub(crate) fn detect() -> Option<Avx512> {
         (is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma"))
             .then_some(Avx512(()))
     }
 
-    /// Does `job` with these vectors.
+    /// Runs `job` with these vectors.
     pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
         #[target_feature(enable = "avx512f,fma")]
         fn with_instructions<J: Job>(proof: Avx512, job: J) -> J::Output {
@@ -31,14 +31,14 @@ impl Avx512 {
     }
 }
 
-/// Sixteen numbers per vector; made from a proof or from others of its kind.
+/// Sixteen f32 values; constructed only from a proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Sixteen(__m512);
 
-/// One instruction on values whose existence proves that the machine has it.
+/// Executes one instruction on values whose existence proves that the CPU has it.
 macro_rules! proven {
     ($instruction:expr) => {
-        // SAFETY: a vector or its proof is at hand, which only machines with AVX-512 have; no memory is touched.
+        // SAFETY: a vector or proof exists only on CPUs with AVX-512; no memory is accessed.
         unsafe { $instruction }
     };
 }
@@ -56,19 +56,19 @@ impl Vector for Sixteen {
 
     #[inline(always)]
     unsafe fn splat(_proof: Avx512, place: *const f32) -> Sixteen {
-        // SAFETY: the machine has the instruction, and the caller promises a number at `place`.
+        // SAFETY: the CPU has the instruction, and the caller guarantees a number at `place`.
         Sixteen(unsafe { _mm512_set1_ps(*place) })
     }
 
     #[inline(always)]
     unsafe fn load(_proof: Avx512, place: *const f32) -> Sixteen {
-        // SAFETY: the machine has the instruction, and the caller promises one number per lane at `place`.
+        // SAFETY: the CPU has the instruction, and the caller guarantees one number per lane at `place`.
         Sixteen(unsafe { _mm512_loadu_ps(place) })
     }
 
     #[inline(always)]
     unsafe fn store(self, place: *mut f32) {
-        // SAFETY: the machine has the instruction, and the caller promises room for one number per lane at `place`.
+        // SAFETY: the CPU has the instruction, and the caller guarantees space for one number per lane at `place`.
         unsafe { _mm512_storeu_ps(place, self.0) }
     }
 
@@ -89,7 +89,7 @@ impl Vector for Sixteen {
 
     #[inline(always)]
     fn positive_part(self) -> Sixteen {
-        // Of zero and NaN the instruction gives the second.
+        // If either operand is NaN, the instruction returns the second one.
         Sixteen(proven!(_mm512_max_ps(_mm512_setzero_ps(), self.0)))
     }
 }

@@ -1,4 +1,4 @@
-//! NEON: four numbers per vector.
+//! NEON: four f32 values per vector.
 
 #![expect(unsafe_code, reason = "vector instructions, loads and stores")]
 
@@ -8,17 +8,17 @@ use std::arch::aarch64::{
 
 use super::vector::{Job, Vector};
 
-/// Evidence that the machine has NEON.
+/// Proof that the CPU has NEON.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Neon(());
 
 impl Neon {
-    /// The evidence, if there is any.
+    /// Returns the proof, or `None` if the CPU lacks the instructions.
     pub(crate) fn detect() -> Option<Neon> {
         (std::arch::is_aarch64_feature_detected!("neon")).then_some(Neon(()))
     }
 
-    /// Does `job` with these vectors.
+    /// Runs `job` with these vectors.
     pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
         #[target_feature(enable = "neon")]
         fn with_instructions<J: Job>(proof: Neon, job: J) -> J::Output {
@@ -29,14 +29,14 @@ impl Neon {
     }
 }
 
-/// Four numbers per vector; made from a proof or from others of its kind.
+/// Four f32 values; constructed only from a proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Four(float32x4_t);
 
-/// One instruction on values whose existence proves that the machine has it.
+/// Executes one instruction on values whose existence proves that the CPU has it.
 macro_rules! proven {
     ($instruction:expr) => {
-        // SAFETY: a vector or its proof is at hand, which only machines with NEON have; no memory is touched.
+        // SAFETY: a vector or proof exists only on CPUs with NEON; no memory is accessed.
         unsafe { $instruction }
     };
 }
@@ -54,19 +54,19 @@ impl Vector for Four {
 
     #[inline(always)]
     unsafe fn splat(_proof: Neon, place: *const f32) -> Four {
-        // SAFETY: the machine has the instruction, and the caller promises a number at `place`.
+        // SAFETY: the CPU has the instruction, and the caller guarantees a number at `place`.
         Four(unsafe { vld1q_dup_f32(place) })
     }
 
     #[inline(always)]
     unsafe fn load(_proof: Neon, place: *const f32) -> Four {
-        // SAFETY: the machine has the instruction, and the caller promises one number per lane at `place`.
+        // SAFETY: the CPU has the instruction, and the caller guarantees one number per lane at `place`.
         Four(unsafe { vld1q_f32(place) })
     }
 
     #[inline(always)]
     unsafe fn store(self, place: *mut f32) {
-        // SAFETY: the machine has the instruction, and the caller promises room for one number per lane at `place`.
+        // SAFETY: the CPU has the instruction, and the caller guarantees space for one number per lane at `place`.
         unsafe { vst1q_f32(place, self.0) }
     }
 

@@ -1,28 +1,28 @@
-//! Four numbers per vector in plain Rust, for machines without an instruction set of ours.
+//! Vectors of four f32 values in plain Rust, for CPUs without a supported instruction set.
 
 #![expect(unsafe_code, reason = "loads and stores without bounds checks")]
 
 use super::vector::{Job, Vector};
 
-/// Stands where other instruction sets need evidence: every machine can run this.
+/// Proof for the portable vectors, which every CPU can run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Portable;
 
 impl Portable {
-    /// Does `job` with four numbers, which compilers turn into vectors of whatever the target has.
+    /// Runs `job` with vectors of four values, which the compiler maps to the target's vectors.
     pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
         job.run::<Four>(self)
     }
 }
 
-/// Four numbers.
+/// Four f32 values.
 #[derive(Clone, Copy)]
 struct Four([f32; 4]);
 
 impl Vector for Four {
     type Proof = Portable;
     const LANES: usize = 4;
-    // Sixteen registers of four are the least that targets have.
+    // Targets have at least sixteen registers of four values.
     const ROWS: usize = 2;
     const PANELS: usize = 1;
 
@@ -33,25 +33,25 @@ impl Vector for Four {
 
     #[inline(always)]
     unsafe fn splat(_proof: Portable, place: *const f32) -> Four {
-        // SAFETY: the caller promises a number at `place`.
+        // SAFETY: the caller guarantees a number at `place`.
         Four([unsafe { place.read() }; 4])
     }
 
     #[inline(always)]
     unsafe fn load(_proof: Portable, place: *const f32) -> Four {
-        // SAFETY: the caller promises four numbers at `place`; an array of them is aligned as one is.
+        // SAFETY: the caller guarantees four numbers at `place`; an array of f32 has the alignment of one.
         Four(unsafe { place.cast::<[f32; 4]>().read() })
     }
 
     #[inline(always)]
     unsafe fn store(self, place: *mut f32) {
-        // SAFETY: the caller promises room for four numbers at `place`; an array of them is aligned as one is.
+        // SAFETY: the caller guarantees space for four numbers at `place`; an array of f32 has the alignment of one.
         unsafe { place.cast::<[f32; 4]>().write(self.0) }
     }
 
     #[inline(always)]
     fn times_plus(self, factor: Four, addend: Four) -> Four {
-        // Not `mul_add`, which without the instruction is a call that takes a hundred times longer.
+        // Not `mul_add`: without the instruction it is a library call, a hundred times slower.
         Four(std::array::from_fn(|lane| {
             self.0[lane] * factor.0[lane] + addend.0[lane]
         }))

@@ -1,4 +1,4 @@
-//! The two loops that take nearly all of the time: a tile of sums that stays in registers.
+//! The two innermost loops, which take nearly all of the time: tiles of sums in registers.
 
 #![expect(unsafe_code, reason = "loads and stores without bounds checks")]
 
@@ -12,13 +12,13 @@ pub(crate) struct Tile<V: Vector, const ROWS: usize, const VECTORS: usize> {
     sums: [[V; VECTORS]; ROWS],
 }
 
-/// Pixels of one picture in the order in which they are summed: where each lies in two tensors.
+/// Pixels of one picture in summation order, as offsets into two tensors.
 ///
-/// The fields are closed, as the loops below rely on what `new` found.
+/// Fields are private, because the unsafe loops below rely on the bounds computed by `new`.
 #[derive(Clone, Debug)]
 pub(crate) struct Pixels {
     offsets: Vec<(u32, u32)>,
-    /// The greatest of either.
+    /// Largest offset into each tensor.
     reach: (usize, usize),
 }
 
@@ -31,12 +31,12 @@ impl Pixels {
         Pixels { offsets, reach }
     }
 
-    /// How many.
+    /// Number of pixels.
     pub(crate) fn len(&self) -> usize {
         self.offsets.len()
     }
 
-    /// Where pixel `position` lies in the two tensors.
+    /// Offsets of pixel `position` in the two tensors.
     #[inline(always)]
     pub(crate) fn at(&self, position: usize) -> (usize, usize) {
         let (from, to) = self.offsets[position];
@@ -44,7 +44,7 @@ impl Pixels {
     }
 }
 
-/// How far vector `vector` lies from the first, in panels that are `stride` apart.
+/// Offset of vector `vector` from the first one, in panels `stride` values apart.
 #[inline(always)]
 fn place<V: Vector>(vector: usize, stride: usize) -> usize {
     let lane = vector * V::LANES;
@@ -52,17 +52,17 @@ fn place<V: Vector>(vector: usize, stride: usize) -> usize {
 }
 
 impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> {
-    /// Sums of nothing.
+    /// Sums of zero.
     #[inline(always)]
     pub(crate) fn zero(proof: V::Proof) -> Self {
         let sums = [[V::zero(proof); VECTORS]; ROWS];
         Tile { proof, sums }
     }
 
-    /// The numbers of `values` at `starts`, panels `stride` apart.
+    /// Loads the values at `starts`, panels `stride` apart.
     ///
     /// # Panics
-    /// If one lies outside `values`.
+    /// If a vector is outside `values`.
     #[inline(always)]
     pub(crate) fn load(
         proof: V::Proof,
@@ -78,7 +78,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
                 "a tile within the tensor"
             );
             for vector in 0..VECTORS {
-                // SAFETY: the assertion above bounds the last vector, and places rise with the vector.
+                // SAFETY: the assertion above bounds the last vector, and offsets increase with the vector.
                 tile.sums[row][vector] =
                     unsafe { V::load(proof, values.as_ptr().add(place::<V>(vector, stride))) };
             }
@@ -86,7 +86,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         tile
     }
 
-    /// Asks for the numbers that [`load`](Tile::load) would read; those outside `values` are left out.
+    /// Prefetches the values that [`load`](Tile::load) would read. Skips those outside `values`.
     #[inline(always)]
     pub(crate) fn prefetch(proof: V::Proof, values: &[f32], starts: [usize; ROWS], stride: usize) {
         for start in starts {
@@ -98,10 +98,10 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         }
     }
 
-    /// Writes the sums to `values` at `starts`, panels `stride` apart.
+    /// Stores the sums in `values` at `starts`, panels `stride` apart.
     ///
     /// # Panics
-    /// If one lies outside `values`.
+    /// If a vector is outside `values`.
     #[inline(always)]
     pub(crate) fn store(self, values: &mut [f32], starts: [usize; ROWS], stride: usize) {
         for (row, start) in starts.into_iter().enumerate() {
@@ -112,13 +112,13 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
             );
             for vector in 0..VECTORS {
                 let to = values.as_mut_ptr();
-                // SAFETY: the assertion above bounds the last vector, and places rise with the vector.
+                // SAFETY: the assertion above bounds the last vector, and offsets increase with the vector.
                 unsafe { self.sums[row][vector].store(to.add(place::<V>(vector, stride))) };
             }
         }
     }
 
-    /// Writes the sums of row `row` to panels that lie apart, at `start` of each.
+    /// Stores the sums of row `row` in separate panels, at `start` of each.
     ///
     /// # Panics
     /// If a panel is too short.
@@ -133,7 +133,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         }
     }
 
-    /// Reads the sums of row `row` from panels that lie apart, at `start` of each.
+    /// Loads the sums of row `row` from separate panels, at `start` of each.
     ///
     /// # Panics
     /// If a panel is too short.
@@ -148,7 +148,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         }
     }
 
-    /// The sums plus those of `other`.
+    /// Adds the sums of `other`.
     #[inline(always)]
     pub(crate) fn plus(mut self, other: Self) -> Self {
         for (sums, others) in self.sums.iter_mut().zip(other.sums) {
@@ -159,7 +159,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         self
     }
 
-    /// Zero where a sum is below zero.
+    /// Replaces negative sums by zero.
     #[inline(always)]
     pub(crate) fn positive_part(mut self) -> Self {
         for sum in self.sums.iter_mut().flatten() {
@@ -168,11 +168,11 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         self
     }
 
-    /// Adds, for each pixel, the products of a run of `length` numbers of `input` with as many rows of `weights`, whose
-    /// panels are `stride` apart.
+    /// Adds the products of a run of `length` input values with as many rows of `weights`, for each pixel. Panels of weights are
+    /// `stride` apart.
     ///
     /// # Panics
-    /// If a run leaves `input`, or the rows leave `weights`.
+    /// If a run exceeds `input`, or the rows exceed `weights`.
     #[inline(always)]
     pub(crate) fn add_runs(
         &mut self,
@@ -193,11 +193,11 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         for step in 0..length {
             let row: [V; VECTORS] = std::array::from_fn(|vector| {
                 let at = place::<V>(vector, stride) + step * PANEL;
-                // SAFETY: the assertion above bounds the last vector of the last step, and places rise with both.
+                // SAFETY: the assertion above bounds the last vector of the last step, and offsets increase with both.
                 unsafe { V::load(self.proof, weights.add(at)) }
             });
             for (sums, run) in sums.iter_mut().zip(runs) {
-                // SAFETY: each run was cut to `length` numbers, and `step` is less.
+                // SAFETY: each run has `length` values, and `step` is less.
                 let number = unsafe { V::splat(self.proof, run.add(step)) };
                 for (sum, weight) in sums.iter_mut().zip(row) {
                     *sum = number.times_plus(weight, *sum);
@@ -207,11 +207,11 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         self.sums = sums;
     }
 
-    /// Adds, for each of the `ROWS` numbers that begin at a pixel of `input`, its product with the channels of `gradient`
-    /// there, pixel after pixel.
+    /// Adds the products of `ROWS` input values of each pixel with the channels of its gradient, pixel after
+    /// pixel.
     ///
     /// # Panics
-    /// If a pixel leaves either.
+    /// If a pixel exceeds `input` or `gradient`.
     #[inline(always)]
     pub(crate) fn add_pixels(&mut self, pixels: &Pixels, input: &[f32], gradient: &[f32]) {
         assert!(
@@ -224,7 +224,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         );
         let mut sums = self.sums;
         for &(from, to) in &pixels.offsets {
-            // SAFETY: no offset is above `reach`, which the assertions above bound.
+            // SAFETY: no offset exceeds `reach`, which the assertions above bound.
             let (numbers, channels) = unsafe {
                 (
                     input.as_ptr().add(from as usize),
@@ -232,11 +232,11 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
                 )
             };
             let row: [V; VECTORS] = std::array::from_fn(|vector| {
-                // SAFETY: `VECTORS` vectors lie at each pixel of the gradient.
+                // SAFETY: `VECTORS` vectors are within the gradient at each pixel.
                 unsafe { V::load(self.proof, channels.add(vector * V::LANES)) }
             });
             for (place, sums) in sums.iter_mut().enumerate() {
-                // SAFETY: `ROWS` numbers lie at each pixel of the input.
+                // SAFETY: `ROWS` values are within the input at each pixel.
                 let number = unsafe { V::splat(self.proof, numbers.add(place)) };
                 for (sum, channel) in sums.iter_mut().zip(row) {
                     *sum = number.times_plus(channel, *sum);

@@ -1,58 +1,58 @@
-//! What the loops of this crate ask of a machine's vectors.
+//! Vector operations required of an instruction set.
 
 #![expect(unsafe_code, reason = "loads and stores without bounds checks")]
 
-/// Some binary32 numbers that are worked on together.
+/// A vector of binary32 values.
 ///
-/// Lane by lane the same operations in the same order, so that the width changes no result.
+/// Every lane has the same operations in the same order, so the width does not affect results.
 pub(crate) trait Vector: Copy {
-    /// Evidence that the machine has the instructions; without it there is no vector.
+    /// Proof that the CPU has the instructions. No vector can be constructed without it.
     type Proof: Copy;
-    /// How many numbers: a divisor of a panel.
+    /// Values per vector: a divisor of a panel.
     const LANES: usize;
-    /// How many pixels a tile of sums has, so that the sums, a row of weights and one number fit the registers.
+    /// Pixels in a tile of sums, so that the sums, a row of weights and one value fit into registers.
     const ROWS: usize;
-    /// How many panels of channels a tile of sums has at most.
+    /// Most panels of channels in a tile of sums.
     const PANELS: usize;
 
     /// Zero in every lane.
     fn zero(proof: Self::Proof) -> Self;
-    /// The number at `place` in every lane.
+    /// The value at `place` in every lane.
     ///
     /// # Safety
-    /// A number lies at `place`.
+    /// `place` must point to a readable value.
     unsafe fn splat(proof: Self::Proof, place: *const f32) -> Self;
     /// `value` in every lane.
     #[inline(always)]
     fn constant(proof: Self::Proof, value: f32) -> Self {
-        // SAFETY: `value` is a number that lies somewhere.
+        // SAFETY: `value` is a valid reference.
         unsafe { Self::splat(proof, &value) }
     }
-    /// The numbers from `place` on.
+    /// Loads the values from `place` on.
     ///
     /// # Safety
-    /// As many numbers as there are lanes lie at `place`.
+    /// `LANES` values at `place` must be readable.
     unsafe fn load(proof: Self::Proof, place: *const f32) -> Self;
-    /// Writes the lanes to `place`.
+    /// Stores the lanes at `place`.
     ///
     /// # Safety
-    /// As many numbers as there are lanes may be written at `place`.
+    /// `LANES` values at `place` must be writable.
     unsafe fn store(self, place: *mut f32);
-    /// Asks for the cache line of `place`, which is needed soon and may be anywhere; changes nothing but time.
+    /// Prefetches the cache line of `place`, which may be any address. Affects only the time.
     fn prefetch(_proof: Self::Proof, _place: *const f32) {}
 
-    /// self × factor + addend, rounded once where the machine can.
+    /// self × factor + addend, rounded once if the instruction set has fused multiply-add.
     fn times_plus(self, factor: Self, addend: Self) -> Self;
     /// self + other.
     fn plus(self, other: Self) -> Self;
-    /// Zero in the lanes below zero; NaN stays, so that it is found.
+    /// Replaces negative lanes by zero. Keeps NaN, so that a diverged training is detected.
     fn positive_part(self) -> Self;
 }
 
-/// Work written once for vectors of every width.
+/// A computation for vectors of every width.
 pub(crate) trait Job {
-    /// What comes of it.
+    /// Result of the computation.
     type Output;
-    /// Does it; always inlined, so that it is compiled with the instructions of the vectors.
+    /// Runs the computation. Always inlined, so that it is compiled for the instruction set of the vectors.
     fn run<V: Vector>(self, proof: V::Proof) -> Self::Output;
 }

@@ -1,11 +1,11 @@
-//! Vectors that lie apart, as the transforms of Winograd's convolutions read and write them: a row or column of a tile, or what lies at
-//! several points.
+//! Strided vectors, as read and written by Winograd's transforms: a row or column of a tile, or values at several
+//! points.
 
 #![expect(unsafe_code, reason = "loads and stores without bounds checks")]
 
 use super::vector::Vector;
 
-/// Where vectors lie: the first at `start`, `stride` numbers from one to the next, `count` of them; what lies beyond is not touched.
+/// Positions of `count` vectors: the first at `start`, `stride` values apart. Vectors beyond `count` are not accessed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spaced {
     pub(crate) start: usize,
@@ -14,10 +14,10 @@ pub(crate) struct Spaced {
 }
 
 impl Spaced {
-    /// The vectors of `values`; zero in place of those beyond the count.
+    /// Loads the vectors of `values`, and zero beyond the count.
     ///
     /// # Panics
-    /// If one lies outside `values`.
+    /// If a vector is outside `values`.
     #[inline(always)]
     pub(crate) fn load<V: Vector, const N: usize>(self, proof: V::Proof, values: &[f32]) -> [V; N] {
         let count = self.count.min(N);
@@ -32,13 +32,13 @@ impl Spaced {
         );
         if count == N {
             for (at, vector) in vectors.iter_mut().enumerate() {
-                // SAFETY: the assertion above bounds the last vector, and places rise with the vector.
+                // SAFETY: the assertion above bounds the last vector, and offsets increase with the vector.
                 *vector = unsafe { V::load(proof, values.as_ptr().add(at * self.stride)) };
             }
         } else {
             for (at, vector) in vectors.iter_mut().enumerate() {
                 if at < count {
-                    // SAFETY: the assertion above bounds the last vector, and places rise with the vector.
+                    // SAFETY: the assertion above bounds the last vector, and offsets increase with the vector.
                     *vector = unsafe { V::load(proof, values.as_ptr().add(at * self.stride)) };
                 }
             }
@@ -46,10 +46,10 @@ impl Spaced {
         vectors
     }
 
-    /// Writes as many of `vectors` as the count says to `values`.
+    /// Stores the first `count` of `vectors` in `values`.
     ///
     /// # Panics
-    /// If one lies outside `values`.
+    /// If a vector is outside `values`.
     #[inline(always)]
     pub(crate) fn store<V: Vector, const N: usize>(self, vectors: [V; N], values: &mut [f32]) {
         let count = self.count.min(N);
@@ -63,13 +63,13 @@ impl Spaced {
         );
         for (at, vector) in vectors.into_iter().enumerate() {
             if at < count {
-                // SAFETY: the assertion above bounds the last vector, and places rise with the vector.
+                // SAFETY: the assertion above bounds the last vector, and offsets increase with the vector.
                 unsafe { vector.store(values.as_mut_ptr().add(at * self.stride)) };
             }
         }
     }
 
-    /// Numbers that `count` vectors reach over.
+    /// Length of the span of `count` vectors, values.
     #[inline(always)]
     fn reach<V: Vector>(self, count: usize) -> usize {
         let last = (count - 1).saturating_mul(self.stride);

@@ -1,4 +1,4 @@
-//! A residual block: two convolutions, and the shortcut past them.
+//! Residual blocks: two convolutions and a shortcut.
 
 use super::Standing;
 use crate::batch_norm::{Gate, Shortcut, apply};
@@ -8,30 +8,30 @@ use crate::normalised_convolution::{Back, Normed, NormedSpace};
 use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 
-/// The weights of a block.
+/// Weights of a block.
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
     pub(crate) first: Normed,
     pub(crate) second: Normed,
-    /// The convolution of the shortcut; none where pictures keep their shape.
+    /// Convolution of the shortcut. `None` if pictures keep their shape.
     pub(crate) shortcut: Option<Normed>,
 }
 
-/// What training keeps between the passes.
+/// Activations and prepared passes in training.
 #[derive(Debug)]
 pub(crate) struct BlockSpace {
     first: NormedSpace,
     second: NormedSpace,
     shortcut: Option<NormedSpace>,
     pub(crate) output: Planes,
-    /// How what the second convolution reads lies.
+    /// Layout of the input of the second convolution.
     middle: Layout,
-    /// How the gradient of the input lies.
+    /// Layout of the input gradient.
     input: Layout,
 }
 
 impl Block {
-    /// The block whose first convolution is `first`.
+    /// Block with the first convolution `first`.
     pub(super) fn new(first: Convolution, slot: usize) -> Block {
         let Convolution {
             inputs,
@@ -98,7 +98,7 @@ impl BlockSpace {
         }
     }
 
-    /// Numbers that the weights of one convolution take at most when a pass transforms them.
+    /// Longest transformed weights of any convolution.
     pub(super) fn transformed_len(&self) -> usize {
         let past = self.shortcut.as_ref();
         let past = past.map_or(0, NormedSpace::transformed_len);
@@ -106,8 +106,8 @@ impl BlockSpace {
         both.max(self.second.transformed_len()).max(past)
     }
 
-    /// What the first convolution gave, normalised and cut: needed in both passes and not kept between them, as it is made in a
-    /// hundredth of the time that the convolution took.
+    /// Normalised output of the first convolution after ReLU. Both passes recompute it instead of storing it, in a hundredth of the
+    /// convolution's time.
     fn middle(&self, machine: Machine, count: usize, scratch: &mut Scratch) -> Planes {
         let raw = &self.first.raw;
         let mut middle = scratch.take(self.middle, count);
@@ -152,8 +152,8 @@ impl BlockSpace {
         apply(machine, &second.raw, count, &second.moments, past, output);
     }
 
-    /// The gradient of the output becomes, in place, that of the sum, and then, where the shortcut is the input itself,
-    /// that of the input.
+    /// Runs the backward pass. Masks `gradient` in place. If the shortcut is the input itself, `gradient` then becomes the input
+    /// gradient.
     pub(super) fn backward(
         &mut self,
         block: &mut Block,

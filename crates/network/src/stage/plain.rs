@@ -1,4 +1,4 @@
-//! A convolution, its normalisation, and zero below zero.
+//! Stages of a convolution, its normalisation and ReLU.
 
 use super::Standing;
 use crate::batch_norm::{Gate, Shortcut, apply};
@@ -8,12 +8,12 @@ use crate::normalised_convolution::{Back, Normed, NormedSpace};
 use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 
-/// What training keeps between the passes.
+/// Activations and prepared passes in training.
 #[derive(Debug)]
 pub(crate) struct PlainSpace {
     pub(super) normed: NormedSpace,
     pub(crate) output: Planes,
-    /// How the gradient of the input lies, where it is asked for.
+    /// Layout of the input gradient. `None` if no earlier stage needs one.
     input: Option<Layout>,
 }
 

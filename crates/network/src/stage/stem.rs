@@ -1,4 +1,4 @@
-//! The first part of a residual network: a convolution, its normalisation, zero below zero, and pooling.
+//! First stage of a residual network: convolution, normalisation, ReLU and pooling.
 
 use super::Standing;
 use crate::machine::Machine;
@@ -7,12 +7,12 @@ use crate::normalised_convolution::{Back, Normed, NormedSpace};
 use crate::planes::Planes;
 use crate::scratch::Scratch;
 
-/// What training keeps between the passes.
+/// Activations and prepared passes in training.
 #[derive(Debug)]
 pub(crate) struct StemSpace {
     pub(super) normed: NormedSpace,
     pub(crate) output: Planes,
-    /// Which place of its window each output came from.
+    /// Window position that each output came from.
     choices: Vec<u8>,
 }
 

@@ -1,4 +1,4 @@
-//! Pictures changed at random in ways that keep their labels, or change them by a known amount.
+//! Random changes of pictures that keep their labels or change them by a known amount.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,28 +7,28 @@ use crate::error::NetworkError;
 use crate::picture::Picture;
 use taceva_core::random::Draws;
 
-/// How pictures are changed before each step; the default changes nothing.
+/// Random changes of pictures before each step. The default changes nothing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Augmentation {
-    /// Pictures are multiplied by a factor drawn uniformly from 1 ± this: light that varies.
+    /// Half-width of the uniform distribution around 1 of the brightness factor, 0 to 1.
     pub brightness: f64,
-    /// The standard deviation of what is added to each number, in the unit of the pictures.
+    /// Standard deviation of the noise added to each value, in the unit of the pictures.
     pub noise: f64,
-    /// How pictures are shifted.
+    /// Random shifts.
     pub jitter: Jitter,
 }
 
-/// Shifts by whole pixels; the pixels at the edge are repeated.
+/// Shifts by whole pixels. Edge pixels are repeated.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Jitter {
-    /// The most pixels, in each direction.
+    /// Largest shift in each direction, pixels.
     pub pixels: usize,
-    /// How much the label of each output grows for a shift by one pixel down and to the right, in the unit of the label;
-    /// empty where no label depends on where in the picture something is.
+    /// Change of each output's label for a shift by one pixel down and by one pixel to the right, in the unit of the label. Empty if
+    /// no label depends on position.
     pub label_per_pixel: Vec<[f64; 2]>,
 }
 
-/// Pixels down and to the right.
+/// Shift down and to the right, pixels.
 pub(super) type Shift = [i32; 2];
 
 impl Augmentation {
@@ -67,7 +67,7 @@ impl Augmentation {
         Ok(())
     }
 
-    /// The picture as this sample's draws change it, and by how much it was shifted.
+    /// Changes a picture by this sample's draws. Returns the picture and its shift.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "drawn in double precision and kept in single"
@@ -85,7 +85,7 @@ impl Augmentation {
             changed.iter_mut().for_each(|value| *value *= gain as f32);
         }
         if self.noise > 0.0 {
-            // A sum of four even draws of 16 bits has this standard deviation.
+            // Standard deviation of a sum of four uniform draws of 16 bits.
             let unit = (4.0_f64 / 12.0).sqrt() * 65536.0;
             let (factor, draws) = ((self.noise / unit) as f32, draws.of(3));
             for (position, value) in changed.iter_mut().enumerate() {
@@ -93,14 +93,14 @@ impl Augmentation {
                 let sum: u32 = (0..4)
                     .map(|part| (bits >> (16 * part)) as u32 & 0xffff)
                     .sum();
-                // 4 · 65,535 / 2 is their mean.
+                // The mean is 4 · 65,535 / 2.
                 *value += (sum as f32 - 131_070.0) * factor;
             }
         }
         (changed, shift)
     }
 
-    /// How much the label of `output` changes by a shift.
+    /// Change of the label of `output` by a shift, in the unit of the label.
     pub(super) fn moved(&self, shift: Shift, output: usize) -> f64 {
         self.jitter
             .label_per_pixel
@@ -112,7 +112,7 @@ impl Augmentation {
 }
 
 impl Jitter {
-    /// A shift along one axis from an even draw in 0..1.
+    /// Shift along one axis, from a uniform draw in 0..1.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "checked to be at most 2^20 pixels"

@@ -1,10 +1,10 @@
-//! Where a training met a number that is not finite.
+//! Numbers that became infinite or NaN in a training.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::NetworkError;
 
-/// Where a training met a number that is not finite; from there it cannot go on.
+/// Position of the first number that is not finite. The training cannot continue from there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Breakage {
@@ -15,7 +15,7 @@ pub enum Breakage {
 }
 
 impl Breakage {
-    /// What `error` says of numbers; nothing if it speaks of something else.
+    /// Breakage reported by `error`. `None` for other errors.
     pub(super) fn of(error: &NetworkError) -> Option<Breakage> {
         match error {
             NetworkError::LossNotFinite { step } => Some(Breakage::Loss(*step)),

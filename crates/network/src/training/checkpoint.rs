@@ -11,39 +11,39 @@ use crate::error::NetworkError;
 use crate::network::{NamedTensor, Network};
 use crate::samples::Samples;
 
-/// A training saved after any step: resumed, it ends with the same bits as one that was never interrupted.
+/// A training saved after a step. Resumed, it ends with the same bits as an uninterrupted one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
-    /// What a file of a few lines can hold.
+    /// Settings and progress, for a short text file.
     pub summary: Summary,
-    /// Weights now, under `now.`; those of the best epoch, under `best.`; what the optimiser remembers of each parameter, under
-    /// `moment.0.` and `moment.1.`.
+    /// Present weights, prefixed `now.`; weights of the best epoch, `best.`; optimiser state of each parameter, `moment.0.` and
+    /// `moment.1.`.
     pub tensors: Vec<NamedTensor>,
 }
 
-/// What a checkpoint is of.
+/// Settings and progress of a training.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// The network.
+    /// Architecture of the network.
     pub architecture: Architecture,
-    /// How it is trained.
+    /// Training settings.
     pub recipe: Recipe,
-    /// How many samples it learns from.
+    /// Number of training samples.
     pub samples: usize,
-    /// The form of its convolutions on the processor, on which last digits depend.
+    /// Form of convolutions on the CPU, which affects the last digits.
     pub convolutions: ConvolutionForm,
-    /// How far it has come.
+    /// Progress and losses.
     pub state: TrainingState,
 }
 
 impl<'a> Trainer<'a> {
-    /// The form of convolutions in which the processor trains, unless [another](Trainer::in_form) is asked for.
+    /// Form of convolutions for training on the CPU, unless [`in_form`](Trainer::in_form) selects another.
     pub const CONVOLUTIONS: ConvolutionForm = ConvolutionForm::Winograd;
 
-    /// The training as it stands.
+    /// Saves the training after the last step.
     ///
     /// # Errors
-    /// Those of [`Engine::network`](super::Engine::network) and [`moments`](super::Engine::moments); never on the processor.
+    /// Errors of [`Engine::network`](super::Engine::network) and [`moments`](super::Engine::moments); none on the CPU.
     pub fn checkpoint(&self) -> Result<Checkpoint, NetworkError> {
         let named = |prefix: String, tensors: Vec<NamedTensor>| {
             tensors.into_iter().map(move |tensor| NamedTensor {
@@ -76,10 +76,10 @@ impl<'a> Trainer<'a> {
         }
     }
 
-    /// The training that `checkpoint` was saved from, with the same samples and in the form that it had.
+    /// Resumes the training saved in `checkpoint`, with the same samples and in the saved form.
     ///
     /// # Errors
-    /// [`NetworkError::Checkpoint`] if the samples are others in number, or a tensor of the optimiser does not fit; otherwise as
+    /// [`NetworkError::Checkpoint`] if the number of samples differs, or a tensor of the optimiser does not fit; otherwise errors of
     /// [`new`](Trainer::new) and [`Network::from_tensors`].
     pub fn resume(
         checkpoint: Checkpoint,
@@ -130,7 +130,7 @@ impl<'a> Trainer<'a> {
         trainer.best = best;
         trainer.state = summary.state;
         if !trainer.is_finished() {
-            // The order within the epoch is made anew from its number.
+            // Recomputes the order of the current epoch from its number.
             let epoch = trainer.state.step / trainer.steps_per_epoch();
             trainer.order = trainer.draws(super::ORDER).of(epoch).order(samples);
         }
@@ -138,7 +138,7 @@ impl<'a> Trainer<'a> {
     }
 }
 
-/// The moments of `recipe`'s optimiser among `tensors`, whose names are `<which>.<parameter of the network>`.
+/// Optimiser state of `recipe` among `tensors`, named `<which>.<parameter of the network>`.
 fn moments_of(
     network: &Network,
     recipe: &Recipe,

@@ -1,4 +1,4 @@
-//! What computes the steps of a training.
+//! Interface of training engines.
 
 use std::fmt;
 
@@ -6,61 +6,61 @@ use crate::error::NetworkError;
 use crate::labels::Labels;
 use crate::network::{NamedTensor, Network};
 
-/// What passes pictures through a network and changes its weights: the processor of this machine, or another device.
+/// Computes training steps, on the CPU or on another device.
 ///
-/// A [`Trainer`](super::Trainer) draws samples, composes batches, evaluates and stops; an engine computes. A recipe means the same on each.
+/// A [`Trainer`](super::Trainer) draws samples, composes batches, evaluates and stops; an engine computes. Recipes do not depend on it.
 pub trait Engine: fmt::Debug + Send {
-    /// Makes a step: passes a batch, normalised by its own moments, and updates weights and running moments. Gives the loss
+    /// Runs a step: forward pass with batch moments, then update of weights and running moments. Returns the loss
     /// before the update.
     ///
     /// # Errors
-    /// [`NetworkError::LossNotFinite`] before any weight changed; [`NetworkError::WeightNotFinite`], which an engine may also see
-    /// later, at the latest when [`network`](Engine::network) is asked for; [`NetworkError::Device`].
+    /// [`NetworkError::LossNotFinite`] before any weight changes. [`NetworkError::WeightNotFinite`], which an engine may report later, at
+    /// the latest by [`network`](Engine::network). [`NetworkError::Device`].
     fn step(&mut self, batch: &Batch<'_>) -> Result<f64, NetworkError>;
 
-    /// The outputs of each picture, normalised by running moments.
+    /// Predicts the outputs of each picture, with running moments.
     ///
     /// # Shapes
     /// `pictures`: `[samples, height, width, channels]`; `into`: `[samples, outputs]`.
     /// # Errors
-    /// As those of [`Predictor::predict`](crate::Predictor::predict); [`NetworkError::Device`].
+    /// Errors of [`Predictor::predict`](crate::Predictor::predict); [`NetworkError::Device`].
     fn predict(&mut self, pictures: &[f32], into: &mut [f64]) -> Result<(), NetworkError>;
 
-    /// The network as it stands.
+    /// Copy of the present network.
     ///
     /// # Errors
-    /// [`NetworkError::WeightNotFinite`] where an engine checks its weights no earlier; [`NetworkError::Device`].
+    /// [`NetworkError::WeightNotFinite`] from an engine that checks its weights only here; [`NetworkError::Device`].
     fn network(&self) -> Result<Network, NetworkError>;
 
-    /// What the optimiser remembers of each parameter.
+    /// Copy of the optimiser state.
     ///
     /// # Errors
     /// [`NetworkError::Device`].
     fn moments(&self) -> Result<Moments, NetworkError>;
 }
 
-/// What an optimiser remembers of each parameter, under its name, sorted: the velocities, or the means of gradients and then those
-/// of their squares. Nothing before the first step.
+/// Optimiser state of each parameter, by name, sorted: one list of velocities, or one of mean gradients and one of mean squared
+/// gradients. Empty before the first step.
 pub type Moments = Vec<Vec<NamedTensor>>;
 
-/// What a step learns from, and how far it goes.
+/// Samples and settings of one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Batch<'a> {
     /// Pictures, each `[height, width, channels]`.
     pub pictures: &'a [Vec<f32>],
     /// Scaled labels, or classes.
     pub labels: Labels<'a>,
-    /// Which step, counted from 0.
+    /// Index of the step, from 0.
     pub step: u64,
-    /// The rate of the step.
+    /// Learning rate of the step.
     pub rate: f64,
 }
 
-/// A network in training that lies on no device.
+/// State of a training, independent of a device.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// The network.
+    /// Network.
     pub network: Network,
-    /// What the optimiser remembers.
+    /// Optimiser state.
     pub moments: Moments,
 }

@@ -1,10 +1,10 @@
-//! Labels scaled to one range, whatever their unit.
+//! Scaling of labels to one range, independent of their unit.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::NetworkError;
 
-/// How labels are scaled; by the training part alone.
+/// Method of scaling labels, computed on the training part alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LabelScaling {
@@ -12,21 +12,21 @@ pub enum LabelScaling {
     MinMax,
     /// To a mean of 0 and a standard deviation of 1.
     Standard,
-    /// Not at all.
+    /// No scaling.
     None,
 }
 
 /// One offset and one span for each output: scaled = (label − offset) / span.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LabelScale {
-    /// In the unit of the label.
+    /// Offset of each output, in the unit of the label.
     pub offset: Vec<f64>,
-    /// In the unit of the label.
+    /// Span of each output, in the unit of the label.
     pub span: Vec<f64>,
 }
 
 impl LabelScale {
-    /// Scales nothing.
+    /// Scale that changes nothing.
     pub fn identity(outputs: usize) -> LabelScale {
         LabelScale {
             offset: vec![0.0; outputs],
@@ -34,12 +34,12 @@ impl LabelScale {
         }
     }
 
-    /// The scale of `labels`.
+    /// Computes the scale of `labels`.
     ///
     /// # Shapes
     /// `labels`: `[samples, outputs]`.
     /// # Errors
-    /// [`NetworkError::ConstantLabels`] if all labels of an output are the same.
+    /// [`NetworkError::ConstantLabels`] if all labels of an output are equal, with any scaling.
     pub fn of(
         scaling: LabelScaling,
         labels: &[f64],
@@ -71,17 +71,17 @@ impl LabelScale {
         Ok(scale)
     }
 
-    /// A label of `output`, scaled.
+    /// Scales a label of `output`.
     pub fn scaled(&self, output: usize, label: f64) -> f64 {
         (label - self.offset[output]) / self.span[output]
     }
 
-    /// A scaled number of `output` in the unit of the label.
+    /// Converts a scaled value of `output` back to the unit of the label.
     pub fn unscaled(&self, output: usize, value: f64) -> f64 {
         value * self.span[output] + self.offset[output]
     }
 
-    /// All `labels`, scaled.
+    /// Scales all `labels`.
     pub(super) fn all_scaled(&self, labels: &[f64]) -> Vec<f64> {
         let outputs = self.span.len();
         let places = labels.iter().enumerate();

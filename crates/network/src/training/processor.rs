@@ -1,4 +1,4 @@
-//! Training on the processor of this machine.
+//! Training on the CPU.
 
 use super::engine::{Batch, Engine, Moments, Snapshot};
 use super::recipe::Recipe;
@@ -8,7 +8,7 @@ use crate::loss::Loss;
 use crate::network::{Network, TrainingSpace};
 use crate::optimizer::{Descent, Memory, Optimizer};
 
-/// A network that is trained with the passes of this crate.
+/// Engine on the CPU.
 #[derive(Debug)]
 pub(super) struct Processor {
     network: Network,
@@ -20,10 +20,10 @@ pub(super) struct Processor {
 }
 
 impl Processor {
-    /// A training that goes on from `snapshot`, whose moments are those of `recipe`'s optimiser, with convolutions of one form.
+    /// Continues from `snapshot`, whose moments belong to `recipe`'s optimiser, with convolutions in `form`.
     ///
     /// # Errors
-    /// [`NetworkError::Memory`] if there is no room for transformed weights.
+    /// [`NetworkError::Memory`] if the transformed weights do not fit into memory.
     pub(super) fn new(
         snapshot: &Snapshot,
         recipe: &Recipe,

@@ -1,4 +1,4 @@
-//! How a network is trained, as data.
+//! Training settings, as data.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,33 +8,33 @@ use crate::loss::Loss;
 use crate::optimizer::Optimizer;
 use crate::schedule::Schedule;
 
-/// How a network is trained.
+/// Training settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Recipe {
-    /// How often each sample is seen.
+    /// Passes over the training samples.
     pub epochs: u64,
-    /// Samples of a step.
+    /// Samples per step: at least 2.
     pub batch: usize,
-    /// The rule by which a step changes weights.
+    /// Update rule of the weights.
     pub optimizer: Optimizer,
-    /// The full learning rate.
+    /// Full learning rate.
     pub rate: f64,
-    /// The share of the full rate at each step.
+    /// Ratio of each step's rate to the full rate.
     pub schedule: Schedule,
-    /// The loss that is minimised.
+    /// Loss function.
     pub loss: Loss,
-    /// How labels are scaled; classes are not.
+    /// Scaling of labels. Classes are not scaled.
     pub scaling: LabelScaling,
-    /// How pictures are changed before each step.
+    /// Random changes of pictures before each step.
     pub augmentation: Augmentation,
-    /// Epochs without a better one on the validation part after which training stops.
+    /// Epochs without a lower validation loss after which training stops. `None` never stops early.
     pub patience: Option<u64>,
-    /// The seed of everything that is drawn at random.
+    /// Seed of all random numbers.
     pub seed: u64,
 }
 
 impl Default for Recipe {
-    /// Forty epochs in batches of 32 with AdamW, one cycle up to a rate of 0.003, and Huber's loss on standardised labels.
+    /// Forty epochs in batches of 32 with AdamW, one cycle up to a rate of 0.003, Huber's loss on standardised labels.
     fn default() -> Recipe {
         Recipe {
             epochs: 40,
@@ -52,10 +52,10 @@ impl Default for Recipe {
 }
 
 impl Recipe {
-    /// Whether every number is in its range.
+    /// Checks the range of every setting.
     ///
     /// # Errors
-    /// [`NetworkError::Recipe`], naming the first that is not.
+    /// [`NetworkError::Recipe`] with the first setting out of range.
     pub fn check(&self) -> Result<(), NetworkError> {
         let refuse = |name, found: String, expected| {
             Err(NetworkError::Recipe {
@@ -69,7 +69,7 @@ impl Recipe {
             return refuse("epochs", "0".into(), "at least 1");
         }
         if self.batch < 2 {
-            // Moments of one picture of one pixel would have no variance.
+            // One picture of one pixel has no variance.
             return refuse("batch", self.batch.to_string(), "at least 2");
         }
         if !(self.rate.is_finite() && self.rate > 0.0) {

@@ -1,54 +1,54 @@
-//! How far a training has come, and its results.
+//! Progress and results of a training.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Breakage, LabelScale};
 use crate::network::Network;
 
-/// How far a training has come.
+/// Progress of a training.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TrainingState {
-    /// Steps that were made.
+    /// Number of completed steps.
     pub step: u64,
-    /// The sum of the losses of the current epoch's steps.
+    /// Sum of the losses in the current epoch.
     pub loss_sum: f64,
-    /// The losses of each whole epoch.
+    /// Losses of each completed epoch.
     pub epochs: Vec<Epoch>,
-    /// The epoch that did best on the validation part, counted from 0.
+    /// Epoch with the lowest validation loss, counted from 0.
     pub best: Option<u64>,
-    /// Whether it was stopped early, by the recipe's patience.
+    /// True if training stopped early, by the recipe's patience.
     pub is_stopped: bool,
-    /// Where a number was not finite.
+    /// Position of the first number that was not finite.
     pub broken: Option<Breakage>,
 }
 
-/// The losses of an epoch, of the scaled labels.
+/// Losses of an epoch, on scaled labels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
-    /// The mean loss of its steps.
+    /// Mean loss of its steps.
     pub training_loss: f64,
-    /// The loss of the validation part after it, where there is one.
+    /// Loss of the validation part after the epoch. `None` without a validation part.
     pub validation_loss: Option<f64>,
 }
 
-/// The result of a step.
+/// Result of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// Which step, counted from 0.
+    /// Index of the step, from 0.
     pub step: u64,
-    /// The loss of its batch, before the weights were changed.
+    /// Loss of the batch, before the update.
     pub loss: f64,
-    /// The losses of its epoch, where it was the last step of one.
+    /// Losses of the epoch, if this was its last step.
     pub epoch: Option<Epoch>,
 }
 
-/// The result of a training.
+/// Result of a training.
 #[derive(Clone, Debug)]
 pub struct Trained {
-    /// The network after the best epoch; after the last one where there is no validation part to choose by.
+    /// Network after the best epoch. Without a validation part: after the last step.
     pub network: Network,
-    /// How labels were scaled: predictions are to be scaled back by it.
+    /// Scale of the labels. Predictions need [`unscaled`](LabelScale::unscaled).
     pub scale: LabelScale,
-    /// How far the training came.
+    /// Progress and losses.
     pub state: TrainingState,
 }

@@ -25,7 +25,7 @@ pub(crate) fn tensors(network: &Network) -> Tensors {
         .collect()
 }
 
-/// Whether moments are those of the batch or the running ones.
+/// Moments of the batch or running moments.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Moments {
     Batch,
@@ -59,7 +59,7 @@ impl Batch {
     }
 }
 
-/// The input pixel that place `tap` of a kernel meets, if it lies within.
+/// Input pixel at position `tap` of a kernel. `None` outside the picture.
 fn met(position: usize, stride: usize, tap: usize, padding: usize, length: usize) -> Option<usize> {
     let at = (position * stride + tap).checked_sub(padding)?;
     (at < length).then_some(at)
@@ -190,7 +190,7 @@ fn block(input: &Batch, tensors: &Tensors, name: &str, stride: usize, moments: M
     relu(sum)
 }
 
-/// What the network of `architecture` with these tensors makes of pictures.
+/// Outputs of the network of `architecture` with these tensors for `pictures`.
 ///
 /// # Shapes
 /// `pictures`: `[count, height, width, channels]`; the outputs: `[count, outputs]`.

@@ -1,4 +1,4 @@
-//! What a program without a feature says.
+//! Errors of a program without a GPU feature.
 
 use taceva_network::{Gpu, GpuError, GpuKind};
 

@@ -1,4 +1,4 @@
-//! What stands in the list of skips where no feature builds an engine of a GPU, and `device.rs` with all its tests is not there.
+//! Entry in the list of skips for builds without a GPU feature, which lack `device.rs` and its tests.
 
 #![cfg(not(any(feature = "cuda", feature = "wgpu")))]
 

@@ -1,21 +1,21 @@
-//! The models that can be tried, in the order in which they are.
+//! Candidate models and their order.
 
 use super::cost::{DEEPER, NETWORK, Sizes, seconds, work};
 use crate::estimators::library::LibraryModel;
 use crate::training::info::ModelInfo;
 
-/// The share of its training that a network is first looked at with.
+/// Share of its epochs that a network trains at first.
 pub(super) const LOOK: f64 = 0.25;
-/// A network comes as early as models that take this share of the work, since it sees what none of them does.
+/// Factor of a network's work in the order: networks come early, because they learn from whole pictures.
 const EARLIER: f64 = 0.1;
 
-/// A model that can be tried.
+/// A model to try.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub(super) info: &'static ModelInfo,
-    /// The seconds of the budget that one fold takes; of a network that of its whole training.
+    /// Work of one fold, s of the budget; for a network, with its whole training.
     pub(super) fold_s: f64,
-    /// The seconds of the budget that the final fit takes.
+    /// Work of the final fit, s of the budget.
     pub(super) fit_s: f64,
 }
 
@@ -24,12 +24,12 @@ impl Candidate {
         self.info.name == NETWORK
     }
 
-    /// Whether it is fitted only where a person names it.
+    /// True for models that are fitted only if the user names them.
     pub(super) fn is_named_only(&self) -> bool {
         DEEPER.contains(&self.info.name)
     }
 
-    /// The seconds of the budget that the first fold takes.
+    /// Work of the first fold, s of the budget.
     pub(super) fn first_s(&self) -> f64 {
         match self.is_network() {
             true => LOOK * self.fold_s,
@@ -45,14 +45,14 @@ impl Candidate {
     }
 }
 
-/// Those of `models` and `libraries` that can be tried on samples of these sizes, the cheapest first.
+/// Models of `models` and `libraries` that support these sizes, the cheapest first.
 pub(super) fn candidates(
     models: &'static [ModelInfo],
     libraries: &[&'static LibraryModel],
     sizes: Sizes,
 ) -> Vec<Candidate> {
     let own = models.iter().filter_map(|info| {
-        // A network learns from three folds, the others, which are fitted again with the settings that were chosen, from four.
+        // A network learns from three folds. Other models are refitted on four with the chosen settings.
         let share = match info.name == NETWORK {
             true => 0.6,
             false => 0.8,
@@ -72,7 +72,7 @@ pub(super) fn candidates(
         })
     });
     let mut candidates: Vec<Candidate> = own.chain(of_libraries).collect();
-    // Of equals the first in the list comes first: the plainer.
+    // A stable sort keeps the plainer of equal models first.
     candidates.sort_by(|left, right| left.order().total_cmp(&right.order()));
     candidates
 }

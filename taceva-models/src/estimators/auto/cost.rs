@@ -1,19 +1,19 @@
-//! What trying and fitting a model takes, from the sizes of a recording alone.
+//! Work of trying and fitting a model, computed from the sizes of a recording alone.
 
 use crate::estimators::library::LibrarySizes;
 
-/// The sizes of a training part.
+/// Sizes of a training part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sizes {
     pub(super) samples: f64,
     pub(super) features: f64,
-    /// Numbers of the pictures that networks see; `None` where they see none.
+    /// Values per picture for networks. `None` without pictures.
     pub(super) picture: Option<f64>,
     pub(super) channels: f64,
 }
 
 impl Sizes {
-    /// The same of a share of the samples.
+    /// Sizes with a share of the samples.
     pub(super) fn share(self, share: f64) -> Sizes {
         Sizes {
             samples: share * self.samples,
@@ -35,22 +35,22 @@ impl Sizes {
     }
 }
 
-/// How many multiplications a second of the budget stands for.
+/// Multiplications per second of the budget.
 const RATE: f64 = 1e9;
 
-/// The small network, and those that are deeper.
+/// Names of the small network and of the deeper ones.
 pub(super) const NETWORK: &str = "cnn";
 pub(super) const DEEPER: [&str; 3] = ["resnet10", "resnet18", "resnet34"];
 
-/// The seconds of the budget that `work` multiplications take.
+/// Converts multiplications to seconds of the budget.
 pub(super) fn seconds(work: f64) -> f64 {
     work / RATE
 }
 
-/// The multiplications of one fit of the model called `name` with default settings; `None` where it cannot be fitted.
+/// Multiplications of one fit of the model `name` with default settings. `None` if it cannot be fitted.
 ///
-/// Leading terms of what fits do. Their factors are such that a second of the budget is about a processor second of docs/models.md, where
-/// these models were measured.
+/// Leading terms of each fit. Their factors make a second of the budget about a processor second of docs/models.md, where these
+/// models were measured.
 pub(super) fn work(name: &str, sizes: Sizes) -> Option<f64> {
     let Sizes {
         samples,
@@ -65,7 +65,7 @@ pub(super) fn work(name: &str, sizes: Sizes) -> Option<f64> {
     let landmarks = samples.min(500.0);
     let kernel = 0.4 * samples * landmarks * features
         + 1.2 * (samples * landmarks * landmarks + gram(samples, landmarks));
-    // Each sample once an epoch, forwards and backwards.
+    // Each sample once per epoch, forward and backward.
     let network = |a_place: f64, epochs: f64| Some(epochs * samples * picture? * a_place);
     Some(match name {
         "baseline" => samples * features,

@@ -1,21 +1,21 @@
-//! A model that is tried.
+//! Models in the race.
 
 use super::candidates::Candidate;
 use super::excess::{Excess, mean};
 use crate::training::card::AutoTrial;
 use crate::training::fit::ModelEstimator;
 
-/// A model with what is known of it so far.
+/// A model and its results so far.
 pub(super) struct Entrant {
     pub(super) candidate: Candidate,
     pub(super) estimator: Box<dyn ModelEstimator>,
-    /// The losses of units, fold by fold.
+    /// Losses by fold and unit.
     pub(super) losses: Vec<Vec<f64>>,
-    /// The work that trying it has taken.
+    /// Work spent on its trials, s of the budget.
     pub(super) spent_s: f64,
-    /// The share of its training that is done, where it is not all.
+    /// Completed share of its training. `None` if all.
     pub(super) share: Option<f64>,
-    /// Why it is no longer in the race.
+    /// Reason for leaving the race. `None` while it takes part.
     pub(super) left: Option<String>,
 }
 
@@ -24,12 +24,12 @@ impl Entrant {
         self.candidate.info.name
     }
 
-    /// The mean loss on the first so many folds.
+    /// Mean loss on the first `folds` folds.
     pub(super) fn loss(&self, folds: usize) -> f64 {
         mean(&self.losses[..folds].concat())
     }
 
-    /// By how much its losses exceed those of `other` on the first so many folds.
+    /// Mean excess of its losses over those of `other` on the first `folds` folds.
     pub(super) fn excess_over(&self, other: &Entrant, folds: usize) -> Excess {
         Excess::of(
             &self.losses[..folds].concat(),
@@ -37,7 +37,7 @@ impl Entrant {
         )
     }
 
-    /// What the card says of it.
+    /// Entry for the model card.
     pub(super) fn trial(&self) -> AutoTrial {
         AutoTrial {
             model: self.name().to_owned(),

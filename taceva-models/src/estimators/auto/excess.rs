@@ -1,20 +1,20 @@
-//! How two models stand to each other, by their losses on the same units.
+//! Comparison of two models by their losses on the same units.
 
-/// Standard errors of a difference beyond which one model is clearly better. The best of a dozen is two ahead of the plainest by mere chance.
+/// Standard errors of a difference above which a model is clearly better. By chance, the best of a dozen is two ahead of the plainest.
 pub(super) const CLEARLY: f64 = 3.0;
-/// Standard errors of a difference beyond which a network is preferred to the best of the others, and that one to the baseline.
+/// Standard errors of a difference above which a network replaces the best other model, and that one the baseline.
 pub(super) const BEYOND_CHANCE: f64 = 2.0;
 
-/// By how much the losses of one model exceed those of another, mean over units.
+/// Mean difference of the losses of two models over units.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Excess {
     mean: f64,
-    /// Infinite where there is but one unit: then nothing is beyond chance.
+    /// Standard error of the mean. Infinite for fewer than two units, so that nothing exceeds chance.
     standard_error: f64,
 }
 
 impl Excess {
-    /// Of `losses` over `others`, unit by unit.
+    /// Excess of `losses` over `others`, unit by unit.
     pub(super) fn of(losses: &[f64], others: &[f64]) -> Excess {
         let differences = losses.iter().zip(others).map(|(own, other)| own - other);
         let differences: Vec<f64> = differences.collect();
@@ -30,13 +30,13 @@ impl Excess {
         }
     }
 
-    /// Whether it is positive by more than so many standard errors.
+    /// True if the mean exceeds `standard_errors` standard errors.
     pub(super) fn is_beyond(self, standard_errors: f64) -> bool {
         self.standard_error.is_finite() && self.mean > standard_errors * self.standard_error
     }
 }
 
-/// The mean; of nothing 0.
+/// Mean of `values`; 0 if empty.
 pub(super) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }

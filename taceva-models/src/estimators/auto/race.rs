@@ -1,4 +1,4 @@
-//! The race: cheap evidence first. Every model that is worth it is tried on the first fold.
+//! First fold of the race: tries every model that is worth its work.
 
 use taceva_core::{ModelError, Progress, TrainingSet};
 
@@ -12,31 +12,31 @@ use crate::training::card::{AutoCard, Untried};
 use crate::training::fit::ModelEstimator;
 use crate::training::info::ModelInfo;
 
-/// Models that are tried whatever the budget.
+/// Models tried regardless of the budget.
 pub(super) const ALWAYS: [&str; 2] = ["baseline", "ridge"];
 
-/// A model with default settings, not fitted yet; the inner error says why it cannot be fitted to what is looked at here.
+/// Unfitted model with default settings. The inner error says why it does not support the present features.
 pub(super) type Made = Result<Result<Box<dyn ModelEstimator>, FeatureError>, ModelError>;
 
-/// Models that are tried on the folds of one training part.
+/// Race of models on the folds of one training part.
 pub(super) struct Race<'a> {
-    /// The work that may be spent on trying models and on the final fit.
+    /// Budget for trials and the final fit, s.
     pub(super) budget_s: f64,
     pub(super) make: &'a dyn Fn(&ModelInfo) -> Made,
     pub(super) folds: Folds,
-    /// The training part as networks see it, and as all others do.
+    /// Training part with the features of networks, and with those of other models.
     pub(super) pictures: TrainingSet<'a>,
     pub(super) training: TrainingSet<'a>,
     pub(super) progress: &'a dyn Progress,
     pub(super) spent_s: f64,
     pub(super) entrants: Vec<Entrant>,
-    /// The first look at the network, and its whole training where that did not decide.
+    /// First look at the network, then its whole training if the look left the result open.
     pub(super) network: Vec<Entrant>,
     pub(super) untried: Vec<Untried>,
 }
 
 impl Race<'_> {
-    /// Tries `candidates` until one is chosen: that one, `None` where none could be tried, and how it was chosen.
+    /// Runs the race. Returns the winner and its record for the model card.
     pub(super) fn run(
         mut self,
         candidates: Vec<Candidate>,
@@ -60,7 +60,7 @@ impl Race<'_> {
         Ok((taken, self.card(taken)))
     }
 
-    /// Why a candidate is not worth trying at all.
+    /// Reason not to try a candidate. `None` if it is worth trying.
     fn unworthy(&self, candidate: &Candidate) -> Option<String> {
         let Candidate { info, fit_s, .. } = *candidate;
         if candidate.is_named_only() {
@@ -94,7 +94,7 @@ impl Race<'_> {
         });
     }
 
-    /// Tries a model on the first fold, a network with a part of its training.
+    /// Tries a model on the first fold; a network with a share of its epochs.
     fn enter(&mut self, candidate: Candidate) -> Result<(), ModelError> {
         let estimator = match (self.make)(candidate.info)? {
             Ok(estimator) => estimator,

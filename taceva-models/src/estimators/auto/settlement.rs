@@ -1,4 +1,4 @@
-//! After the first fold: no more evidence than the choice needs, and the choice.
+//! Further folds, as far as the choice needs them, and the choice.
 
 use taceva_core::ModelError;
 
@@ -9,15 +9,15 @@ use super::race::{ALWAYS, Race};
 use crate::linalg::progress::interrupted;
 use crate::training::card::{AutoCard, FOLDS};
 
-/// The share of its squared error that a network is granted to keep after the rest of its training.
+/// Most optimistic remaining share of a network's squared error after the rest of its training.
 const GRANTED: f64 = 0.5;
-/// The share of the squared error of the best of the others that a network may have at most: less is not worth minutes of work.
+/// Largest ratio of a network's squared error to the best other model's. A smaller gain is not worth minutes of work.
 const WORTH: f64 = 0.95;
-/// A model that takes more than so many times the work of another must do better.
+/// Ratio of work above which a model must be better than the cheaper one.
 const DEARER: f64 = 10.0;
 
 impl Race<'_> {
-    /// The model in the race, no network, of least error on the folds that all of them were tried on.
+    /// Model of least error still in the race, except networks, on the folds that both compared models completed.
     pub(super) fn best(&self) -> Option<&Entrant> {
         let going = self.entrants.iter().filter(|own| own.left.is_none());
         going.reduce(|best, next| {
@@ -29,7 +29,7 @@ impl Race<'_> {
         })
     }
 
-    /// Whether the network is clearly better, on the first fold, than the best of all others.
+    /// True if the network is clearly better than all other models on the first fold.
     pub(super) fn network_leads(&self) -> bool {
         let network = self.network.last().filter(|own| own.left.is_none());
         network.is_some_and(|network| {
@@ -38,7 +38,7 @@ impl Race<'_> {
         })
     }
 
-    /// Trains the network to its end on the first fold, unless its first look decided.
+    /// Trains the network completely on the first fold, unless its first look was decisive.
     pub(super) fn look_again(&mut self) -> Result<(), ModelError> {
         let Some((look, best)) = self.network.last().zip(self.best()) else {
             return Ok(());
@@ -61,7 +61,7 @@ impl Race<'_> {
         Ok(())
     }
 
-    /// Tries the others on fold after fold, until one is left.
+    /// Tries the other models on further folds until one is left or the budget is spent.
     pub(super) fn more_folds(&mut self) -> Result<(), ModelError> {
         for fold in 1..FOLDS {
             self.thin_out();
@@ -89,7 +89,7 @@ impl Race<'_> {
         Ok(())
     }
 
-    /// Whether one model is left, or one beside the baseline and clearly ahead of it.
+    /// True if one model is left, or one beside the baseline and clearly ahead of it.
     fn is_decided(&self) -> bool {
         let going = self.entrants.iter().filter(|own| own.left.is_none());
         let going: Vec<&Entrant> = going.collect();
@@ -105,8 +105,8 @@ impl Race<'_> {
         }
     }
 
-    /// Takes out of the race whatever the best is clearly better than, and whatever is no better than a model that takes a tenth of its work. The
-    /// baseline stays: it takes nothing, and nothing is taken that is not better.
+    /// Removes models that the best is clearly ahead of, and models no better than one with a tenth of their work. The baseline stays:
+    /// it costs nothing, and only better models replace it.
     fn thin_out(&mut self) {
         let Some(best) = self.best() else {
             return;
@@ -135,7 +135,7 @@ impl Race<'_> {
         }
     }
 
-    /// The baseline unless something is better beyond chance; the network where it is better, beyond chance, than the best of the others.
+    /// Takes the baseline unless another model is better beyond chance. Takes the network if it beats the best of the others beyond chance.
     pub(super) fn settle(&mut self) -> Option<Candidate> {
         let baseline = self.entrants.iter().find(|own| own.name() == ALWAYS[0]);
         let best = self.best().map(|best| {
@@ -177,7 +177,7 @@ impl Race<'_> {
     }
 }
 
-/// Whether a network is better than `best` on the first fold, by more than so many standard errors, and by so much that it is worth its work.
+/// True if a network beats `best` on the first fold by more than `standard_errors` standard errors and by enough to be worth its work.
 fn is_ahead(network: &Entrant, best: &Entrant, standard_errors: f64) -> bool {
     let excess = best.excess_over(network, 1);
     network.loss(1) < WORTH * best.loss(1) && excess.is_beyond(standard_errors)
@@ -208,7 +208,7 @@ mod tests {
         }
     }
 
-    /// The race of these models, of which those that come last are looks at the network.
+    /// Race after the first fold, with entrants and the looks at the network.
     fn race_of(entrants: Vec<Entrant>, network: Vec<Entrant>, then: impl FnOnce(&mut Race<'_>)) {
         let samples = 8_u8;
         let shape = taceva_core::FeatureShape::flat(1);

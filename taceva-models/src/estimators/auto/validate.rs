@@ -1,4 +1,4 @@
-//! Five folds: each can be scored by a model that never saw it.
+//! Cross-validation on five folds, each scored by a model that never saw it.
 
 use std::collections::BTreeMap;
 
@@ -7,25 +7,25 @@ use taceva_core::{ErrorKind, Features, ModelError, Progress, Regressor, Targets,
 use crate::training::card::FOLDS;
 use crate::training::fit::ModelEstimator;
 
-/// Groups that each fold must have for them to be the units that losses scatter by.
+/// Fewest groups per fold for groups to be the units of losses.
 const GROUPS_LEAST: usize = 3;
-/// Units of neighbouring samples that a fold is taken as where it has fewer groups.
+/// Runs of neighbouring samples that serve as units of a fold with fewer groups.
 const RUNS: usize = 10;
 
-/// The rows of each fold, and the units that they are independent by.
+/// Rows and independent units of each fold.
 #[derive(Debug)]
 pub(super) struct Folds {
     rows: Vec<Vec<usize>>,
-    /// The unit of each of these rows, counted from 0 in each fold.
+    /// Unit of each row, counted from 0 in each fold.
     units: Vec<Vec<usize>>,
-    /// What is divided out of the squared errors of each channel: the variance of its labels; `None` where they are all the same.
+    /// Variance of each channel's labels, which normalises squared errors. `None` if all labels are equal.
     variances: Vec<Option<f64>>,
-    /// Whether folds are whole groups.
+    /// True if folds are whole groups.
     pub(super) by_group: bool,
 }
 
 impl Folds {
-    /// Whole groups assigned in turn, where there are as many as folds; else runs of neighbouring samples.
+    /// Assigns whole groups in turn if there are at least as many as folds, otherwise runs of neighbouring samples.
     pub(super) fn new(training: &TrainingSet<'_>, groups: Option<Vec<Vec<usize>>>) -> Folds {
         let groups = groups.filter(|groups| groups.len() >= FOLDS);
         let by_group = groups.is_some();
@@ -57,8 +57,8 @@ impl Folds {
         }
     }
 
-    /// The loss of each unit of a fold with a model that learns from three others and chooses its settings on the fourth: squared errors relative
-    /// to the variance of labels, mean over samples and over the channels that vary. The inner error says why the model cannot be fitted here.
+    /// Loss of each unit of a fold, with a model that learns from three other folds and chooses settings on the fourth. Squared errors
+    /// relative to the label variance, averaged over samples and varying channels. The inner error says why the model cannot be fitted.
     ///
     /// # Errors
     /// [`ModelError`] if `progress` was cancelled.
@@ -112,7 +112,7 @@ impl Folds {
     }
 }
 
-/// The unit of each of `rows`: its group where there are enough, else runs of neighbours.
+/// Unit of each of `rows`: its group if there are enough groups, otherwise a run of neighbours.
 fn units(rows: &[usize], of_group: &BTreeMap<usize, usize>) -> Vec<usize> {
     let groups: Option<Vec<usize>> = rows.iter().map(|row| of_group.get(row).copied()).collect();
     let are_enough = |groups: &Vec<usize>| {
@@ -127,7 +127,7 @@ fn units(rows: &[usize], of_group: &BTreeMap<usize, usize>) -> Vec<usize> {
     })
 }
 
-/// The variance of the labels of a channel; `None` where all are the same. Not by the variance: the rounded mean of equal numbers may be another.
+/// Variance of a channel's labels. `None` if all labels are equal; compares labels, because the rounded mean of equal labels may differ.
 fn variance(targets: Targets<'_>, channel: usize) -> Option<f64> {
     let channels = targets.channels.len();
     let labels = || {
@@ -147,7 +147,7 @@ fn variance(targets: Targets<'_>, channel: usize) -> Option<f64> {
     Some(labels().map(|label| (label - mean).powi(2)).sum::<f64>() / count)
 }
 
-/// Some rows of a training part.
+/// A subset of rows of a training part.
 struct Rows {
     features: Features,
     labels: Vec<f64>,

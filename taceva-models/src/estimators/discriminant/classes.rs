@@ -1,4 +1,4 @@
-//! Linear discriminants: classes that differ in their means and scatter alike.
+//! Linear discriminant analysis for classes with different means and equal scatter.
 
 use std::ops::Range;
 
@@ -7,30 +7,30 @@ use taceva_core::{ErrorKind, ModelError, Progress, SilentProgress};
 
 use super::scatter::{Blocks, Scatter, means, whitening};
 
-/// Predicts the class of features: that whose mean is nearest once features are whitened by the scatter within classes.
+/// Predicts the class with the nearest mean, in features whitened by the scatter within classes.
 ///
-/// With S the covariance within classes, x is of the class c with the least (x − μ_c)ᵀ S*⁻¹ (x − μ_c), all classes taken as equally
-/// frequent; S* = ρ m I + (1 − ρ) S with m = tr S / p, and ρ the share that minimises the expected squared error of S*, so that few samples
-/// of many features still give a covariance that can be inverted.
+/// With S the covariance within classes, x is assigned the class c of least (x − μ_c)ᵀ S*⁻¹ (x − μ_c), with equal prior probabilities.
+/// S* = ρ m I + (1 − ρ) S with m = tr S / p. The share ρ minimises the expected squared error of S*, so that the covariance can be
+/// inverted for few samples of many features.
 ///
 /// # Reference
-/// Fisher (1936) for the discriminant; Ledoit and Wolf (2004), A well-conditioned estimator for large-dimensional covariance matrices,
+/// Fisher (1936) for the discriminant. Ledoit and Wolf (2004), A well-conditioned estimator for large-dimensional covariance matrices,
 /// equations 9 to 14, for ρ.
 #[derive(Clone, Debug)]
 pub struct Discriminant {
-    /// Whitens features: `[features, features]`.
+    /// Whitening matrix, `[features, features]`.
     whitening: Mat<f64>,
-    /// Means of classes in whitened features; absent for classes without a sample.
+    /// Class means in whitened features. `None` for classes without samples.
     centres: Vec<Option<Vec<f64>>>,
 }
 
 impl Discriminant {
-    /// The discriminant of samples `features`, each of the class with its number in `classes`.
+    /// Fits samples `features`, each with the class number in `classes`.
     ///
     /// # Shapes
     /// `features`: `[samples][features]`; `classes`: `[samples]`.
     /// # Errors
-    /// [`ModelError`] of kind `InvalidArgument` if there is no sample, or the lengths differ.
+    /// [`ModelError`] of kind `InvalidArgument` without samples, or if lengths differ.
     pub fn fit(features: &[Vec<f64>], classes: &[usize]) -> Result<Discriminant, ModelError> {
         let length = features.first().map_or(0, Vec::len);
         let is_whole = features.iter().all(|sample| sample.len() == length);
@@ -50,7 +50,7 @@ impl Discriminant {
         Discriminant::of_blocks(&blocks, classes, &SilentProgress)
     }
 
-    /// The discriminant of samples that come by blocks.
+    /// Fits samples that are read in blocks.
     pub(super) fn of_blocks(
         blocks: &Blocks<'_>,
         classes: &[usize],
@@ -66,7 +66,7 @@ impl Discriminant {
         Ok(Discriminant { whitening, centres })
     }
 
-    /// For each class with a sample the plane w, b with the greatest wᵀx + b where x is of that class.
+    /// Plane (w, b) of each class with samples. The predicted class has the greatest wᵀx + b.
     pub(super) fn planes(&self) -> Vec<(Vec<f64>, f64)> {
         let turned = self.whitening.transpose().to_owned();
         let plane = |centre: &Vec<f64>| {
@@ -76,7 +76,7 @@ impl Discriminant {
         self.centres.iter().flatten().map(plane).collect()
     }
 
-    /// The class of `features`; the first of equally near ones.
+    /// Predicts the class of `features`; the first of equally near ones.
     pub fn class(&self, features: &[f64]) -> usize {
         let round = applied(&self.whitening, features);
         let distance = |centre: &Vec<f64>| -> f64 {

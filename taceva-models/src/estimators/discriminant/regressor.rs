@@ -1,4 +1,4 @@
-//! A plane for each value that a channel may have, of which the highest is predicted.
+//! Classification by planes: the value of the highest plane is predicted.
 
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
@@ -11,10 +11,10 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{check_call, check_finite};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// The planes of one channel over raw features.
+/// Planes of one channel over raw features.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Planes {
-    /// What is predicted where the plane of the same place is highest, in the unit of the channel.
+    /// Value of each plane, in the unit of the channel.
     values: Vec<f64>,
     /// `[values, features]`.
     weights: Vec<f64>,
@@ -22,7 +22,7 @@ pub(super) struct Planes {
 }
 
 impl Planes {
-    /// The planes over standardised features of `design` as planes over raw ones.
+    /// Converts planes over standardised features of `design` to planes over raw ones.
     pub(super) fn new(
         values: Vec<f64>,
         planes: Vec<(Vec<f64>, f64)>,
@@ -46,7 +46,7 @@ impl Planes {
         }
     }
 
-    /// The value of the highest plane at `sample`; the least of equally high ones.
+    /// Value of the highest plane at `sample`; the least value of equally high planes.
     fn class(&self, sample: &[f32]) -> f64 {
         let mut best = (f64::NEG_INFINITY, f64::NAN);
         let planes = self.weights.chunks_exact(sample.len()).zip(&self.offsets);
@@ -90,17 +90,17 @@ impl ClassRegressor {
         }
     }
 
-    /// How many classes there are, over all channels.
+    /// Number of classes, summed over channels.
     pub fn classes(&self) -> usize {
         self.planes.iter().map(|planes| planes.values.len()).sum()
     }
 
-    /// The model that a file holds.
+    /// Loads the model from a file.
     pub(crate) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         stored.on_components(ClassRegressor::from_tensors)
     }
 
-    /// The model that a file holds.
+    /// Builds the model from the tensors of a file.
     fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,

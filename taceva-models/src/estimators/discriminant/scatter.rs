@@ -1,4 +1,4 @@
-//! How samples scatter about the means of their classes, shrunk so that it can be inverted where samples are few.
+//! Scatter of samples about their class means, shrunk so that it can be inverted for few samples.
 
 use std::ops::Range;
 
@@ -8,20 +8,20 @@ use taceva_core::{ModelError, Progress};
 use crate::linalg::progress::interrupted;
 use crate::linalg::{multiply, symmetric_eigen};
 
-/// Samples by blocks, standardised where they are: `[features, samples]` of a range.
+/// Reads a range of samples, standardised if configured: `[features, samples]`.
 pub(super) type Blocks<'a> = dyn Fn(Range<usize>) -> Mat<f64> + Sync + 'a;
 
-/// Samples of a block.
+/// Samples per block.
 const BLOCK: usize = 1024;
 
-/// The ranges of `samples` samples.
+/// Block ranges of `samples` samples.
 pub(super) fn ranges(samples: usize) -> impl Iterator<Item = Range<usize>> {
     (0..samples)
         .step_by(BLOCK)
         .map(move |start| start..samples.min(start + BLOCK))
 }
 
-/// The mean of each class that has a sample.
+/// Mean of each class. `None` for classes without samples.
 pub(super) fn means(blocks: &Blocks<'_>, classes: &[usize]) -> Vec<Option<Vec<f64>>> {
     let count = classes.iter().max().map_or(0, |greatest| greatest + 1);
     let mut sums: Vec<(f64, Vec<f64>)> = vec![(0.0, Vec::new()); count];
@@ -45,11 +45,11 @@ pub(super) fn means(blocks: &Blocks<'_>, classes: &[usize]) -> Vec<Option<Vec<f6
         .collect()
 }
 
-/// How samples scatter about the means of their classes.
+/// Scatter of samples about their class means.
 pub(super) struct Scatter {
     covariance: Mat<f64>,
     samples: f64,
-    /// The sum over samples of the fourth power of their distance from the mean.
+    /// Sum over samples of the fourth power of the distance from the class mean.
     fourth_powers: f64,
 }
 
@@ -115,12 +115,12 @@ impl Scatter {
     }
 }
 
-/// S*^(−½); the identity where the samples do not scatter at all.
+/// S*^(−½); the identity if samples do not scatter at all.
 pub(super) fn whitening(scatter: &Mat<f64>) -> Result<Mat<f64>, ModelError> {
     let length = scatter.nrows();
     let (values, vectors) = symmetric_eigen(scatter.as_ref())?;
     let greatest = values.last().copied().unwrap_or(0.0);
-    // Directions in which nothing scatters, to within rounding, separate no classes that a mean does not.
+    // Directions without scatter, to within rounding, get no weight.
     let least = greatest * f64::EPSILON;
     let mut whitening = Mat::zeros(length, length);
     for (position, value) in values.iter().enumerate() {

@@ -1,30 +1,30 @@
-//! The weights of one channel along a path of strengths, a weight at a time.
+//! Coordinate descent: weights of one channel along a path of strengths.
 
 use taceva_core::{ModelError, Progress};
 
 use super::predictors::{Predictors, Residual, Target};
 use crate::linalg::progress::interrupted;
 
-/// The penalty on weights.
+/// Penalty on weights.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Penalty<'a> {
-    /// Ascending, relative to the least penalty at which every weight is 0.
+    /// Strengths, ascending, relative to the least penalty at which every weight is 0.
     pub(super) strengths: &'a [f64],
-    /// The share of the penalty that is on absolute values.
+    /// Share of the penalty on absolute values.
     pub(super) mix: f64,
 }
 
-/// Sweeps at one strength at most.
+/// Most sweeps at one strength.
 const SWEEPS: usize = 1000;
 
-/// The largest change of a sweep, as a share of what labels vary by, at which the weights count as found: 1e-7 of their squares, as in
-/// the reference.
+/// Convergence threshold: largest change of a sweep relative to the variation of labels. Equals 1e-7 of their squares, as in the
+/// reference.
 const ENOUGH: f64 = 3e-4;
 
-/// The weights at each strength.
+/// Computes the weights at each strength.
 ///
-/// The strongest penalty comes first and every other starts from the weights before it. A strength ends where no weight of a
-/// sweep changes predictions by more than three ten-thousandths of the typical label, or after 1,000 sweeps.
+/// Starts with the strongest penalty; every other starts from the previous weights. A strength ends if a sweep changes predictions by
+/// at most three ten-thousandths of the typical label, or after 1,000 sweeps.
 pub(super) fn path(
     predictors: &Predictors,
     target: Target<'_>,
@@ -38,7 +38,7 @@ pub(super) fn path(
         .fold(0.0_f64, |most, value| most.max(value.abs()));
     let mut weights = vec![0.0; width];
     let mut found = Vec::with_capacity(penalty.strengths.len());
-    // What a weight that explained a channel alone would change: the unit of `ENOUGH`.
+    // Largest effect of a weight that explains a channel alone: the unit of `ENOUGH`.
     let alone = products
         .iter()
         .zip(&predictors.squares)
@@ -79,7 +79,7 @@ pub(super) fn path(
             } else {
                 active.iter().for_each(|&feature| step(feature));
             }
-            // Weights that are not 0 first, then all: a sweep of all that changes nothing ends it.
+            // Alternates sweeps of nonzero weights with full sweeps. A full sweep without change ends the loop.
             let settled = change <= ENOUGH * unit;
             if settled && whole {
                 break;

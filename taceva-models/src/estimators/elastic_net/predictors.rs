@@ -1,4 +1,4 @@
-//! Centred features, laid out so that a step along one weight costs least.
+//! Centred features, in the layout with the cheapest coordinate steps.
 
 use faer::Mat;
 use taceva_core::{ModelError, Progress};
@@ -6,30 +6,30 @@ use taceva_core::{ModelError, Progress};
 use crate::linalg::invalid;
 use crate::linalg::{Design, dot, feature_gram};
 
-/// Features X of all samples, a column a feature.
+/// Features X of all samples, one column per feature.
 #[derive(Debug)]
 pub(super) struct Predictors {
     layout: Layout,
-    /// The squared length of each column.
+    /// Squared length of each column.
     pub(super) squares: Vec<f64>,
 }
 
 #[derive(Debug)]
 enum Layout {
-    /// XᵀX: a step reads as many numbers as there are features.
+    /// XᵀX: a step reads one number per feature.
     Gram(Mat<f64>),
-    /// X: a step reads as many numbers as there are samples, twice.
+    /// X: a step reads one number per sample, twice.
     Columns(Mat<f64>),
 }
 
-/// The most features of which a Gram matrix is kept: 134 MB.
+/// Most features of a Gram matrix: 134 MB.
 const FEATURES_MAX: usize = 4096;
 
 impl Predictors {
-    /// Columns where there are fewer than half as many samples as features, or where products are more than can be kept; else products.
+    /// Chooses columns for fewer than half as many samples as features, or if the Gram matrix is too large; otherwise the Gram matrix.
     ///
     /// # Errors
-    /// [`ModelError`] where there are too many of both, or if `progress` was cancelled.
+    /// [`ModelError`] if both samples and features are too many, or `progress` was cancelled.
     pub(super) fn of(
         design: &Design<'_>,
         progress: &dyn Progress,
@@ -73,16 +73,16 @@ impl Predictors {
     }
 }
 
-/// What is to be explained.
+/// Labels to explain.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target<'a> {
-    /// The centred labels y of the samples.
+    /// Centred labels y of the samples.
     pub(super) labels: &'a [f64],
     /// Xᵀy.
     pub(super) products: &'a [f64],
 }
 
-/// What is left of the labels y once Xw is taken from them, seen through the layout: Xᵀ(y − Xw), or y − Xw itself.
+/// Residual of the labels in the chosen layout: Xᵀ(y − Xw), or y − Xw itself.
 #[derive(Debug)]
 pub(super) struct Residual<'a> {
     predictors: &'a Predictors,
@@ -90,7 +90,7 @@ pub(super) struct Residual<'a> {
 }
 
 impl<'a> Residual<'a> {
-    /// The residual, computed anew, so that rounding errors of earlier steps do not add up.
+    /// Computes the residual from scratch, so that rounding errors of earlier steps do not accumulate.
     pub(super) fn new(
         predictors: &'a Predictors,
         target: Target<'_>,
@@ -108,7 +108,7 @@ impl<'a> Residual<'a> {
         residual
     }
 
-    /// Its product with a feature.
+    /// Product with a feature.
     pub(super) fn along(&self, feature: usize) -> f64 {
         match &self.predictors.layout {
             Layout::Gram(_) => self.values[feature],
@@ -116,7 +116,7 @@ impl<'a> Residual<'a> {
         }
     }
 
-    /// Updates the residual after the weight of `feature` grew by `step`.
+    /// Updates the residual after an increase of the weight of `feature` by `step`.
     pub(super) fn follow(&mut self, feature: usize, step: f64) {
         let (Layout::Gram(columns) | Layout::Columns(columns)) = &self.predictors.layout;
         let places = self.values.iter_mut().zip(columns.col_as_slice(feature));

@@ -1,4 +1,4 @@
-//! A Gaussian process on landmarks, with the settings of greatest likelihood.
+//! Gaussian process on landmarks, with settings of maximum likelihood.
 
 use std::borrow::Cow;
 
@@ -21,12 +21,12 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 use crate::training::regressor::ModelRegressor;
 
-/// Gaussian process regression in Nyström's form, which also says how sure it is.
+/// Gaussian process regression in Nyström's form, with predictive standard deviations.
 ///
-/// Each channel has a signal of variance s² and noise of variance λs². Of 41 ratios λ from 10⁻⁸ to 10² each channel gets the one
-/// under which its labels are likeliest; s² follows; the length of the kernel is one for all channels, likeliest for all together. No sample is
-/// held out for it. Where there is a validation part, the deviations of each channel are then brought to where 95 % of it lie within 1.96 of them: what
-/// landmarks leave out makes them too wide by themselves.
+/// Each channel has a signal of variance s² and noise of variance λs². Each channel gets the likeliest of 41 ratios λ from 10⁻⁸ to 10²,
+/// which determines s². The kernel length is common to all channels and maximises their joint likelihood. No samples are held out.
+/// With a validation part, the deviations of each channel are then scaled so that 95 % of it lie within 1.96 deviations. Unscaled
+/// deviations are too wide, because landmarks explain only part of the variance.
 ///
 /// # Reference
 /// C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006, eqs. 5.8 and 8.14, 8.15.
@@ -37,7 +37,7 @@ pub struct GaussianProcess {
 }
 
 impl GaussianProcess {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "gaussian-process",
         about: "a Gaussian process on landmarks: says how sure it is of every prediction",
@@ -47,7 +47,7 @@ impl GaussianProcess {
         load: KernelRegressor::load,
     };
 
-    /// A Gaussian process as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -60,7 +60,7 @@ impl GaussianProcess {
     }
 }
 
-/// A Gaussian process of one length.
+/// Fitted Gaussian process of one length.
 struct Fit {
     cost: f64,
     mapped: Mapped,
@@ -69,7 +69,7 @@ struct Fit {
 }
 
 impl Fit {
-    /// The error of each channel on a part that was not learnt from, and by how much its deviations must grow to hold 95 % there.
+    /// Validation error of each channel, and the factor of its deviations that makes them hold 95 %.
     fn validated(
         &self,
         problem: &Problem<'_>,
@@ -167,7 +167,7 @@ impl ModelEstimator for GaussianProcess {
         let problem = Problem::new(*training)?;
         let held = problem.validation(validation)?;
         let landmarks = self.kernel.landmarks(training.features, progress)?;
-        // Without the validation part, what it says of the settings is no flattery.
+        // Fits without the validation part, so that its errors are unbiased.
         let learn = |part: Option<&Validation<'_>>, lengths: &[f64]| {
             let mut best: Option<Fit> = None;
             for &length in lengths.iter().rev() {
@@ -221,7 +221,7 @@ impl ModelEstimator for GaussianProcess {
 }
 
 impl Problem<'_> {
-    /// The root mean square error of each channel of predictions in its unit, a row a sample of `part`.
+    /// Root mean square error of each channel in its unit. `found` has one row per sample of `part`.
     pub(crate) fn errors_of(&self, found: &[f64], part: &Validation<'_>) -> Vec<Option<f64>> {
         let channels = self.channels();
         let of = |channel: usize| {
@@ -233,7 +233,7 @@ impl Problem<'_> {
         (0..channels).map(of).collect()
     }
 
-    /// Prediction minus label of each sample of `part`, in the unit of the channel.
+    /// Prediction minus label for each sample of `part`, in the unit of the channel.
     fn residuals_of<'a>(
         &'a self,
         found: &'a [f64],

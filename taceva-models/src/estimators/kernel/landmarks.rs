@@ -1,4 +1,4 @@
-//! Landmarks: the training samples with which every sample is compared.
+//! Landmarks: training samples with which every sample is compared.
 
 use rayon::prelude::*;
 use taceva_core::{Features, ModelError, Progress};
@@ -8,19 +8,19 @@ use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::linalg::standard::Standard;
 use crate::linalg::{FeatureScale, dot};
 
-/// The length of the kernel by which landmarks are chosen.
+/// Kernel length for choosing landmarks.
 const LENGTH: f64 = 1.0;
 
-/// A sample of which landmarks leave a smaller share unexplained becomes no landmark: rounding to single precision leaves as much.
+/// Unexplained share below which a sample is not made a landmark: the rounding error of single precision.
 pub(super) const EXPLAINED: f64 = 1e-5;
 
-/// Samples a thread takes at a time.
+/// Samples per task of a thread.
 const CHUNK: usize = 64;
 
-/// Training samples that between them explain the others, and how far all are from them.
+/// Training samples that explain the others, and the distances of all samples from them.
 ///
-/// Chosen by pivoted Cholesky: the sample nearest to the mean first, then always the one of which least is explained. Nothing is
-/// random, and the order of samples decides between equals only.
+/// Chosen by pivoted Cholesky: first the sample nearest to the mean, then always the least explained one. The choice is
+/// deterministic; the order of samples matters only between equals.
 ///
 /// # Reference
 /// S. Fine, K. Scheinberg, J. Mach. Learn. Res. 2 (2001) 243.
@@ -29,11 +29,11 @@ pub(super) struct Landmarks {
     pub(super) standard: Standard,
     /// D, the summed variance of the features.
     pub(super) variance: f64,
-    /// The chosen training samples.
+    /// Indices of the landmarks among the training samples.
     pub(super) chosen: Vec<usize>,
-    /// The landmarks as [`Standard`] has them, one after the other.
+    /// Standardised landmarks, concatenated.
     pub(super) rows: Vec<f32>,
-    /// Squared distances: a row a training sample, a column a landmark.
+    /// Squared distances, one row per training sample and one column per landmark.
     pub(super) distances: Vec<f32>,
 }
 
@@ -109,7 +109,7 @@ impl Landmarks {
         })
     }
 
-    /// The squared distances of a training sample from the landmarks.
+    /// Squared distances of a training sample from the landmarks.
     pub(super) fn of(&self, sample: usize) -> &[f32] {
         let count = self.chosen.len();
         &self.distances[sample * count..(sample + 1) * count]
@@ -125,7 +125,7 @@ pub(super) fn kernel(squared_distance: f32, rate: f64) -> f64 {
     (-f64::from(squared_distance) * rate).exp()
 }
 
-/// The first position that no other is `better` than.
+/// First position of the best value.
 fn extreme(values: &[f64], better: impl Fn(f64, f64) -> bool) -> usize {
     let mut best = 0;
     for (position, &value) in values.iter().enumerate() {

@@ -1,20 +1,20 @@
-//! The ratio of noise to signal of greatest likelihood.
+//! Noise-to-signal ratio of maximum likelihood.
 
 use faer::Mat;
 
 use crate::linalg::Spectrum;
 
-/// The ratios that are tried.
+/// Ratios to try, ascending.
 pub(super) fn ratios() -> Vec<f64> {
     (0..=40)
         .map(|step| 10_f64.powf(-8.0 + 0.25 * f64::from(step)))
         .collect()
 }
 
-/// The settings of greatest likelihood of one channel.
+/// Maximum-likelihood settings of one channel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Likeliest {
-    /// −2 log of the likelihood, up to what no setting changes.
+    /// −2 log likelihood, up to a constant.
     pub(super) cost: f64,
     /// λ.
     pub(super) ratio: f64,
@@ -22,7 +22,7 @@ pub(super) struct Likeliest {
     pub(super) signal: f64,
 }
 
-/// Of each column of centred `labels`, given the spectrum of the centred features.
+/// Finds the settings of each column of centred `labels`, given the spectrum of the centred features.
 pub(super) fn likeliest(
     spectrum: &Spectrum<'_, '_>,
     rotated: &Mat<f64>,
@@ -34,7 +34,7 @@ pub(super) fn likeliest(
     let of = |channel: usize| {
         let column = labels.col_as_slice(channel);
         let total: f64 = column.iter().map(|label| label * label).sum();
-        // The squares of the labels along the eigenvectors of the samples.
+        // Squared labels along the eigenvectors of the samples.
         let along: Vec<f64> = eigenvalues
             .iter()
             .zip(rotated.col_as_slice(channel))
@@ -53,7 +53,7 @@ pub(super) fn likeliest(
             let cost = if signal > 0.0 {
                 samples * signal.ln() + volume + unseen * ratio.ln()
             } else {
-                // Every label is the same: nothing is likelier than anything else.
+                // All labels are equal, so all settings are equally likely.
                 0.0
             };
             Likeliest {

@@ -1,4 +1,4 @@
-//! Features whose products are the kernel, as far as the landmarks explain it.
+//! Nyström features: their products approximate the kernel.
 
 use rayon::prelude::*;
 use taceva_core::{FeatureShape, Features};
@@ -8,30 +8,30 @@ use crate::linalg::distance::squared_distance;
 use crate::linalg::dot;
 use crate::linalg::standard::Standard;
 
-/// φ(x) = L⁻¹ k(x) with L Lᵀ the kernel between the landmarks and k(x) that from them to x; φ(x)ᵀφ(x') is Nyström's kernel.
+/// φ(x) = L⁻¹ k(x), with L Lᵀ the kernel matrix of the landmarks and k(x) their kernel with x. φ(x)ᵀφ(x') is Nyström's kernel.
 ///
 /// # Reference
 /// C. K. I. Williams, M. Seeger, NIPS 13 (2001) 682.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Nystrom {
     pub(super) standard: Standard,
-    /// The length ℓ, for a card.
+    /// Length ℓ, for the model card.
     pub(super) length: f64,
     /// 1 / 2ℓ²D.
     pub(super) rate: f64,
-    /// The landmarks as `standard` has them.
+    /// Landmarks standardised by `standard`.
     pub(super) rows: Vec<f32>,
-    /// L row by row, only its lower triangle.
+    /// Lower triangle of L, row by row.
     pub(super) factor: Vec<f64>,
-    /// Which of the chosen landmarks these are.
+    /// Indices into `Landmarks::chosen`.
     kept: Vec<usize>,
 }
 
-/// Samples a thread takes at a time.
+/// Samples per task of a thread.
 const CHUNK: usize = 16;
 
 impl Nystrom {
-    /// Those of `landmarks` that a kernel of this length still separates.
+    /// Keeps the landmarks that a kernel of this length can separate.
     pub(super) fn new(landmarks: &Landmarks, length: f64) -> Nystrom {
         let rate = rate(length, landmarks.variance);
         let width = landmarks.standard.centre().len();
@@ -61,7 +61,7 @@ impl Nystrom {
         }
     }
 
-    /// Of ready numbers, whose lengths were checked.
+    /// Builds the map from stored numbers of checked lengths.
     pub(super) fn ready(
         standard: Standard,
         length: f64,
@@ -80,12 +80,12 @@ impl Nystrom {
         }
     }
 
-    /// How many features there are: one a landmark.
+    /// Number of features: one per landmark.
     pub(super) fn len(&self) -> usize {
         self.kept.len()
     }
 
-    /// The features of the training samples, from distances that are known.
+    /// Features of the training samples, from known distances.
     pub(super) fn of_training(&self, landmarks: &Landmarks) -> Features {
         let count = landmarks.chosen.len();
         let samples = landmarks.distances.par_chunks_exact(count);
@@ -101,7 +101,7 @@ impl Nystrom {
         self.features(values)
     }
 
-    /// The features of any samples.
+    /// Features of any samples.
     pub(super) fn of(&self, features: &Features) -> Features {
         let width = self.standard.centre().len();
         let samples = features.values().par_chunks(CHUNK * width);
@@ -114,7 +114,7 @@ impl Nystrom {
         self.features(values)
     }
 
-    /// The features of one sample.
+    /// Features of one sample.
     pub(super) fn of_one(&self, sample: &[f32]) -> Vec<f32> {
         let mut own = vec![0.0; sample.len()];
         self.standard.write(sample, &mut own);

@@ -1,14 +1,14 @@
-//! By how much deviations must grow or shrink to hold what they promise.
+//! Calibration of predictive deviations.
 
-/// Within so many standard deviations lie 95 % of normal errors: the quantile of 97.5 %.
+/// Standard deviations that include 95 % of normal errors: the 97.5 % quantile.
 pub const NORMAL_95: f64 = 1.959_963_984_540_054;
 
-/// The least number of errors of which 95 % can be counted.
+/// Fewest errors for a 95 % quantile.
 const ENOUGH: usize = 19;
 
-/// What the deviations of a channel are multiplied by so that 95 % of samples that were not learnt from lie within 1.96 of them.
+/// Factor of a channel's deviations, so that 95 % of held-out samples lie within 1.96 deviations.
 ///
-/// `misses` are the errors of those samples over their deviations. Of too few, or where nothing is missed, deviations stay as they are.
+/// `misses` are errors of held-out samples divided by their deviations. Returns 1 for too few samples or if the quantile is 0.
 ///
 /// # Reference
 /// J. Lei et al., J. Am. Stat. Assoc. 113 (2018) 1094, sec. 5.2: split conformal intervals, weighted locally.
@@ -18,7 +18,7 @@ pub(super) fn reach(mut misses: Vec<f64>) -> f64 {
     }
     misses.iter_mut().for_each(|miss| *miss = miss.abs());
     misses.sort_by(f64::total_cmp);
-    // The 95 % quantile of one sample more than there are.
+    // The 95 % quantile of n + 1 samples.
     let rank = ((misses.len() + 1) * 19).div_ceil(20).min(misses.len());
     let factor = misses[rank - 1] / NORMAL_95;
     if factor > 0.0 && factor.is_finite() {

@@ -1,4 +1,4 @@
-//! A fitted kernel method: linear in the features of its landmarks.
+//! Fitted kernel methods, linear in the features of their landmarks.
 
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
@@ -23,7 +23,7 @@ pub struct KernelRegressor {
     uncertainty: Option<Uncertainty>,
 }
 
-/// Samples a thread takes at a time.
+/// Samples per task of a thread.
 const CHUNK: usize = 8;
 
 const CENTRE: &str = "kernel.centre";
@@ -49,12 +49,12 @@ impl KernelRegressor {
         }
     }
 
-    /// How many landmarks there are: training samples with which every sample is compared.
+    /// Number of landmarks.
     pub fn landmarks(&self) -> usize {
         self.map.len()
     }
 
-    /// The length ℓ of the kernel.
+    /// Length ℓ of the kernel.
     pub fn length(&self) -> f64 {
         self.map.length
     }
@@ -76,12 +76,12 @@ impl KernelRegressor {
             });
     }
 
-    /// The model that a file holds.
+    /// Loads the model from a file.
     pub(crate) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         stored.on_components(KernelRegressor::from_tensors)
     }
 
-    /// The model that a file holds.
+    /// Builds the model from the tensors of a file.
     fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,

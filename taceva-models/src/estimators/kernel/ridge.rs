@@ -15,10 +15,10 @@ use crate::training::regressor::ModelRegressor;
 
 use super::regressor::KernelRegressor;
 
-/// Kernel ridge regression on landmarks: [`Ridge`] of their features, the strength of each channel chosen as there.
+/// Kernel ridge regression on landmarks: [`Ridge`] on their features, with its choice of strength for each channel.
 ///
-/// The length of the kernel is one for all channels: that of least summed squared error, each channel's relative to the range
-/// of its labels, on what the strengths are chosen by.
+/// The kernel length is common to all channels. It has the least sum of squared errors relative to label ranges, on the samples that
+/// choose the strengths.
 ///
 /// # Reference
 /// C. Saunders, A. Gammerman, V. Vovk, ICML 1998, 515.
@@ -29,7 +29,7 @@ pub struct KernelRidge {
 }
 
 impl KernelRidge {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "kernel-ridge",
         about: "ridge regression of a kernel: follows labels that are no linear function of the picture",
@@ -39,7 +39,7 @@ impl KernelRidge {
         load: KernelRegressor::load,
     };
 
-    /// Kernel ridge regression as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -52,7 +52,7 @@ impl KernelRidge {
     }
 }
 
-/// The length of `kernel` at which ridge regression has least error, and its fit there.
+/// Fits ridge regression at each length of `kernel` and returns the best fit with its map.
 pub(super) fn fit_best(
     kernel: &Kernel,
     refit: bool,
@@ -83,7 +83,7 @@ pub(super) fn fit_best(
                     .map_or(f64::INFINITY, |rmse| (rmse / span).powi(2))
             })
             .sum();
-        // The plainest comes first and yields to better ones only.
+        // The plainest comes first and is replaced only by better ones.
         if best.as_ref().is_none_or(|(least, ..)| score < *least) {
             best = Some((score, mapped, fit));
         }

@@ -1,24 +1,24 @@
-//! How sure a Gaussian process is of a prediction.
+//! Predictive standard deviations of a Gaussian process.
 
 use crate::linalg::dot;
 use crate::training::file::error::FormatError;
 use crate::training::file::tensors::{Raw, Tensors};
 
-/// The posterior of the weights, channel by channel.
+/// Posterior of the weights of each channel.
 ///
-/// Var(x) = s² ((1 − φᵀφ) + λ φᵀ(ΦᵀΦ + λ)⁻¹φ + λ (1 + 1/n)), with φ in the second term centred as Φ is: what landmarks do not explain, what
-/// the samples leave open, and the noise λs² of a label with that of the mean.
+/// Var(x) = s² ((1 − φᵀφ) + λ φᵀ(ΦᵀΦ + λ)⁻¹φ + λ (1 + 1/n)), with φ in the second term centred like Φ. The terms are the variance not
+/// explained by landmarks, the uncertainty of the weights, and the noise λs² of a label and of the mean.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Uncertainty {
-    /// The mean of Φ.
+    /// Mean of Φ.
     pub(super) centre: Vec<f64>,
-    /// The eigenvectors of ΦᵀΦ, one after the other.
+    /// Eigenvectors of ΦᵀΦ, concatenated.
     pub(super) vectors: Vec<f64>,
-    /// The eigenvalues that go with them.
+    /// Their eigenvalues.
     pub(super) eigenvalues: Vec<f64>,
-    /// λ of each channel: the variance of the noise over that of the signal.
+    /// λ of each channel: noise variance divided by signal variance.
     pub(super) ratio: Vec<f64>,
-    /// s² of each channel, in its unit squared.
+    /// s² of each channel, in its squared unit.
     pub(super) signal: Vec<f64>,
     /// λ (1 + 1/n) of each channel.
     pub(super) noise: Vec<f64>,
@@ -32,7 +32,7 @@ const SIGNAL: &str = "posterior.signal";
 const NOISE: &str = "posterior.noise";
 
 impl Uncertainty {
-    /// Writes the standard deviation of each channel of a sample whose features are `mapped`.
+    /// Writes the standard deviation of each channel for a sample with features `mapped`.
     pub(super) fn write(&self, mapped: &[f32], into: &mut [f64]) {
         let own: f64 = mapped.iter().map(|&value| f64::from(value).powi(2)).sum();
         let centred: Vec<f64> = mapped
@@ -58,7 +58,7 @@ impl Uncertainty {
         }
     }
 
-    /// The same, its deviations times `reaches`, channel by channel.
+    /// Scales the deviations of each channel by `reaches`.
     pub(super) fn reaching(mut self, reaches: &[f64]) -> Uncertainty {
         let signals = self.signal.iter_mut().zip(reaches);
         signals.for_each(|(signal, reach)| *signal *= reach * reach);
@@ -78,7 +78,7 @@ impl Uncertainty {
         ]
     }
 
-    /// What a file of `count` landmarks holds of it, if anything.
+    /// Reads the posterior from a file of `count` landmarks. `None` if the file has none.
     pub(super) fn from_tensors(
         tensors: &Tensors<'_>,
         count: usize,

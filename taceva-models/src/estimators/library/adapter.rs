@@ -1,4 +1,4 @@
-//! An estimator of a library as a table: its entry in the registry, the numbers that can be set, and the call of the library.
+//! Adapters as tables: registry entry, numeric settings and library call.
 
 use taceva_core::{ModelError, TrainingSet};
 
@@ -13,45 +13,45 @@ use crate::training::fit::ModelEstimator;
 pub(crate) struct Adapter {
     pub(crate) model: LibraryModel,
     pub(crate) numbers: &'static [Number],
-    /// Whether labels are classes.
+    /// True for classifiers.
     pub(crate) is_classifier: bool,
-    /// Refuses what the library cannot learn from.
+    /// Rejects training sets that the library does not support.
     pub(crate) check: fn(&TrainingSet<'_>) -> Result<(), ModelError>,
-    /// Fits the library's estimator with these numbers.
+    /// Fits the library's estimator with these settings.
     pub(crate) fit: fn(&Numbers<'_>, &LibraryTask<'_>) -> LoadedPredictor,
 }
 
-/// A number that can be set.
+/// A numeric setting.
 pub(crate) struct Number {
     pub(crate) info: SettingInfo,
-    /// The least and the greatest value.
+    /// Smallest and largest value.
     pub(crate) range: [f64; 2],
     pub(crate) is_whole: bool,
     pub(crate) unset: Unset,
 }
 
-/// The value of a number that is not set.
+/// Default of a numeric setting.
 #[derive(Clone, Copy)]
 pub(crate) enum Unset {
-    /// This value.
+    /// Fixed value.
     Is(f64),
-    /// One of these, by error, for each channel: the plainest model last.
+    /// Values among which each channel's is chosen by error, the plainest last.
     ChosenAmong(&'static [f64]),
 }
 
-/// The values of an adapter's numbers; `None` where one is chosen by error.
+/// Values of an adapter's settings. `None` for a setting chosen by error.
 pub(crate) struct Numbers<'a> {
     adapter: &'a Adapter,
     values: &'a [Option<f64>],
 }
 
-/// Every training set that has whole, finite samples.
+/// Accepts every training set.
 pub(crate) fn any(_: &TrainingSet<'_>) -> Result<(), ModelError> {
     Ok(())
 }
 
 impl Adapter {
-    /// The estimator as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -71,7 +71,7 @@ impl Adapter {
 }
 
 impl Number {
-    /// The value that `settings` give; `None` where it is chosen.
+    /// Value in `settings`. `None` if it is chosen by error.
     fn of(&self, settings: &ModelSettings) -> Result<Option<f64>, SettingError> {
         let [least, greatest] = self.range;
         let read = |text: &str| {
@@ -90,7 +90,7 @@ impl Number {
 }
 
 impl Numbers<'_> {
-    /// The value of a number that is not chosen by error; of one that is, NaN.
+    /// Value of a setting. NaN if it is chosen by error.
     pub(crate) fn real(&self, number: &Number) -> f64 {
         let mut numbers = self.adapter.numbers.iter();
         let place = numbers.position(|known| known.info.key == number.info.key);
@@ -98,7 +98,7 @@ impl Numbers<'_> {
         value.unwrap_or(f64::NAN)
     }
 
-    /// The value of a whole number.
+    /// Value of an integer setting.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -1,4 +1,4 @@
-//! What a library made of some rows, and what it answers.
+//! Fitted library models and their predictions.
 
 use faer::Mat;
 use taceva_core::{ErrorKind, Features, ModelError};
@@ -6,22 +6,22 @@ use taceva_core::{ErrorKind, Features, ModelError};
 use super::task::LibraryPredictor;
 use crate::linalg::standard::Standard;
 
-/// What a library made of some rows.
+/// Fit of a library on some rows.
 pub(super) struct Fitted {
-    /// Of all features.
+    /// Standardisation of all features.
     pub(super) standard: Standard,
-    /// The features that the predictor is asked with, ascending.
+    /// Indices of the features passed to the predictor, ascending.
     pub(super) kept: Vec<usize>,
-    /// The channels that it answers for, ascending.
+    /// Indices of the channels that the predictor predicts, ascending.
     pub(super) live: Vec<usize>,
-    /// What is added to its answers; for a channel that it does not answer for, the answer.
+    /// Constant added to the predictions. For other channels, the whole prediction.
     pub(super) base: Vec<f64>,
-    /// Absent where no feature or no label varies.
+    /// `None` if no feature or no label varies.
     pub(super) predictor: Option<Box<dyn LibraryPredictor>>,
 }
 
 impl Fitted {
-    /// The answers for every sample of `features`, in the labels that were learnt from, a row a sample.
+    /// Predicts every sample of `features`, in the scale of the training labels, one row per sample.
     pub(super) fn predict(&self, features: &Features) -> Result<Mat<f64>, ModelError> {
         let mut found = Mat::from_fn(features.samples(), self.base.len(), |_, channel| {
             self.base[channel]

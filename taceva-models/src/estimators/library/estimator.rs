@@ -1,4 +1,4 @@
-//! The estimator of a library among ours: the same checks, trials and scaling, another fit.
+//! Adapter from library estimators to [`ModelEstimator`], with the same checks, trials and scaling as other models.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ pub(crate) struct LibraryEstimator {
 }
 
 impl LibraryEstimator {
-    /// The summed squared error of each channel at each of `tried` values of the setting; infinite where the library fails.
+    /// Summed squared error of each channel for each of `tried` values of the setting. Infinite if the library fails.
     fn squares(
         &self,
         trials: &Trials<'_>,
@@ -44,7 +44,7 @@ impl LibraryEstimator {
     }
 }
 
-/// The summed squared error of each channel.
+/// Summed squared error of each channel.
 fn summed(found: &Mat<f64>, truth: &Mat<f64>) -> Vec<f64> {
     let of = |channel: usize| {
         let pairs = found.col_as_slice(channel).iter();
@@ -108,7 +108,7 @@ impl ModelEstimator for LibraryEstimator {
             scale,
             fitted,
         );
-        // What cannot answer for what it learnt from is no model.
+        // Rejects a model that cannot predict its own training samples.
         let mut known = vec![0.0; features.samples() * channels];
         regressor.predict(&features, &mut known)?;
         let refitted = refit && trials.has_validation();
@@ -121,7 +121,7 @@ impl ModelEstimator for LibraryEstimator {
     }
 }
 
-/// The labels of both parts in their units, a row a sample.
+/// Labels of both parts in their units, one row per sample.
 fn as_given(training: &TrainingSet<'_>, held: Option<&TrainingSet<'_>>) -> Mat<f64> {
     let channels = training.targets.channels.len();
     let values = held.map_or(&[][..], |held| held.targets.values);
@@ -133,7 +133,7 @@ fn as_given(training: &TrainingSet<'_>, held: Option<&TrainingSet<'_>>) -> Mat<f
 
 estimator!(LibraryEstimator, |own| own.learner.model().info.name);
 
-/// The estimator of `learner`, as the registry makes it.
+/// Wraps `learner` for the registry.
 pub(crate) fn library_estimator(learner: impl LibraryLearner + 'static) -> Box<dyn ModelEstimator> {
     Box::new(LibraryEstimator {
         learner: Box::new(learner),

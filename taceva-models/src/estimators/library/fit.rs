@@ -1,4 +1,4 @@
-//! One fit of a library on some rows: it gets the features and labels that vary; labels that do not vary need no fit.
+//! A single fit of a library, restricted to features and labels that vary.
 
 use faer::Mat;
 use taceva_core::{Features, ModelError, Progress};
@@ -9,7 +9,7 @@ use super::task::{LibrarySizes, LibraryTask};
 use crate::linalg::progress::interrupted;
 use crate::linalg::standard::Standard;
 
-/// Fits `learner` on `features` and `labels`, a row a sample; `values` are those of the setting that is chosen, a channel each.
+/// Fits `learner` on `features` and `labels`, one row per sample. `values` are those of the chosen setting, one per channel.
 pub(super) fn fit(
     learner: &dyn LibraryLearner,
     features: &Features,
@@ -80,7 +80,7 @@ pub(super) fn fit(
     })
 }
 
-/// The features that differ between any two samples.
+/// Indices of features that vary between samples.
 fn varying(features: &Features) -> Vec<usize> {
     let first = features.sample(0);
     let mut varies = vec![false; first.len()];
@@ -95,7 +95,7 @@ fn varying(features: &Features) -> Vec<usize> {
         .collect()
 }
 
-/// The label that occurs most often; of equally common ones the least.
+/// Most frequent label; the smallest of equally frequent ones.
 fn commonest(labels: &[f64]) -> f64 {
     let mut sorted = labels.to_vec();
     sorted.sort_by(f64::total_cmp);

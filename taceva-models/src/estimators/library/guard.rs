@@ -1,13 +1,13 @@
-//! Catches panics of linfa and smartcore and returns them as errors; nothing is printed.
+//! Converts panics of linfa and smartcore to errors, without printing them.
 
 use std::fmt::Display;
 
 use taceva_core::{ErrorKind, ModelError, contained};
 
-/// What `call` of the library gives for the model called `name`.
+/// Runs a library `call` for the model `name`.
 ///
 /// # Errors
-/// [`ModelError`] of kind `InvalidArgument` if the library refuses, of kind `Panicked` if it panics; both name the model.
+/// [`ModelError`] of kind `InvalidArgument` if the library fails, of kind `Panicked` if it panics. Both name the model.
 pub(crate) fn guarded<T, E: Display>(
     name: &str,
     call: impl FnOnce() -> Result<T, E>,
@@ -22,7 +22,7 @@ pub(crate) fn guarded<T, E: Display>(
     }
 }
 
-/// Refuses a fitted parameter that is not finite.
+/// Rejects fitted parameters that are not finite.
 pub(crate) fn finite<'a>(
     name: &str,
     mut numbers: impl Iterator<Item = &'a f64>,

@@ -1,4 +1,4 @@
-//! Models of linfa: each gives a checked task to the library and keeps what it fitted as tensors.
+//! Models of linfa: each passes a checked task to the library and stores the fit as tensors.
 
 mod elastic_net;
 mod linear;
@@ -11,10 +11,10 @@ use taceva_core::{ErrorKind, ModelError};
 
 use crate::estimators::library::{LibraryModel, LibraryTask};
 
-/// The release that this was built with.
+/// Release in use.
 const RELEASE: &str = "linfa 0.8.1";
 
-/// Every model, the plainest first.
+/// All models, the plainest first.
 pub(crate) const ALL: &[&LibraryModel] = &[
     &linear::ADAPTER.model,
     &pls::ADAPTER.model,
@@ -23,7 +23,7 @@ pub(crate) const ALL: &[&LibraryModel] = &[
     &logistic::ADAPTER.model,
 ];
 
-/// `values` as a matrix of `rows` rows.
+/// Reshapes `values` to a matrix of `rows` rows.
 fn matrix(values: &[f64], rows: usize) -> Result<Array2<f64>, ModelError> {
     let columns = values.len() / rows.max(1);
     Array2::from_shape_vec((rows, columns), values.to_vec()).map_err(|error| {
@@ -31,12 +31,12 @@ fn matrix(values: &[f64], rows: usize) -> Result<Array2<f64>, ModelError> {
     })
 }
 
-/// The rows of a task.
+/// Rows of a task.
 fn records(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
     matrix(task.rows, task.sizes.samples)
 }
 
-/// The rows of a task, kept column by column: for methods that go through features one by one.
+/// Rows of a task in column-major order, for methods that process features one by one.
 fn columns(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
     let (samples, features) = (task.sizes.samples, task.sizes.features);
     let by_column = (0..features).flat_map(|feature| {
@@ -48,7 +48,7 @@ fn columns(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
     })
 }
 
-/// The labels of one target.
+/// Labels of one target.
 fn labels(task: &LibraryTask<'_>, target: usize) -> Array1<f64> {
     Array1::from_vec(task.target(target))
 }

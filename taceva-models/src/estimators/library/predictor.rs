@@ -1,4 +1,4 @@
-//! Fitted parameters, kept as tensors, and how they predict: by our code, in an order that is always the same.
+//! Predictors of library models: parameters as tensors, and prediction by our code in a fixed order of operations.
 
 mod linear;
 #[cfg(feature = "linfa")]
@@ -15,7 +15,7 @@ pub(crate) use self::support::{Machine, Support};
 pub(crate) use self::trees::{Node, Tree, Trees};
 use taceva_core::{ErrorKind, ModelError};
 
-/// The error of tensors that no fit gives.
+/// Error for tensors that no fit produces.
 pub(crate) fn damaged(why: &str) -> ModelError {
     ModelError::new(ErrorKind::Protocol, why)
 }

@@ -1,4 +1,4 @@
-//! A fitted model of a library: the features it asks for, its parameters, and the scale of its answers.
+//! Fitted library models: features, parameters and output scale.
 
 use std::fmt;
 use std::sync::Arc;
@@ -64,12 +64,12 @@ impl LibraryRegressor {
         }
     }
 
-    /// The library that fitted it.
+    /// Library and release that fitted the model.
     pub fn card(&self) -> &LibraryCard {
         &self.card
     }
 
-    /// The model that a file holds, of a library that this build has.
+    /// Loads the model from a file. The build must include its library.
     pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         let card = stored.card.library.as_ref().ok_or(FormatError::Card)?;
         let model = library_models().find(|model| model.info.name == stored.card.model);
@@ -79,7 +79,7 @@ impl LibraryRegressor {
         })
     }
 
-    /// The model that a file holds, whose parameters `model` reads.
+    /// Builds the model from the tensors of a file, with parameters read by `model`.
     fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,

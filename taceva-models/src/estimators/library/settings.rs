@@ -1,9 +1,9 @@
-//! Settings that every model of a library has.
+//! Settings shared by all library models.
 
 use crate::linalg::FeatureScale;
 use crate::settings::{ModelSettings, SettingError, SettingInfo};
 
-/// How features are scaled before the library sees them, and what is learnt from once the settings are chosen.
+/// Feature scaling and refit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LibrarySettings {
     pub(crate) scale: FeatureScale,
@@ -11,12 +11,12 @@ pub(crate) struct LibrarySettings {
 }
 
 impl LibrarySettings {
-    /// Whether each feature is divided by its standard deviation over the training part.
+    /// Division of each feature by its standard deviation over the training part.
     pub(crate) const SCALE: SettingInfo = FeatureScale::SETTING;
-    /// Whether the validation part is learnt from too, once the settings are chosen.
+    /// Refit on training and validation parts with the chosen settings.
     pub(crate) const REFIT: SettingInfo = SettingInfo::REFIT;
 
-    /// What `settings` ask for.
+    /// Reads the settings.
     ///
     /// # Errors
     /// [`SettingError`] for a value out of range.

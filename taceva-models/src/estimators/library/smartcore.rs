@@ -1,4 +1,4 @@
-//! Models of smartcore: each gives a checked task to the library and keeps what it fitted as tensors.
+//! Models of smartcore: each passes a checked task to the library and stores the fit as tensors.
 
 mod boosting;
 mod forest;
@@ -13,10 +13,10 @@ use taceva_core::ModelError;
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::{LibraryModel, LibraryTask};
 
-/// The release that this was built with.
+/// Release in use.
 const RELEASE: &str = "smartcore 0.7.0";
 
-/// Every model, the plainest first.
+/// All models, the plainest first.
 pub(crate) const ALL: &[&LibraryModel] = &[
     &ridge::ADAPTER.model,
     &lasso::ADAPTER.model,
@@ -27,7 +27,7 @@ pub(crate) const ALL: &[&LibraryModel] = &[
     &boosting::ADAPTER.model,
 ];
 
-/// `values` as a matrix of `rows` rows, kept column by column, as the library reads it.
+/// Reshapes `values` to a matrix of `rows` rows, in column-major order for the library.
 fn matrix(name: &str, values: &[f64], rows: usize) -> Result<DenseMatrix<f64>, ModelError> {
     let columns = values.len() / rows.max(1);
     let by_column = (0..columns).flat_map(|column| {
@@ -39,7 +39,7 @@ fn matrix(name: &str, values: &[f64], rows: usize) -> Result<DenseMatrix<f64>, M
     })
 }
 
-/// The rows of a task.
+/// Rows of a task.
 fn records(name: &str, task: &LibraryTask<'_>) -> Result<DenseMatrix<f64>, ModelError> {
     matrix(name, task.rows, task.sizes.samples)
 }

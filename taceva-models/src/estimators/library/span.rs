@@ -1,14 +1,14 @@
-//! Samples in the coordinates of the space that they span, where there are no more of them than features.
+//! Coordinates of samples in their span, for no more samples than features.
 //!
-//! Least squares without a penalty (the shortest solution) and ridge regression do not change when features are rotated, and weights
-//! outside the space that samples span are 0. So a library that needs more samples than features gives the same answer from these
-//! coordinates, of which there are fewer than samples.
+//! Rotating the features does not change ridge regression or the least-norm solution of least squares. Weights outside the span of the
+//! samples are 0. A library that needs more samples than features therefore gives the same result in these coordinates, of which
+//! there are fewer than samples.
 
 use crate::estimators::library::predictor::Weighted;
 
-/// An orthonormal basis of the space that rows span about their mean, and the rows in it.
+/// Orthonormal basis of the span of rows about their mean, and the rows in this basis.
 pub(crate) struct Span {
-    /// The mean row, `[features]`.
+    /// Mean row, `[features]`.
     centre: Vec<f64>,
     /// `[dimensions, features]`.
     basis: Vec<f64>,
@@ -17,13 +17,13 @@ pub(crate) struct Span {
     pub(crate) rows: Vec<f64>,
 }
 
-/// A row of which less is left once those before it are projected out, relative to the longest row, adds no direction.
+/// Relative length, compared to the longest row, up to which a row's remainder after projection adds no direction.
 const TOLERANCE: f64 = 1e-10;
 
 impl Span {
-    /// That of `rows`, `[samples, features]`, by Gram–Schmidt with each projection done twice.
+    /// Computes the span of `rows`, `[samples, features]`, by Gram–Schmidt with each projection done twice.
     pub(crate) fn new(rows: &[f64], features: usize) -> Span {
-        // Rows of single-precision numbers are centred up to their rounding only, which would count as one dimension more.
+        // Single-precision rows are centred only up to rounding, which would add a dimension.
         let centre = mean(rows, features);
         let rows: Vec<f64> = (rows.chunks_exact(features))
             .flat_map(|row| {
@@ -62,7 +62,7 @@ impl Span {
         }
     }
 
-    /// The weights of features and the bias that equal `weights` of coordinates.
+    /// Converts `weights` of coordinates to weights of features and a bias.
     pub(crate) fn weights(&self, weights: &[f64]) -> Weighted {
         let mut of_features = vec![0.0; self.features];
         for (weight, direction) in weights.iter().zip(self.basis.chunks_exact(self.features)) {
@@ -74,7 +74,7 @@ impl Span {
     }
 }
 
-/// The mean of `rows`.
+/// Mean of `rows`.
 fn mean(rows: &[f64], features: usize) -> Vec<f64> {
     let samples = (rows.len() / features) as f64;
     let mut mean = vec![0.0; features];
@@ -85,7 +85,7 @@ fn mean(rows: &[f64], features: usize) -> Vec<f64> {
     mean
 }
 
-/// Eight partial sums, always in the same order.
+/// Dot product with eight partial sums, in a fixed order.
 fn dot(left: &[f64], right: &[f64]) -> f64 {
     let (left, last_left) = left.as_chunks::<8>();
     let (right, last_right) = right.as_chunks::<8>();

@@ -1,4 +1,4 @@
-//! Settings that support vector regression has in both libraries.
+//! Settings of support vector regression, shared by both libraries.
 
 use crate::estimators::library::adapter::{Number, Unset};
 use crate::settings::SettingInfo;

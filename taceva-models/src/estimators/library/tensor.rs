@@ -1,14 +1,14 @@
-//! The fitted parameters of a library's model, as tensors of a model file under a prefix.
+//! Parameters of library models as prefixed tensors of a model file.
 
 use safetensors::tensor::{Dtype, TensorView};
 use taceva_core::{ErrorKind, ModelError};
 
 use crate::training::file::tensors::{Raw, Tensors};
 
-/// Before the names of tensors that are a library's parameters.
+/// Prefix of the tensor names.
 const PREFIX: &str = "library.model.";
 
-/// `tensor` under the name that a file keeps.
+/// Adds the prefix to the name of `tensor`.
 pub(super) fn prefixed(tensor: Raw) -> Raw {
     Raw {
         name: format!("{PREFIX}{}", tensor.name),
@@ -16,23 +16,23 @@ pub(super) fn prefixed(tensor: Raw) -> Raw {
     }
 }
 
-/// The tensors that a file keeps of a library's model, asked for without the prefix.
+/// Tensors of a library model in a file, accessed without the prefix.
 pub(crate) struct LibraryTensors<'a>(pub(super) &'a Tensors<'a>);
 
 impl<'a> LibraryTensors<'a> {
-    /// The first length of the shape of `name`.
+    /// First dimension of the tensor `name`.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `Protocol` if there is no such tensor, or it is a number.
+    /// [`ModelError`] of kind `Protocol` if the tensor is missing or a scalar.
     pub(crate) fn rows(&self, name: &str) -> Result<usize, ModelError> {
         let rows = self.tensor(name)?.shape().first().copied();
         rows.ok_or_else(|| wrong(name, "rows"))
     }
 
-    /// The doubles of `name`, all finite.
+    /// Values of the f64 tensor `name`, all finite.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `Protocol` if there is no such tensor, it has another shape, or a number is not finite.
+    /// [`ModelError`] of kind `Protocol` if the tensor is missing, of another type or shape, or not finite.
     pub(crate) fn doubles(&self, name: &str, shape: &[usize]) -> Result<Vec<f64>, ModelError> {
         let expected = "finite doubles of the shape of the model";
         let bytes = self.bytes(name, Dtype::F64, shape, expected)?;
@@ -44,10 +44,10 @@ impl<'a> LibraryTensors<'a> {
             .ok_or_else(|| wrong(name, expected))
     }
 
-    /// The singles of `name`, all finite.
+    /// Values of the f32 tensor `name`, all finite.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `Protocol` if there is no such tensor, it has another shape, or a number is not finite.
+    /// [`ModelError`] of kind `Protocol` if the tensor is missing, of another type or shape, or not finite.
     pub(crate) fn singles(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, ModelError> {
         let expected = "finite singles of the shape of the model";
         let bytes = self.bytes(name, Dtype::F32, shape, expected)?;
@@ -59,10 +59,10 @@ impl<'a> LibraryTensors<'a> {
             .ok_or_else(|| wrong(name, expected))
     }
 
-    /// The integers of `name`.
+    /// Values of the u32 tensor `name`.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `Protocol` if there is no such tensor, or it has another shape.
+    /// [`ModelError`] of kind `Protocol` if the tensor is missing, or of another type or shape.
     pub(crate) fn integers(&self, name: &str, shape: &[usize]) -> Result<Vec<u32>, ModelError> {
         let expected = "integers of the shape of the model";
         let bytes = self.bytes(name, Dtype::U32, shape, expected)?;

@@ -1,4 +1,4 @@
-//! Training samples that are kept, and the mean of the nearest.
+//! Nearest-neighbour models: stored training samples and their weighted mean.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -13,15 +13,15 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{OutputScale, check_call, check_finite};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Training samples, their labels, and how many of the nearest each channel is the mean of.
+/// Training samples, their labels, and the number of neighbours of each channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NeighbourRegressor {
     channels: Channels,
     shape: FeatureShape,
     standard: Standard,
-    /// A training sample after the other.
+    /// Standardised training samples, concatenated.
     rows: Vec<f32>,
-    /// Centred, scaled labels: a row a training sample, a column a channel.
+    /// Centred, scaled labels: one row per training sample, one column per channel.
     labels: Vec<f64>,
     scale: OutputScale,
     counts: Vec<usize>,
@@ -35,14 +35,14 @@ const OFFSET: &str = "neighbours.offset";
 const ROWS: &str = "neighbours.samples";
 const SPAN: &str = "neighbours.span";
 
-/// A training sample near another.
+/// Neighbour of a sample.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     distance: f32,
     sample: usize,
 }
 
-/// The `count` rows nearest to `sample` and all exactly as far as the last of them, nearest first.
+/// Nearest `count` rows of `sample` and all at the distance of the last, nearest first.
 pub(super) fn nearest(sample: &[f32], rows: &[f32], count: usize) -> Vec<Near> {
     let rows = rows.chunks_exact(sample.len()).enumerate();
     let mut all: Vec<Near> = rows
@@ -65,7 +65,7 @@ pub(super) fn nearest(sample: &[f32], rows: &[f32], count: usize) -> Vec<Near> {
     all
 }
 
-/// The mean of `label` over the first `count` of `near` and all as far as the last of them, weighted by 1 / distance.
+/// Mean of `label` over the first `count` of `near` and all at the distance of the last, weighted by 1 / distance.
 pub(super) fn weighted(near: &[Near], count: usize, label: impl Fn(usize) -> f64) -> f64 {
     let farthest = near[count.min(near.len()) - 1].distance;
     let inside = near.iter().take_while(|near| near.distance <= farthest);
@@ -105,17 +105,17 @@ impl NeighbourRegressor {
         }
     }
 
-    /// How many training samples are kept.
+    /// Number of stored training samples.
     pub fn samples(&self) -> usize {
         self.labels.len() / self.channels.len()
     }
 
-    /// The model that a file holds.
+    /// Loads the model from a file.
     pub(crate) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         stored.on_components(NeighbourRegressor::from_tensors)
     }
 
-    /// The model that a file holds.
+    /// Builds the model from the tensors of a file.
     fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,
@@ -221,7 +221,7 @@ mod tests {
         let rows = [0.0, 1.0, 3.0, -3.0, 1.0];
         let labels = [10.0, 2.0, 8.0, 6.0, 4.0];
         let label = |sample: usize| labels[sample];
-        // 1.0 stands there twice.
+        // 1.0 occurs twice.
         let near = nearest(&[1.0], &rows, 3);
         assert!((weighted(&near, 3, label) - 3.0).abs() < 1e-15);
         // From 0.5: 0.0, 1.0 and 1.0 are all 0.5 away.

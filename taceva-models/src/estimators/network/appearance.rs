@@ -1,4 +1,4 @@
-//! How pictures are prepared for a network, by what of them is the signal: where markers move, or light itself.
+//! Preprocessing and augmentation of pictures for a network, depending on their signal: moving markers, or light.
 
 use taceva_core::FeatureShape;
 use taceva_network::Jitter;
@@ -6,29 +6,29 @@ use taceva_network::Jitter;
 use crate::features::Preprocessing;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
-/// What of a picture is the signal.
+/// Signal of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Appearance {
-    /// Where markers move: what changes slowly over a picture is subtracted, each is divided by its deviation, and training pictures are shifted. As
-    /// wide for the picture as [`USUAL`] is for 128 columns.
+    /// Moving markers: subtracts a local mean, divides each picture by its standard deviation, and shifts training pictures.
+    /// Widths are those of [`USUAL`], in proportion to the picture's width.
     Markers,
-    /// Light and place: nothing is done to pictures.
+    /// Light and position: pictures are unchanged.
     Light,
-    /// Light of what has several numbers a place, as pictures in colour have, markers of what has one.
+    /// Light for pictures with several values per cell, such as colour; otherwise markers.
     ByPicture,
 }
 
-/// How pictures are prepared.
+/// Preprocessing and augmentation of pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Prepared {
     pub(super) preprocessing: Preprocessing,
-    /// How far training pictures are shifted at most.
+    /// Largest shift of training pictures.
     pub(super) jitter_px: usize,
-    /// The standard deviation of what is added to training pictures, after preprocessing.
+    /// Standard deviation of the noise added to training pictures, after preprocessing.
     pub(super) noise: f64,
 }
 
-/// How pictures are prepared where nobody says anything.
+/// Default settings.
 const USUAL: Prepared = Prepared {
     preprocessing: Preprocessing {
         local_mean_px: 6.0,
@@ -38,10 +38,10 @@ const USUAL: Prepared = Prepared {
     noise: 0.1,
 };
 
-/// Columns for which [`USUAL`] is made.
+/// Columns of pictures to which [`USUAL`] applies.
 const USUAL_WIDTH: usize = 128;
 
-/// Pictures as they are.
+/// Settings for unchanged pictures.
 const AS_THEY_ARE: Prepared = Prepared {
     preprocessing: Preprocessing {
         local_mean_px: 0.0,
@@ -51,7 +51,7 @@ const AS_THEY_ARE: Prepared = Prepared {
     noise: 0.0,
 };
 
-/// What a person asked for of all this.
+/// Settings given by the user.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Preparation {
     appearance: Option<Appearance>,
@@ -95,10 +95,10 @@ const CONTRAST: SettingInfo = SettingInfo {
 };
 
 impl Preparation {
-    /// What can be set.
+    /// Settings in the registry.
     pub(super) const SETTINGS: [SettingInfo; 5] = [APPEARANCE, JITTER, NOISE, LOCAL_MEAN, CONTRAST];
 
-    /// What `settings` ask for.
+    /// Reads the settings.
     pub(super) fn from_settings(settings: &ModelSettings) -> Result<Preparation, SettingError> {
         Ok(Preparation {
             appearance: settings.value(&APPEARANCE, None, |text| match text {
@@ -117,8 +117,8 @@ impl Preparation {
         })
     }
 
-    /// The same for signals. The mean of a picture and its contrast say little about a touch; those of taxels are the touch, and a taxel that is
-    /// shifted by one is another: nothing is done to them but what a person asked for.
+    /// Settings for signals. Mean and contrast of a picture say little about a touch, but those of taxels are the touch, and a shifted
+    /// taxel is another taxel. Signals are therefore changed only as far as the user asks.
     pub(super) fn of_signals(self) -> Preparation {
         Preparation {
             of_signals: true,
@@ -126,7 +126,7 @@ impl Preparation {
         }
     }
 
-    /// How pictures of `shape` are prepared.
+    /// Resolves the settings for pictures of `shape`.
     pub(super) fn of(self, shape: FeatureShape) -> Prepared {
         let usual = match self.appearance {
             _ if self.of_signals => Prepared {
@@ -154,7 +154,7 @@ impl Preparation {
 }
 
 impl Prepared {
-    /// Shifts of training pictures, which leave labels as they are.
+    /// Shifts of training pictures, which do not change labels.
     pub(super) fn jitter(&self) -> Jitter {
         Jitter {
             pixels: self.jitter_px,
@@ -163,17 +163,17 @@ impl Prepared {
     }
 }
 
-/// What is [usual](USUAL), in proportion to `width`.
+/// [`USUAL`] in proportion to `width`.
 fn markers(width: usize) -> Prepared {
     let share = width as f64 / USUAL_WIDTH as f64;
     Prepared {
         preprocessing: Preprocessing {
-            // No wider than what a person may ask for.
+            // Limited to the range of the setting.
             local_mean_px: (share * USUAL.preprocessing.local_mean_px)
                 .min(Preprocessing::LOCAL_MEAN_MAX),
             ..USUAL.preprocessing
         },
-        // Rounded half up.
+        // Rounds half up.
         jitter_px: (2 * USUAL.jitter_px * width + USUAL_WIDTH) / (2 * USUAL_WIDTH),
         noise: USUAL.noise,
     }
@@ -222,7 +222,7 @@ mod tests {
         assert_eq!(of(&["appearance=light"], 64, 1), light);
         assert_eq!(of(&["appearance=auto"], 64, 3), light);
         assert_eq!(of(&["appearance=auto"], 64, 1), (3.0, true, 2, 0.1));
-        // Where nobody asks, colours change nothing.
+        // Without the setting, colours change nothing.
         assert_eq!(of(&[], 64, 3), of(&[], 64, 1));
     }
 

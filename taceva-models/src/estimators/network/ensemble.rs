@@ -1,4 +1,4 @@
-//! The mean of several small networks that differ in what is drawn.
+//! Ensembles: mean of small networks with different seeds.
 
 mod regressor;
 
@@ -15,7 +15,7 @@ use crate::training::fit::{ModelEstimator, ModelFit, estimator};
 use crate::training::info::ModelInfo;
 use crate::training::regressor::ModelRegressor;
 
-/// Small networks that are fitted to the same samples one after the other, each with a seed of its own, and whose predictions are averaged.
+/// Small networks fitted to the same samples with different seeds. Their predictions are averaged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkEnsemble {
     members: Vec<NetworkEstimator>,
@@ -30,7 +30,7 @@ const MEMBERS: SettingInfo = SettingInfo {
 
 const OF_EACH: &[SettingInfo] = NetworkEstimator::CNN.settings;
 
-/// Those of the small network, and how many there are.
+/// Settings of the small network, and the number of members.
 const SETTINGS: [SettingInfo; OF_EACH.len() + 1] = {
     let mut all = [MEMBERS; OF_EACH.len() + 1];
     let mut at = 0;
@@ -42,7 +42,7 @@ const SETTINGS: [SettingInfo; OF_EACH.len() + 1] = {
 };
 
 impl NetworkEnsemble {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "cnn-ensemble",
         about: "the mean of several cnn of different seeds",
@@ -52,7 +52,7 @@ impl NetworkEnsemble {
         load: EnsembleRegressor::load,
     };
 
-    /// The networks as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -104,7 +104,7 @@ impl ModelEstimator for NetworkEnsemble {
             None => vec![None; training.targets.channels.len()],
         };
         Ok(ModelFit {
-            // Each has an epoch of its own, so that there is no value to name.
+            // Each member has its own best epoch, so no single value is reported.
             choice: Choice {
                 by: last.choice.by,
                 ..Choice::nobodys(errors)

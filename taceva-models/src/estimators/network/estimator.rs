@@ -1,4 +1,4 @@
-//! Networks before they are fitted: what can be set.
+//! Unfitted networks and their settings.
 
 use taceva_core::{FeatureShape, SignalInfo};
 use taceva_network::GpuKind;
@@ -12,22 +12,22 @@ use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::checkpoint::Checkpoints;
 use crate::training::info::ModelInfo;
 
-/// A network to be fitted: AdamW, one cycle of the rate, Huber's loss on standardised labels, the epoch that does best on the
-/// validation part.
+/// Unfitted network. Training uses AdamW, one cycle of the rate, Huber's loss on standardised labels, and the epoch of least
+/// validation error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkEstimator {
     kind: Kind,
-    /// But for the noise and the shifts of training pictures, which [`preparation`](Self::preparation) has.
+    /// Training settings, without noise and shifts, which [`preparation`](Self::preparation) holds.
     recipe: Recipe,
     preparation: Preparation,
-    /// The form of convolutions for predictions.
+    /// Form of convolutions for predictions.
     pub(super) convolutions: ConvolutionForm,
-    /// How the GPU that trains is reached, where the processor does not.
+    /// Kind of GPU that trains. `None` for the CPU.
     pub(super) gpu: Option<GpuKind>,
     pub(super) checkpoints: Option<Checkpoints>,
 }
 
-/// Which network.
+/// Kind of network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     FiveLayers,
@@ -109,10 +109,10 @@ const SETTINGS: &[SettingInfo] = &{
     ]
 };
 
-/// The least number of places along a side of a grid: five layers, each of half as many places as the one before, need so many.
+/// Fewest cells along a side of a grid: each of five layers halves it.
 const PLACES_LEAST: u32 = 8;
 
-/// What networks see where nothing else is asked for.
+/// Default features of networks.
 const FEATURES: FeatureSpec = FeatureSpec {
     kinds: FeatureKinds::PIXELS,
     width: 128,
@@ -123,7 +123,7 @@ const FEATURES: FeatureSpec = FeatureSpec {
     channels: None,
 };
 
-/// A [`ModelInfo`] of a network.
+/// Builds the [`ModelInfo`] of a network.
 macro_rules! info {
     ($name:literal, $about:literal, $kind:expr) => {
         ModelInfo {
@@ -138,32 +138,32 @@ macro_rules! info {
 }
 
 impl NetworkEstimator {
-    /// The small network in the list of models.
+    /// Registry entry of the small network.
     pub const CNN: ModelInfo = info!(
         "cnn",
         "five convolutions: sees where markers move, fitted in a minute",
         Kind::FiveLayers
     );
-    /// The residual network of ten layers in the list of models.
+    /// Registry entry of the residual network of ten layers.
     pub const RESNET_10: ModelInfo = info!(
         "resnet10",
         "a residual network of ten layers",
         Kind::Residual(Depth::Ten)
     );
-    /// The residual network of eighteen layers in the list of models.
+    /// Registry entry of the residual network of eighteen layers.
     pub const RESNET_18: ModelInfo = info!(
         "resnet18",
         "a residual network of eighteen layers",
         Kind::Residual(Depth::Eighteen)
     );
-    /// The residual network of thirty-four layers in the list of models.
+    /// Registry entry of the residual network of thirty-four layers.
     pub const RESNET_34: ModelInfo = info!(
         "resnet34",
         "a residual network of thirty-four layers",
         Kind::Residual(Depth::ThirtyFour)
     );
 
-    /// The small network as `settings` ask for.
+    /// Builds the small network from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -215,7 +215,7 @@ impl NetworkEstimator {
         })
     }
 
-    /// The same for signals of `info`.
+    /// Adapts the estimator to signals of `info`.
     pub(super) fn for_signals(&self, info: SignalInfo) -> Result<NetworkEstimator, FeatureError> {
         if info.rows.min(info.columns) < PLACES_LEAST {
             let least = PLACES_LEAST;
@@ -226,7 +226,7 @@ impl NetworkEstimator {
         Ok(own)
     }
 
-    /// Its recipe for pictures of `shape`, and what is done to each of them before.
+    /// Training settings and preprocessing for pictures of `shape`.
     pub(super) fn recipe(&self, shape: FeatureShape) -> (Recipe, Preprocessing) {
         let prepared = self.preparation.of(shape);
         let mut recipe = self.recipe.clone();
@@ -235,7 +235,7 @@ impl NetworkEstimator {
         (recipe, prepared.preprocessing)
     }
 
-    /// The same, with this done to its recipe.
+    /// Copy with a changed recipe.
     pub(super) fn with_recipe(&self, change: impl FnOnce(&mut Recipe)) -> NetworkEstimator {
         let mut own = self.clone();
         change(&mut own.recipe);
@@ -259,7 +259,7 @@ impl NetworkEstimator {
     }
 }
 
-/// The form that `word` means.
+/// Parses a form of convolutions.
 fn form_of(word: &str) -> Option<ConvolutionForm> {
     match word {
         "winograd" => Some(ConvolutionForm::Winograd),
@@ -269,7 +269,7 @@ fn form_of(word: &str) -> Option<ConvolutionForm> {
     }
 }
 
-/// The GPU that `device` means, none for the processor.
+/// Parses a device. `Some(None)` is the CPU, `None` an unknown device.
 fn gpu_of(device: &str) -> Option<Option<GpuKind>> {
     if device == "cpu" {
         return Some(None);

@@ -1,4 +1,4 @@
-//! How a network is fitted: what is learnt from which samples, and what its card says of it.
+//! Fitting of networks and their model cards.
 
 use taceva_core::{ModelError, Progress, SignalInfo, TrainingSet};
 use taceva_network::Gpu;
@@ -16,7 +16,7 @@ use crate::training::fit::{ModelEstimator, ModelFit, estimator};
 use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 
-/// The labels of a part whose channel is among `varying`.
+/// Labels of the channels `varying`.
 fn labels_of(set: &TrainingSet<'_>, varying: &[usize]) -> Vec<f64> {
     let rows = set.targets.values.chunks_exact(set.targets.channels.len());
     rows.flat_map(|row| varying.iter().map(|&channel| row[channel]))
@@ -44,7 +44,7 @@ impl ModelEstimator for NetworkEstimator {
         if shape.height == 1 && shape.depth == 1 {
             return Err(invalid(NO_PICTURE));
         }
-        // Looked for before anything is computed.
+        // Finds the GPU before computing anything.
         let gpu = self.gpu.map(Gpu::find).transpose().map_err(no_gpu)?;
         let channels = training.targets.channels;
         let is_constant = |channel: &usize| problem.scaling.is_constant(*channel);
@@ -88,7 +88,7 @@ impl ModelEstimator for NetworkEstimator {
                 scale,
                 state,
             }) => (network, scale, state.best),
-            // Nothing varies, so that nothing is to be learnt.
+            // All labels are constant: no training.
             None => {
                 let network = Network::new(&architecture, recipe.seed).map_err(refused)?;
                 (network, LabelScale::identity(1), None)

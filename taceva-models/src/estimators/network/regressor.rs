@@ -1,4 +1,4 @@
-//! A fitted network.
+//! Fitted networks.
 
 use std::sync::Mutex;
 
@@ -18,21 +18,21 @@ use crate::training::file::limits::FILE_MAX;
 use crate::training::file::tensors::{DISTANCE, Raw, Tensors};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// A fitted network, from features to channels.
+/// Fitted network from features to channels.
 #[derive(Debug)]
 pub struct NetworkRegressor {
     channels: Channels,
     card: NetworkCard,
     network: Network,
-    /// Predictors that are not in use: each call takes one, or makes one.
+    /// Idle predictors: each call takes one or builds one.
     spare: Mutex<Vec<Predictor>>,
 }
 
 impl NetworkRegressor {
-    /// A regressor of a ready network.
+    /// Builds a regressor from a network.
     ///
     /// # Errors
-    /// [`ModelError`] if the card, the network and the channels do not go together.
+    /// [`ModelError`] if card, network and channels do not match.
     pub(crate) fn new(
         channels: Channels,
         card: NetworkCard,
@@ -41,7 +41,7 @@ impl NetworkRegressor {
         let outputs = card.architecture.outputs;
         let varying = card.constant.iter().filter(|label| label.is_none()).count();
         let lengths = [card.scale.offset.len(), card.scale.span.len()];
-        // Where every label was the same, one output is left that nobody reads.
+        // If all labels are constant, the network has one unused output.
         if card.constant.len() != channels.len()
             || varying.max(1) != outputs
             || lengths != [outputs; 2]
@@ -69,17 +69,17 @@ impl NetworkRegressor {
         })
     }
 
-    /// What a file says of it.
+    /// Network settings in the model card.
     pub fn card(&self) -> &NetworkCard {
         &self.card
     }
 
-    /// Its tensors: for residual networks under the names of torchvision.
+    /// Tensors, with torchvision's names for residual networks.
     pub fn tensors(&self) -> Vec<NamedTensor> {
         self.network.tensors()
     }
 
-    /// The model that a file holds.
+    /// Loads the model from a file.
     pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         let network = stored.card.network.as_ref().ok_or(FormatError::Card)?;
         let found = named_tensors(&stored.tensors)?;
@@ -87,7 +87,7 @@ impl NetworkRegressor {
         Ok(ModelRegressor::new(own))
     }
 
-    /// The network that `found` tensors of a file and its card describe.
+    /// Builds the network from tensors of a file and its card.
     pub(super) fn of_tensors(
         stored: &Stored<'_>,
         card: &NetworkCard,
@@ -97,7 +97,7 @@ impl NetworkRegressor {
         if card.architecture.input != picture(shape) || stored.card.features.pca.is_some() {
             return Err(FormatError::Card);
         }
-        // A card may lie: nothing is made that the file could not fill.
+        // The card may be wrong: rejects networks larger than any file before allocating them.
         let parameters = card.architecture.parameters()?;
         if parameters as u64 > FILE_MAX / size_of::<f32>() as u64 {
             return Err(FormatError::Card);
@@ -107,7 +107,7 @@ impl NetworkRegressor {
         Ok(NetworkRegressor::new(channels, card.clone(), ready)?)
     }
 
-    /// The outputs for pictures that were preprocessed.
+    /// Computes the outputs for preprocessed pictures.
     fn outputs(&self, pictures: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
         let spare = || {
             self.spare
@@ -134,7 +134,7 @@ impl Clone for NetworkRegressor {
     }
 }
 
-/// Features as a network sees them.
+/// Picture shape of features.
 pub(super) const fn picture(shape: FeatureShape) -> Picture {
     Picture {
         height: shape.height,
@@ -143,7 +143,7 @@ pub(super) const fn picture(shape: FeatureShape) -> Picture {
     }
 }
 
-/// All tensors of a file but those of the distance from the training part; they must be of single precision.
+/// All tensors of a file except those of the training distance. They must be f32.
 pub(super) fn named_tensors(tensors: &Tensors<'_>) -> Result<Vec<NamedTensor>, FormatError> {
     let all = tensors.0.tensors().into_iter();
     let own = all.filter(|(name, _)| !DISTANCE.contains(&name.as_str()));

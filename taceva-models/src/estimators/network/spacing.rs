@@ -1,4 +1,4 @@
-//! The spacing of a grating, predicted by a network.
+//! Prediction of grating spacings by a network.
 
 use taceva_core::{FeatureShape, Features, ModelError, Nanometre, Progress};
 use taceva_network::Gpu;
@@ -9,34 +9,34 @@ use super::training::{Training, no_gpu, refused};
 use crate::features::Preprocessing;
 use crate::linalg::invalid;
 
-/// What the outputs of a network say of a spacing.
+/// Kind of output for spacings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpacingOutput {
-    /// An output for each spacing of the training pictures, learnt by cross-entropy: the prediction is one of them.
+    /// One output per spacing of the training pictures, trained with cross entropy. Predicts one of these spacings.
     Classes,
-    /// One output, the spacing itself, learnt by Huber's loss: the prediction may lie between those of the training pictures.
+    /// One output, the spacing, trained with Huber's loss. Predictions may lie between training spacings.
     Length,
 }
 
-/// A fitted network that predicts spacings.
+/// Fitted network for spacings.
 #[derive(Debug)]
 pub struct SpacingNetwork {
     shape: FeatureShape,
     preprocessing: Preprocessing,
-    /// Absent where all training pictures have one spacing: there is nothing to be learnt.
+    /// `None` if all training pictures have the same spacing.
     network: Option<(Network, LabelScale)>,
     output: SpacingOutput,
-    /// The spacings of the training pictures, ascending.
+    /// Spacings of the training pictures, ascending.
     known: Vec<Nanometre>,
 }
 
 impl NetworkEstimator {
-    /// A network that predicts the spacing of the grating in each of `pictures`, fitted with the recipe of this one.
+    /// Fits a network to the grating spacing of each of `pictures`, with the settings of this estimator.
     ///
     /// # Shapes
     /// `spacings`: `[samples]`.
     /// # Errors
-    /// [`ModelError`] if there are no pictures or not as many as spacings, or as [`Estimator::fit`](taceva_core::Estimator::fit).
+    /// [`ModelError`] without pictures or for another number of spacings; otherwise as [`Estimator::fit`](taceva_core::Estimator::fit).
     pub fn fit_spacings(
         &self,
         pictures: &Features,
@@ -94,7 +94,7 @@ impl NetworkEstimator {
     }
 }
 
-/// The recipe for outputs of that kind, in batches that `samples` make.
+/// Training settings for this kind of output, with batches of at most `samples`.
 fn recipe_of(recipe: Recipe, output: SpacingOutput, samples: usize) -> Recipe {
     Recipe {
         batch: recipe.batch.min(samples),
@@ -129,10 +129,10 @@ impl Learnt {
 }
 
 impl SpacingNetwork {
-    /// The spacing in each of `pictures`.
+    /// Predicts the spacing in each of `pictures`.
     ///
     /// # Errors
-    /// [`ModelError`] if the pictures are of another shape, or a prediction is no length.
+    /// [`ModelError`] if the shape of the pictures differs, or a prediction is not a valid length.
     pub fn predict(&self, pictures: &Features) -> Result<Vec<Nanometre>, ModelError> {
         if pictures.shape() != self.shape {
             return Err(invalid(format!(
@@ -163,7 +163,7 @@ impl SpacingNetwork {
     }
 }
 
-/// The place of the greatest number; the first of equal ones.
+/// Index of the greatest value; the first of equal ones.
 fn greatest(outputs: &[f64]) -> usize {
     let mut places = 0..outputs.len();
     let first = places.next().unwrap_or(0);

@@ -1,4 +1,4 @@
-//! A training, gone on with where it was interrupted.
+//! Training runs, with resumption after an interruption.
 
 use taceva_core::shown;
 use taceva_core::{ErrorKind, ModelError, Progress};
@@ -9,20 +9,20 @@ use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::checkpoint::Checkpoints;
 use crate::training::checkpoint::{Identity, Shelf};
 
-/// What a training is made of.
+/// Input of a training run.
 pub(super) struct Training<'a> {
     pub(super) architecture: &'a Architecture,
     pub(super) recipe: &'a Recipe,
     pub(super) samples: Samples<'a>,
     pub(super) validation: Option<Samples<'a>>,
-    /// What trains it, where the processor does not.
+    /// GPU that trains. `None` for the CPU.
     pub(super) gpu: Option<&'a Gpu>,
-    /// Where its checkpoints are kept.
+    /// Checkpoints of the run.
     pub(super) checkpoints: Option<&'a Checkpoints>,
 }
 
 impl<'a> Training<'a> {
-    /// Makes all remaining steps, and reports progress after each.
+    /// Runs all remaining steps and reports progress after each.
     pub(super) fn run(&self, progress: &dyn Progress) -> Result<Trained, ModelError> {
         let mut shelf = self.shelf();
         let (name, mut trainer) = self.begin(shelf.as_ref())?;
@@ -61,7 +61,7 @@ impl<'a> Training<'a> {
         })
     }
 
-    /// The training from its checkpoint, or a new one, and what to call it.
+    /// Resumes the training from its checkpoint, or starts a new one. Returns its title for progress reports too.
     fn begin(&self, shelf: Option<&Shelf<'_>>) -> Result<(&'static str, Trainer<'a>), ModelError> {
         let (samples, validation) = (self.samples, self.validation);
         let found = shelf.map(Shelf::take).transpose()?.flatten();
@@ -87,7 +87,7 @@ impl<'a> Training<'a> {
     }
 }
 
-/// The error of a training that cannot go on; its best epoch is kept where checkpoints are.
+/// Error of a training that cannot continue. Saves a checkpoint of its best epoch if checkpoints are enabled.
 fn broken(error: NetworkError, trainer: &Trainer<'_>, shelf: Option<Shelf<'_>>) -> ModelError {
     let refusal = refused(error);
     let Some((best, mut shelf)) = trainer.state().best.zip(shelf) else {
@@ -101,7 +101,7 @@ fn broken(error: NetworkError, trainer: &Trainer<'_>, shelf: Option<Shelf<'_>>) 
     ModelError::new(refusal.kind(), format!("{refusal}; {kept}")).because(refusal)
 }
 
-/// What a network refused, as models say it.
+/// Converts a network error to a model error.
 pub(super) fn refused(error: NetworkError) -> ModelError {
     let kind = match error {
         NetworkError::LossNotFinite { .. }
@@ -113,7 +113,7 @@ pub(super) fn refused(error: NetworkError) -> ModelError {
     ModelError::new(kind, error.to_string()).because(error)
 }
 
-/// Why there is no GPU, as models say it.
+/// Converts a GPU error to a model error.
 pub(super) fn no_gpu(error: GpuError) -> ModelError {
     let kind = match error {
         GpuError::NotFound { .. } => ErrorKind::NotFound,

@@ -1,10 +1,10 @@
-//! The same training, shorter or with another seed.
+//! Variants of a training: shorter, or with another seed.
 
 use super::NetworkEstimator;
 
 impl NetworkEstimator {
-    /// The same with `share` of its epochs, at least one, and no checkpoints. The cycle of the rate is as much shorter, so that it ends as the whole
-    /// training does.
+    /// Copy with `share` of its epochs, at least one, and without checkpoints. The cycle of the rate shortens with it, so it ends like
+    /// the whole training.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -19,7 +19,7 @@ impl NetworkEstimator {
         own
     }
 
-    /// The same with a seed that is `by` larger, and no checkpoints.
+    /// Copy with a seed increased by `by`, and without checkpoints.
     pub(super) fn with_later_seed(&self, by: u64) -> NetworkEstimator {
         let mut own = self.with_recipe(|recipe| recipe.seed = recipe.seed.wrapping_add(by));
         own.checkpoints = None;

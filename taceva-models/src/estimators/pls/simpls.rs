@@ -1,4 +1,4 @@
-//! The directions of SIMPLS, by products with the features alone: neither a Gram matrix nor a deflated copy is stored.
+//! SIMPLS directions by products with the features alone, without a Gram matrix or a deflated copy.
 
 use faer::{Mat, MatRef};
 use taceva_core::{ModelError, Progress};
@@ -6,20 +6,20 @@ use taceva_core::{ModelError, Progress};
 use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::linalg::{Design, multiply, symmetric_eigen};
 
-/// A part of the features' norm below which a direction is rounding, not data.
+/// Relative norm below which a direction is rounding noise.
 const NOISE: f64 = 1e-10;
 
-/// Directions in feature space with orthonormal scores, and how each channel follows each of them.
+/// Directions in feature space with orthonormal scores, and the loadings of each channel.
 #[derive(Debug)]
 pub(super) struct Directions {
-    /// A column a direction.
+    /// One column per direction.
     weights: Mat<f64>,
-    /// A row a direction, a column a channel.
+    /// One row per direction, one column per channel.
     loadings: Vec<Vec<f64>>,
 }
 
 impl Directions {
-    /// At most `count` directions of `design` for centred `targets`; fewer where the labels are explained before.
+    /// Finds at most `count` directions of `design` for centred `targets`; fewer if they explain all labels.
     pub(super) fn find(
         design: &Design<'_>,
         targets: &Mat<f64>,
@@ -50,7 +50,7 @@ impl Directions {
             );
             let mut loading = design.transpose_times(score.as_ref());
             let length = loading.norm_l2();
-            // Twice, because one pass leaves rounding of the parts it took away.
+            // Orthogonalises twice, because one pass leaves rounding errors.
             for _ in 0..2 {
                 basis
                     .iter()
@@ -74,7 +74,7 @@ impl Directions {
         })
     }
 
-    /// How many there are.
+    /// Number of directions.
     pub(super) fn count(&self) -> usize {
         self.loadings.len()
     }
@@ -87,7 +87,7 @@ impl Directions {
         self.loadings[direction][channel]
     }
 
-    /// The weights of features where each channel uses the first of `counts` directions, a column a channel.
+    /// Weights of features for the first `counts` directions of each channel, one column per channel.
     pub(super) fn solution(&self, counts: &[usize]) -> Mat<f64> {
         let coefficients = Mat::from_fn(self.count(), counts.len(), |direction, channel| {
             if direction < counts[channel] {
@@ -100,7 +100,7 @@ impl Directions {
     }
 }
 
-/// The combination of channels with which the features go best.
+/// Combination of channels with the greatest covariance with the features.
 fn dominant(covariance: &Mat<f64>) -> Result<Mat<f64>, ModelError> {
     let square = multiply(covariance.transpose(), covariance.as_ref());
     let (_, vectors) = symmetric_eigen(square.as_ref())?;
@@ -117,7 +117,7 @@ fn divide(vector: &mut Mat<f64>, by: f64) {
         .for_each(|value| *value /= by);
 }
 
-/// Takes the part along the unit vector `direction` out of every column.
+/// Subtracts the component along the unit vector `direction` from every column.
 fn remove(columns: &mut Mat<f64>, direction: &Mat<f64>) {
     let along = multiply(direction.transpose(), columns.as_ref());
     for column in 0..columns.ncols() {

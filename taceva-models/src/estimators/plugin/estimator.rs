@@ -1,4 +1,4 @@
-//! The estimator of a plugin among ours.
+//! Adapter from plugin estimators to [`ModelEstimator`].
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::training::fit::{ModelEstimator, ModelFit, estimator};
 use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 
-/// An estimator of a plugin with its settings, not fitted yet.
+/// Unfitted estimator of a plugin with its settings.
 pub(crate) struct PluginEstimator {
     pub(crate) factory: Arc<dyn EstimatorFactory>,
     pub(crate) settings: Args,
@@ -45,7 +45,7 @@ impl ModelEstimator for PluginEstimator {
             None => vec![None; training.targets.channels.len()],
         };
         Ok(ModelFit {
-            // What a plugin makes of the validation part, it does not say.
+            // A plugin does not report its use of the validation part.
             choice: Choice::nobodys(errors),
             regressor: ModelRegressor::new(regressor),
             scaling: problem.scaling,

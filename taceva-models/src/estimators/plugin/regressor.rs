@@ -1,4 +1,4 @@
-//! A fitted model of a plugin.
+//! Fitted models of plugins.
 
 use std::fmt;
 use std::sync::Arc;
@@ -17,13 +17,13 @@ use crate::training::file::error::FormatError;
 use crate::training::file::tensors::Raw;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// The tensor of a file that holds its maker's bytes.
+/// Tensor of a file with the plugin's bytes.
 const TENSOR: &str = "plugin";
 
-/// The error of the model of a plugin on principal components.
+/// Error for a plugin model on principal components.
 const OPAQUE: &str = "the model of a plugin reads pixels; it cannot be joined with principal components, and may find its own";
 
-/// A fitted model of a plugin: its maker answers, and its maker's bytes are kept.
+/// Fitted model of a plugin. The plugin predicts; this type stores its bytes.
 #[derive(Clone)]
 pub struct PluginRegressor {
     card: PluginCard,
@@ -60,7 +60,7 @@ impl PluginRegressor {
         })
     }
 
-    /// The model that a file holds, loaded by `factory`.
+    /// Loads the model from a file with `factory`.
     pub(crate) fn load(
         factory: &dyn EstimatorFactory,
         card: &PluginCard,
@@ -81,7 +81,7 @@ impl PluginRegressor {
         Ok(ModelRegressor::new(own))
     }
 
-    /// Which plugin fitted it.
+    /// Plugin that fitted the model.
     pub fn card(&self) -> &PluginCard {
         &self.card
     }
@@ -95,7 +95,7 @@ impl FittedModel for PluginRegressor {
         }
     }
 
-    /// What its maker loads it from.
+    /// Bytes from which the plugin loads the model.
     fn tensors(&self) -> Vec<Raw> {
         vec![Raw {
             name: TENSOR.to_owned(),
@@ -124,7 +124,7 @@ impl Regressor for PluginRegressor {
     }
 
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
-        // What it leaves out is no prediction.
+        // Values that the plugin does not write stay NaN and are rejected below.
         into.fill(f64::NAN);
         self.fitted.predict(features, into)?;
         let wrong = into.iter().position(|value| !value.is_finite());

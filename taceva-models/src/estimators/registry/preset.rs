@@ -1,24 +1,24 @@
-//! Names for a model with settings, by how much time there is.
+//! Presets: names for a model with settings, by available time.
 
 use std::fmt;
 
 use crate::features::FeatureSpec;
 use crate::settings::ModelSettings;
 
-/// A name for a model with settings. A card, a report and a results file name the model and its settings, so that a result can be made again
-/// whatever the name comes to mean.
+/// Name for a model with settings. Cards, reports and results files state the model and its settings, so results stay reproducible
+/// if a preset changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
-    /// The word people type.
+    /// Name on the command line.
     pub name: &'static str,
-    /// The name of the model.
+    /// Name of the model.
     pub model: &'static str,
-    /// Its settings, as keys and values; those that a person gives go before them.
+    /// Settings as keys and values. Explicit settings of the user override them.
     pub settings: &'static [(&'static str, &'static str)],
 }
 
-/// What the recording and its frames decide: as many cells as frames have pixels for; of frames in colour their colours, less those of one without
-/// contact, light being the signal; of others markers.
+/// Settings resolved from the recording: as many cells as frames have pixels for. Colour frames use colours minus the contact-free
+/// frame, with light as signal. Other frames use markers.
 const COLOR: (&str, &str) = ("color", "auto");
 const DIFFERENCE: (&str, &str) = ("difference", "in-color");
 const APPEARANCE: (&str, &str) = ("appearance", "auto");
@@ -35,7 +35,7 @@ const FAST: Preset = Preset {
     ],
 };
 
-/// The network that [`Auto`](crate::Auto) tries, too.
+/// Default network, also tried by [`Auto`](crate::Auto).
 pub(crate) const DEFAULT: Preset = Preset {
     name: "default",
     model: "cnn",
@@ -48,29 +48,29 @@ const BEST: Preset = Preset {
     settings: DEFAULT.settings,
 };
 
-/// The presets, the quickest first. What they rest on, and what each takes and gives: docs/models.md.
+/// All presets, the fastest first. docs/models.md states their basis, cost and accuracy.
 pub const PRESETS: &[Preset] = &[FAST, DEFAULT, BEST];
 
 impl Preset {
-    /// The preset called `name`.
+    /// Finds the preset `name`.
     pub fn named(name: &str) -> Option<&'static Preset> {
         PRESETS.iter().find(|preset| preset.name == name)
     }
 
-    /// Its settings, but for those that `given` has, and all of `given`.
+    /// Combines the preset with settings `given`, which override it.
     #[must_use]
     pub fn changed_by(&self, given: ModelSettings) -> ModelSettings {
         given.or(self.settings)
     }
 
-    /// The settings of its model, without those of what that sees.
+    /// Settings of the model, without those of features.
     pub(crate) fn of_model(&self) -> ModelSettings {
         let all = self.changed_by(ModelSettings::default());
         all.partition(FeatureSpec::SETTINGS).1
     }
 }
 
-/// `fast: cnn size=up-to-80x60`.
+/// Formats as `fast: cnn size=up-to-80x60`.
 impl fmt::Display for Preset {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.name, self.model)?;

@@ -1,4 +1,4 @@
-//! What the error would be if samples had been left out, without fitting again.
+//! Leave-out errors without refitting.
 
 mod groups;
 mod singles;
@@ -8,11 +8,11 @@ use faer::Mat;
 use crate::linalg::{Spectrum, multiply};
 use crate::training::problem::centred;
 
-/// What a fit to all samples says about fits to fewer.
+/// Leave-out residuals from a fit to all samples.
 ///
-/// With the hat matrix H of the fit to all, the residuals of a group g left out are (I − H_gg)⁻¹ e_g of the residuals
-/// e = (I − H)y (exact for a penalty that does not depend on the group). I − H is computed as U diag(λ / (σ² + λ)) Uᵀ + R,
-/// U without its part along 1 and R what U does not span: at small λ, where I and H nearly cancel, nothing is subtracted.
+/// With the hat matrix H of the whole fit and residuals e = (I − H)y, a left-out group g has the residuals (I − H_gg)⁻¹ e_g. This is
+/// exact for a penalty that does not depend on the group. I − H is computed as U diag(λ / (σ² + λ)) Uᵀ + R, with U without its part
+/// along 1 and R the part not spanned by U. At small λ, where I and H nearly cancel, this subtracts nothing.
 pub(super) struct LeaveOut<'s> {
     targets: &'s Mat<f64>,
     eigenvalues: &'s [f64],
@@ -20,12 +20,12 @@ pub(super) struct LeaveOut<'s> {
     vectors: Mat<f64>,
     /// Uᵀ of the targets.
     rotated: Mat<f64>,
-    /// Whether R is 0.
+    /// True if R is 0.
     complete: bool,
 }
 
 impl<'s> LeaveOut<'s> {
-    /// For the centred `targets` whose features have `spectrum`.
+    /// Prepares leaving out for centred `targets` and features with `spectrum`.
     pub(super) fn new(spectrum: &'s Spectrum<'_, '_>, targets: &'s Mat<f64>) -> LeaveOut<'s> {
         let (_, vectors) = centred(spectrum.sample_vectors());
         LeaveOut {
@@ -44,7 +44,7 @@ impl<'s> LeaveOut<'s> {
         })
     }
 
-    /// The rows at `positions` of R times the targets; `vectors` are those rows of U.
+    /// Rows `positions` of R times the targets. `vectors` are the same rows of U.
     fn unspanned_residuals(&self, positions: &[usize], vectors: &Mat<f64>) -> Mat<f64> {
         if self.complete {
             return Mat::zeros(positions.len(), self.targets.ncols());

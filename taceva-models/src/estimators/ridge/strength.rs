@@ -1,6 +1,6 @@
-//! The strengths that are tried.
+//! Candidate strengths.
 
-/// 41 strengths, four a decade, from hardly any penalty to one under which nothing but the mean is left.
+/// 41 strengths, four per decade, from hardly any penalty to one that leaves only the mean.
 pub(super) fn grid() -> Vec<f64> {
     (-24..=16)
         .map(|quarter| 10_f64.powf(f64::from(quarter) / 4.0))

@@ -1,4 +1,4 @@
-//! Ridge regression of strength 0: least squares, which is not solved through a spectrum.
+//! Ridge regression of strength 0: least squares, solved without a spectrum.
 
 use faer::Mat;
 use taceva_core::{ModelError, Progress, TrainingSet};
@@ -11,7 +11,7 @@ use crate::training::problem::{Problem, Validation, centred};
 use crate::training::trials::{Trials, rows_of};
 
 impl Ridge {
-    /// The weights of least squared error; the spectrum of a Gram matrix would lose half of their digits.
+    /// Fits by least squares. The spectrum of a Gram matrix would lose half of the digits.
     pub(super) fn fit_unpenalised(
         &self,
         training: &TrainingSet<'_>,

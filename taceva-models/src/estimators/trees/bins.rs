@@ -1,23 +1,23 @@
-//! Features as one of at most 256 bins, so that a split is found by counting rather than sorting.
+//! Features quantised to at most 256 bins, so that splits are found by counting instead of sorting.
 
 use rayon::prelude::*;
 use taceva_core::Features;
 
-/// Bins of a feature at most.
+/// Most bins of a feature.
 pub(super) const BINS: usize = 256;
 
-/// Which bin each feature of each sample lies in.
+/// Bin of each feature of each sample.
 #[derive(Debug)]
 pub(super) struct Binned {
-    /// The bins of all samples, feature by feature.
+    /// Bins of all samples, feature by feature.
     bins: Vec<u8>,
-    /// What separates the bins of each feature: a bin holds what is at most its own edge and above the one before.
+    /// Edges between the bins of each feature. A bin includes its upper edge.
     edges: Vec<Vec<f32>>,
     samples: usize,
 }
 
 impl Binned {
-    /// Bins that hold about equally many of these samples each.
+    /// Builds bins with about equally many samples each.
     pub(super) fn new(features: &Features) -> Binned {
         let (samples, width) = (features.samples(), features.shape().len());
         let mut bins = vec![0; samples * width];
@@ -46,18 +46,18 @@ impl Binned {
         self.edges.len()
     }
 
-    /// The bins of all samples in one feature.
+    /// Bins of all samples in one feature.
     pub(super) fn of(&self, feature: usize) -> &[u8] {
         &self.bins[feature * self.samples..(feature + 1) * self.samples]
     }
 
-    /// The largest value of a bin that is not the last.
+    /// Upper edge of a bin except the last.
     pub(super) fn edge(&self, feature: usize, bin: usize) -> f32 {
         self.edges[feature][bin]
     }
 }
 
-/// Edges between values that differ, near the quantiles.
+/// Edges between distinct values, near the quantiles.
 fn edges(values: &[f32]) -> Vec<f32> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f32::total_cmp);

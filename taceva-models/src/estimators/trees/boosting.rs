@@ -18,10 +18,10 @@ use crate::training::problem::{Problem, centred};
 use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
-/// Gradient boosting of squared errors: each tree is fitted to what those before it left, and a share of it is added.
+/// Gradient boosting of squared errors: each tree is fitted to the residuals of the trees before it, and a share of it is added.
 ///
-/// Each channel has trees of its own, and its own number of them: the one of least squared error on the validation part; without
-/// one, on folds of the training part.
+/// Each channel has its own trees. Their number has the least squared error on the validation part, or on folds of the training part
+/// if there is none.
 ///
 /// # Reference
 /// J. H. Friedman, Ann. Stat. 29 (2001) 1189, algorithm 2; Comput. Stat. Data Anal. 38 (2002) 367 (drawn features take the place of drawn samples).
@@ -35,7 +35,7 @@ pub struct GradientBoosting {
     refit: bool,
 }
 
-/// How each tree grows.
+/// Growth of each tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Growing {
     share: f64,
@@ -87,7 +87,7 @@ const SEED: SettingInfo = SettingInfo {
 };
 
 impl GradientBoosting {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "gradient-boosting",
         about: "trees that are each fitted to the errors of those before",
@@ -106,7 +106,7 @@ impl GradientBoosting {
         load: TreeRegressor::load,
     };
 
-    /// Gradient boosting as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -126,7 +126,7 @@ impl GradientBoosting {
         })
     }
 
-    /// Calls `take` with each tree of a channel, its values times the rate, the first fitted to `labels`.
+    /// Calls `take` with each tree of a channel, its values times the rate. The first tree is fitted to `labels`.
     fn boost(
         &self,
         features: &Features,
@@ -176,7 +176,7 @@ impl ModelEstimator for GradientBoosting {
         let held = problem.validation(validation)?;
         let trials = Trials::new(&problem, held.as_ref(), self.trees.is_none());
         let channels = problem.channels();
-        // The most first: of equals the last is the plainest.
+        // Descending: of equal errors the last, plainest one is taken.
         let counts: Vec<usize> = match self.trees {
             Some(trees) => vec![trees],
             None => (1..=self.most).rev().collect(),

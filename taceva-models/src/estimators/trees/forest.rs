@@ -1,4 +1,4 @@
-//! A random forest.
+//! Random forests.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -19,10 +19,10 @@ use crate::training::problem::{Problem, centred};
 use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
-/// A random forest a channel: the mean of trees that each saw its own draw of the samples, and at each split its own draw of the features.
+/// Random forest for each channel: mean of trees, each on its own draw of samples, with a draw of features at each split.
 ///
-/// Nothing is chosen by error. Where there is a validation part, a forest of the training part alone is scored on it, and the one that is
-/// kept has learnt from both.
+/// No setting is chosen by error. With a validation part, a forest of the training part alone is scored on it. The final forest
+/// learns from both unless `refit` is false.
 ///
 /// # Reference
 /// L. Breiman, Mach. Learn. 45 (2001) 5.
@@ -68,7 +68,7 @@ const SEED: SettingInfo = SettingInfo {
 };
 
 impl RandomForest {
-    /// What the registry says of it.
+    /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "random-forest",
         about: "the mean of many trees: the scale of features does not matter, and outliers change little",
@@ -78,7 +78,7 @@ impl RandomForest {
         load: TreeRegressor::load,
     };
 
-    /// A random forest as `settings` ask for.
+    /// Builds the estimator from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -94,7 +94,7 @@ impl RandomForest {
         })
     }
 
-    /// The trees of every channel, grown on `features` and labels about their mean.
+    /// Grows the trees of every channel on `features` and centred labels.
     fn grown(
         &self,
         features: &Features,
@@ -138,7 +138,7 @@ impl RandomForest {
         trees.collect()
     }
 
-    /// The forest of `rows` of the samples of `trials`.
+    /// Forest of the samples `rows` of `trials`.
     fn regressor(
         &self,
         problem: &Problem<'_>,
@@ -157,12 +157,12 @@ impl RandomForest {
     }
 }
 
-/// A share above 0.
+/// Parses a share above 0 and at most 1.
 pub(super) fn share(text: &str) -> Option<f64> {
     number(text, 0.0..=1.0).filter(|share| *share > 0.0)
 }
 
-/// A share of some features, at least one.
+/// Number of features in a share, at least one.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -172,7 +172,7 @@ pub(super) fn part(share: f64, features: usize) -> usize {
     (share * features as f64).ceil().max(1.0) as usize
 }
 
-/// The generator of one draw among many from one seed.
+/// Random generator of one draw among many from the same seed.
 pub(super) fn draw(seed: u64, number: usize) -> SplitMix64 {
     SplitMix64::new(SplitMix64::new(seed ^ (number as u64).rotate_left(32)).next_u64())
 }

@@ -1,4 +1,4 @@
-//! One regression tree, grown on histograms of binned features.
+//! Growth of one regression tree on histograms of binned features.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -7,32 +7,32 @@ use super::bins::Binned;
 use super::histogram::Histogram;
 use taceva_core::random::SplitMix64;
 
-/// How far a tree grows.
+/// Limits of a tree's growth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth {
-    /// The greatest depth: nodes from the root to a leaf.
+    /// Greatest depth: nodes from the root to a leaf.
     pub(super) depth: usize,
-    /// Samples of a leaf at least.
+    /// Fewest samples in a leaf.
     pub(super) leaf: usize,
-    /// Features looked at for a split, drawn anew for each.
+    /// Features considered for a split, drawn anew for each split.
     pub(super) features: usize,
 }
 
-/// A tree: node 0 is the root, and the children of a node lie side by side behind it.
+/// Tree with root node 0. The children of a node are adjacent and come after it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Tree {
-    /// The feature that a node compares.
+    /// Feature that a node compares.
     pub(super) feature: Vec<u32>,
-    /// A sample whose feature is at most this goes to the left child.
+    /// Largest feature value that goes to the left child.
     pub(super) threshold: Vec<f32>,
-    /// The left child, the right one beside it; 0 for a leaf.
+    /// Index of the left child; the right child is the next index. 0 for a leaf.
     pub(super) left: Vec<u32>,
-    /// The mean of each output over the samples of a node.
+    /// Mean of each output over the samples of a node.
     pub(super) values: Vec<f64>,
 }
 
 impl Tree {
-    /// The leaf that a sample falls into.
+    /// Index of the leaf that a sample reaches.
     pub(super) fn leaf(&self, sample: &[f32]) -> usize {
         let mut node = 0;
         while self.left[node] > 0 {
@@ -43,7 +43,7 @@ impl Tree {
     }
 }
 
-/// A split, and how much variance it explains.
+/// A split and the variance it explains.
 #[derive(Clone, Copy, Debug)]
 struct Question {
     gain: f64,
@@ -51,19 +51,19 @@ struct Question {
     bin: usize,
 }
 
-/// The samples that a tree is grown on.
+/// Samples for growing trees.
 pub(super) struct Samples<'a> {
     pub(super) binned: &'a Binned,
-    /// A row a sample, a column an output.
+    /// One row per sample, one column per output.
     pub(super) targets: &'a Mat<f64>,
     pub(super) growth: Growth,
 }
 
 impl Samples<'_> {
-    /// A tree of the samples `rows`, which may repeat.
+    /// Grows a tree on the samples `rows`, which may repeat.
     ///
-    /// Each split explains the most of the summed variance of all outputs; of equals, the first feature and the lowest bin. A
-    /// feature is summed by one thread in the order of `rows`.
+    /// Each split explains the most of the summed variance of all outputs. Ties go to the first feature and the lowest bin. One thread
+    /// sums each feature, in the order of `rows`.
     pub(super) fn grow(&self, mut rows: Vec<u32>, random: &mut SplitMix64) -> Tree {
         let mut tree = Tree::default();
         let mut order: Vec<usize> = (0..self.binned.features()).collect();
@@ -99,7 +99,7 @@ impl Samples<'_> {
         tree
     }
 
-    /// A leaf of these samples.
+    /// Appends a leaf of these samples.
     fn push(&self, tree: &mut Tree, rows: &[u32]) {
         tree.feature.push(0);
         tree.threshold.push(0.0);
@@ -111,7 +111,7 @@ impl Samples<'_> {
         }
     }
 
-    /// Some features, ascending.
+    /// Draws features without replacement, ascending.
     fn draw(&self, order: &mut [usize], random: &mut SplitMix64) -> Vec<usize> {
         let count = self.growth.features.min(order.len());
         for position in 0..count {
@@ -152,7 +152,7 @@ impl Samples<'_> {
             _ => Some(next),
         };
         let best = found.into_iter().flatten().fold(None, better)?;
-        // What rounding alone may seem to explain is nothing.
+        // Ignores gains within rounding error.
         (best.gain - whole > 1e-12 * spread).then_some(best)
     }
 
@@ -166,7 +166,7 @@ impl Samples<'_> {
         histogram.fill(self.binned.of(feature), self.targets, rows);
         let mut left = vec![0.0; total.len()];
         let (mut count, mut best) = (0, None::<Question>);
-        // Behind the last bin nothing is left.
+        // Nothing is left after the last bin.
         let bins = histogram
             .held
             .split_last()

@@ -1,15 +1,15 @@
-//! Targets counted and summed by the bins of one feature.
+//! Histograms of targets by the bins of one feature.
 
 use faer::Mat;
 
 use super::bins::BINS;
 
-/// Counts and summed outputs of each bin.
+/// Count and summed outputs of each bin.
 pub(super) struct Histogram {
     pub(super) counts: Vec<u32>,
     pub(super) sums: Vec<f64>,
     pub(super) outputs: usize,
-    /// The bins that hold any row, ascending.
+    /// Nonempty bins, ascending.
     pub(super) held: Vec<u8>,
 }
 
@@ -49,7 +49,7 @@ impl Histogram {
         }
     }
 
-    /// Empties it: only the bins that hold a row are written.
+    /// Empties the histogram. Writes only the nonempty bins.
     pub(super) fn clear(&mut self) {
         for bin in self.held.drain(..) {
             let bin = usize::from(bin);

@@ -1,4 +1,4 @@
-//! Fitted trees, whose answers are added up.
+//! Fitted trees, whose values are added up.
 
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
@@ -11,7 +11,7 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{OutputScale, check_call, check_finite};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Trees, each for one channel or for all.
+/// Sum of trees, each for one channel or for all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TreeRegressor {
     channels: Channels,
@@ -20,18 +20,18 @@ pub struct TreeRegressor {
     trees: Vec<Member>,
 }
 
-/// A tree, and what its values are.
+/// A tree and its channel.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Member {
     pub(super) tree: Tree,
-    /// The one channel that it predicts; `None` where it predicts all.
+    /// Channel that the tree predicts. `None` for all channels.
     pub(super) channel: Option<usize>,
 }
 
-/// Samples a thread takes at a time.
+/// Samples per task of a thread.
 const CHUNK: usize = 64;
 
-/// How a file says that a tree predicts all channels.
+/// Channel number in files for trees that predict all channels.
 const ALL: u32 = u32::MAX;
 
 const CHANNEL: &str = "trees.channel";
@@ -44,7 +44,7 @@ const THRESHOLD: &str = "trees.threshold";
 const VALUES: &str = "trees.values";
 
 impl TreeRegressor {
-    /// Trees whose values, centred and scaled labels, add up to the prediction.
+    /// Builds a regressor from trees whose values, in centred and scaled labels, add up to the prediction.
     pub(super) fn new(
         channels: Channels,
         shape: FeatureShape,
@@ -59,7 +59,7 @@ impl TreeRegressor {
         }
     }
 
-    /// How many trees there are.
+    /// Number of trees.
     pub fn trees(&self) -> usize {
         self.trees.len()
     }
@@ -81,12 +81,12 @@ impl TreeRegressor {
         self.scale.unscale(into);
     }
 
-    /// The model that a file holds.
+    /// Loads the model from a file.
     pub(crate) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         stored.on_components(TreeRegressor::from_tensors)
     }
 
-    /// The model that a file holds: every tree ends in leaves, and compares features that there are.
+    /// Builds the model from the tensors of a file. Checks that every tree ends in leaves and compares existing features.
     fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,
@@ -132,7 +132,7 @@ impl TreeRegressor {
     }
 }
 
-/// Whether every child lies behind its parent, every feature exists and every number is finite.
+/// True if every child comes after its parent, every feature exists and every number is finite.
 fn is_sound(tree: &Tree, features: usize) -> bool {
     let nodes = tree.left.len();
     let mut asked = tree.left.iter().zip(&tree.feature).enumerate();

@@ -1,4 +1,4 @@
-//! The discrete Fourier transform of lengths that are powers of two.
+//! Discrete Fourier transform for powers of two.
 
 use std::f64::consts::TAU;
 
@@ -43,7 +43,7 @@ impl Complex {
     }
 }
 
-/// Transforms of one length: X\[k\] = Σ x\[n\] exp(−2πi kn/N) (Cooley and Tukey, 1965).
+/// Transform of one length: X\[k\] = Σ x\[n\] exp(−2πi kn/N) (Cooley and Tukey, 1965).
 #[derive(Clone, Debug)]
 pub(super) struct Fourier {
     /// exp(−2πi k/N) for the first half of the circle.
@@ -51,7 +51,7 @@ pub(super) struct Fourier {
 }
 
 impl Fourier {
-    /// `length` is a power of two.
+    /// Prepares a transform. `length` must be a power of two.
     pub(super) fn new(length: usize) -> Fourier {
         debug_assert!(length.is_power_of_two(), "{length}");
         let turns = (0..length / 2).map(|position| {
@@ -65,7 +65,7 @@ impl Fourier {
         }
     }
 
-    /// Transforms `values`, which are as many as the length, in their place.
+    /// Transforms `values` in place. Their number must be the prepared length.
     pub(super) fn transform(&self, values: &mut [Complex]) {
         let length = values.len();
         if length < 2 {

@@ -1,33 +1,33 @@
-//! The power of a picture at each spatial frequency, whatever the direction.
+//! Power spectrum of a picture by spatial frequency, independent of direction.
 
 use taceva_core::{Frame, FrameInfo};
 
 use super::fourier::{Complex, Fourier};
 use crate::features::FeatureError;
 
-/// The logarithm of the mean power in rings of equal width of the Fourier plane of a picture.
+/// Logarithm of the mean power in rings of equal width of the Fourier plane.
 ///
-/// The mean is taken off, the edges are faded by a Hann window, and the picture is laid into a square whose side is a power of two. Ring
-/// b of B holds the waves with b/(2B) ≤ √(f_x² + f_y²) < (b + 1)/(2B) cycles a pixel. A grating that is turned or moved keeps its rings.
+/// The picture is centred, multiplied by a Hann window, and zero-padded to a square whose side is a power of two. Ring b of B holds
+/// the waves with b/(2B) ≤ √(f_x² + f_y²) < (b + 1)/(2B) cycles per pixel. A rotated or shifted grating keeps its rings.
 ///
 /// # Shapes
-/// A number a ring, from the coarsest to the finest.
+/// One value per ring, from the lowest to the highest frequency.
 #[derive(Clone, Debug)]
 pub struct RadialSpectrum {
     info: FrameInfo,
     side: usize,
     fourier: Fourier,
     windows: [Vec<f64>; 2],
-    /// The ring of each place of the plane; none beyond the last.
+    /// Ring of each point of the plane. `None` beyond the last ring.
     rings: Vec<Option<usize>>,
     counts: Vec<f64>,
 }
 
 impl RadialSpectrum {
-    /// Rings a spectrum.
+    /// Rings per spectrum.
     pub const RINGS: usize = 48;
 
-    /// The spectra of pictures of `info`.
+    /// Prepares spectra of pictures of `info`.
     pub fn new(info: FrameInfo) -> RadialSpectrum {
         let [width, height] = [info.width, info.height].map(|side| side as usize);
         let side = width.max(height).max(2 * RadialSpectrum::RINGS);
@@ -49,12 +49,12 @@ impl RadialSpectrum {
         }
     }
 
-    /// The size of a plane in memory, in bytes.
+    /// Size of a Fourier plane in memory, bytes.
     pub fn plane_bytes(&self) -> u64 {
         (self.side * self.side * size_of::<Complex>()) as u64
     }
 
-    /// The Fourier plane of `frame`.
+    /// Computes the Fourier plane of `frame`.
     ///
     /// # Errors
     /// [`FeatureError::Kind`] for a frame of another size or format.
@@ -70,12 +70,12 @@ impl RadialSpectrum {
         })
     }
 
-    /// The spectrum of a plane.
+    /// Spectrum of a plane.
     pub fn of(&self, plane: &FourierPlane) -> Vec<f64> {
         self.spectrum(plane.waves.iter().map(|wave| wave.power()))
     }
 
-    /// The spectrum of what `plane` has beyond the mean of `count` planes whose sum is `sum`: of a background that stays.
+    /// Spectrum of `plane` minus the mean of `count` planes with the sum `sum`, such as a constant background.
     pub fn beyond(&self, plane: &FourierPlane, sum: &FourierPlane, count: f64) -> Vec<f64> {
         let waves = plane.waves.iter().zip(&sum.waves);
         self.spectrum(waves.map(|(wave, sum)| wave.minus(sum.scaled(1.0 / count)).power()))
@@ -89,13 +89,13 @@ impl RadialSpectrum {
             }
         }
         let rings = powers.into_iter().zip(&self.counts);
-        // A picture without any light has no power; the least number that has a logarithm stands for none.
+        // A dark picture has no power; uses the smallest positive number instead of ln 0.
         rings
             .map(|(power, count)| (power / count).max(f64::MIN_POSITIVE).ln())
             .collect()
     }
 
-    /// The waves of a windowed picture, transposed.
+    /// Fourier coefficients of a windowed picture, transposed.
     fn waves(&self, luma: &[f64]) -> Vec<Complex> {
         let [across, down] = &self.windows;
         let (side, width) = (self.side, across.len());
@@ -126,14 +126,14 @@ impl RadialSpectrum {
     }
 }
 
-/// The waves that a picture is the sum of; the planes of several pictures add like the pictures.
+/// Fourier coefficients of a picture. The planes of several pictures add like the pictures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FourierPlane {
     waves: Vec<Complex>,
 }
 
 impl FourierPlane {
-    /// Adds the plane of a picture of the same size; nothing yet is of every size.
+    /// Adds the plane of a picture of the same size. An empty plane takes any size.
     pub fn add(&mut self, other: &FourierPlane) {
         if self.waves.is_empty() {
             self.waves = vec![Complex::default(); other.waves.len()];
@@ -144,16 +144,16 @@ impl FourierPlane {
     }
 }
 
-/// The ring of the wave numbers `waves` of a square of `side`.
+/// Ring of the wave numbers `waves` in a square of side `side`.
 fn ring(waves: [usize; 2], side: usize) -> Option<usize> {
     let cycles = waves.map(|wave| wave.min(side - wave));
-    // (2B f)² = (2B)² (k² + l²) / N², in whole numbers.
+    // (2B f)² = (2B)² (k² + l²) / N², in integers.
     let scaled = 4 * RadialSpectrum::RINGS.pow(2) * (cycles[0].pow(2) + cycles[1].pow(2));
     let ring = (scaled / side.pow(2)).isqrt();
     (ring < RadialSpectrum::RINGS).then_some(ring)
 }
 
-/// w\[n\] = sin²(π (n + ½)/N), a Hann window whose ends do not vanish.
+/// w\[n\] = sin²(π (n + ½)/N), a Hann window with nonzero ends.
 fn hann(length: usize) -> Vec<f64> {
     let place = |position: usize| {
         #[expect(

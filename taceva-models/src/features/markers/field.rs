@@ -10,25 +10,25 @@ use crate::features::FeatureError;
 use crate::features::cell_features::CellFeatures;
 use crate::features::spec::FeatureSpec;
 
-/// How many markers a cell is interpolated from.
+/// Markers from which a cell is interpolated.
 const SPEAKERS: usize = 12;
-/// How many of the nearest markers of a cell are counted as seen or not.
+/// Nearest markers of a cell that are counted as seen or unseen.
 const NEAREST: usize = 4;
-/// How far from the nearest marker a cell may be to be interpolated, in spacings.
+/// Largest distance of an interpolated cell from the nearest marker, in spacings.
 const REACH: f64 = 1.5;
 
-/// Three numbers a cell: how far the gel has moved to the right and down in the middle of the cell, in typical distances of a marker from the
-/// next, and which share of its four nearest markers is not seen.
+/// Three values per cell: displacement of the gel to the right and down at the cell's centre, in marker spacings, and the unseen share
+/// of its four nearest markers.
 ///
-/// Between markers displacements are taken for linear; a cell that no marker is near to holds zeros. What is seen is the stretch of
-/// the gel: shear at once, depth by how markers spread. What is not seen is anything smaller than the distance between markers, and light.
+/// Displacements are interpolated linearly between markers. Cells without a marker nearby hold zeros. The field shows the stretch of
+/// the gel: shear directly, depth by the spreading of markers. It does not show details smaller than the spacing, or light.
 #[derive(Debug)]
 pub(crate) struct MarkerField {
     tracker: MarkerTracker,
     cells: Vec<Cell>,
 }
 
-/// The middle of a cell, and the markers that it is interpolated from; none where no marker is near.
+/// Centre of a cell, and the markers from which it is interpolated. Empty if no marker is near.
 #[derive(Debug)]
 struct Cell {
     middle_px: [f64; 2],
@@ -90,7 +90,7 @@ impl CellFeatures for MarkerField {
             let nearest = &cell.speakers[..cell.speakers.len().min(NEAREST)];
             let unseen = nearest.iter().filter(|own| !tracked[**own].is_seen).count();
             let measured = || {
-                // None of them is seen: what was filled in from further away.
+                // All are unseen: takes the displacement filled in from further away.
                 let own = cell.speakers.first()?;
                 Some(tracked[*own].displacement_px)
             };

@@ -1,47 +1,47 @@
-//! Which spots of an untouched gel are its markers.
+//! Detection of the marker grid of an untouched gel.
 
 use super::plane::Plane;
 use super::spots::{Marker, Polarity, Scale, distance, spots};
 
-/// Standard deviations of noise that a marker stands out by at least: none of a million pixels does by chance.
+/// Least contrast of a marker, in standard deviations of noise. Chance reaches it in none of a million pixels.
 const SIGNIFICANT: f32 = 6.0;
-/// The share of what the upper quarter of spots stand out by that a marker stands out by at least: lamps shine unevenly.
+/// Least contrast of a marker, relative to the upper quartile of spots. Below 1, because lamps shine unevenly.
 const ALIKE: f32 = 0.15;
-/// Columns of a frame across its shorter side at least.
+/// Fewest columns of markers across the shorter side of a frame.
 const ACROSS_MIN: f64 = 4.0;
-/// The nearest that markers may stand, in pixels.
+/// Smallest spacing of markers, pixels.
 const SPACING_MIN_PX: f64 = 5.0;
-/// How much finer each scale that is tried is than the one before.
+/// Ratio of each scale to the previous one.
 const FINER: f64 = 0.8;
-/// Neighbours by which the distance of a marker from the next is judged.
+/// Neighbours that determine the local spacing of a marker.
 const NEIGHBOURS: usize = 6;
-/// Spots that make a grid at least: of fewer any arrangement is taken.
+/// Fewest spots that must form a grid. Fewer spots may have any arrangement.
 const GRID_MIN: usize = 9;
-/// How much further away than the nearest the third nearest spot is, as a share and for half of the spots, where they stand in no grid: in a square or
-/// hexagonal one they are as far, at random half as far again.
+/// Largest median of the relative excess distance of the third nearest spot over the nearest in a grid. It is 0 in square and
+/// hexagonal grids, and about 0.5 for random spots.
 const UNEVEN: f64 = 0.3;
 
-/// The markers of an untouched gel.
+/// Markers of an untouched gel.
 #[derive(Clone, Debug)]
 pub(super) struct Lattice {
-    /// The scale at which they are found, here and in other frames alike.
+    /// Scale of detection, also for other frames.
     pub(super) scale: Scale,
-    /// The typical distance of a marker from the next.
+    /// Typical spacing of markers, pixels.
     pub(super) spacing_px: f64,
-    /// How much a spot stands out by at least.
+    /// Least contrast of a spot.
     pub(super) least: f32,
-    /// The markers, the most outstanding first.
+    /// Markers, highest contrast first.
     pub(super) markers: Vec<Marker>,
-    /// Distances of each marker and its neighbours from the next.
+    /// Local spacing around each marker, pixels.
     pub(super) spacings_px: Vec<f64>,
     unevenness: f64,
 }
 
 impl Lattice {
-    /// The grid of `picture`: of all polarities and scales the one with most, clearest and most even spots.
+    /// Finds the grid of `picture`: over all polarities and scales, the one with the most, clearest and most even spots.
     ///
     /// # Errors
-    /// How many spots there are that stand in no grid.
+    /// Number of spots found that form no grid.
     pub(super) fn find(picture: &Plane) -> Result<Lattice, usize> {
         let noise = picture.noise();
         let shorter = picture.width.min(picture.height) as f64;
@@ -54,7 +54,7 @@ impl Lattice {
                     spacing_px,
                 };
                 let found = Lattice::at(picture, scale, noise);
-                // Once more at the spacing that was found.
+                // Repeats the detection at the spacing found.
                 let found = found.and_then(|first| {
                     let scale = Scale {
                         spacing_px: first.spacing_px,
@@ -79,11 +79,11 @@ impl Lattice {
         }
     }
 
-    /// The spots at one scale, and how far apart they stand; `None` if there is none.
+    /// Spots at one scale and their spacings. `None` without spots.
     fn at(picture: &Plane, scale: Scale, noise: f32) -> Option<Lattice> {
         let significant = SIGNIFICANT * scale.noise_gain() * noise;
         let mut markers = spots(picture, scale, significant);
-        // The most outstanding come first: this is the upper quartile.
+        // Sorted by contrast: this is the upper quartile.
         let least = significant.max(ALIKE * markers.get(markers.len() / 4)?.contrast);
         markers.retain(|marker| marker.contrast > least);
         let spacings_px = spacings(&markers, scale.spacing_px);
@@ -102,14 +102,14 @@ impl Lattice {
         })
     }
 
-    /// What counts in favour: many spots, each clear, at even distances.
+    /// Quality: many spots with high contrast at even distances.
     fn score(&self) -> f64 {
         let contrast = f64::from(self.markers[self.markers.len() / 2].contrast);
         (self.markers.len() as f64).sqrt() * contrast * (-4.0 * self.unevenness).exp()
     }
 }
 
-/// The typical distance of a marker from the next around each marker; `otherwise` for one that is alone.
+/// Local spacing around each marker. `otherwise` for a single marker.
 fn spacings(markers: &[Marker], otherwise: f64) -> Vec<f64> {
     let nearest = nearest_distances(markers, otherwise);
     let places: Vec<[f64; 2]> = markers.iter().map(|marker| marker.place_px).collect();
@@ -133,11 +133,11 @@ fn nearest_distances(markers: &[Marker], otherwise: f64) -> Vec<f64> {
     markers.iter().enumerate().map(of).collect()
 }
 
-/// How much further away the third nearest is than the nearest, for half of the markers, of which there are four at least.
+/// Median relative excess distance of the third nearest marker over the nearest. Needs at least four markers.
 fn unevenness(markers: &[Marker]) -> f64 {
     let places: Vec<[f64; 2]> = markers.iter().map(|marker| marker.place_px).collect();
     let of = |own: &[f64; 2]| {
-        // The first is the place itself.
+        // The first is the marker itself.
         let close = closest(*own, &places, 4);
         let far = |rank: usize| distance(*own, places[close[rank]]);
         far(3) / far(1) - 1.0
@@ -145,7 +145,7 @@ fn unevenness(markers: &[Marker]) -> f64 {
     median(places.iter().map(of).collect())
 }
 
-/// The `count` places closest to `place`, the closest first, of equals the earlier.
+/// Indices of the `count` places closest to `place`, nearest first, ties by index.
 pub(super) fn closest(place: [f64; 2], places: &[[f64; 2]], count: usize) -> Vec<usize> {
     let mut order: Vec<(f64, usize)> = places
         .iter()
@@ -157,7 +157,7 @@ pub(super) fn closest(place: [f64; 2], places: &[[f64; 2]], count: usize) -> Vec
     order.into_iter().map(|(_, position)| position).collect()
 }
 
-/// The upper of the two in the middle.
+/// Median; the upper middle value for even counts.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]

@@ -1,21 +1,21 @@
-//! The displacement of a point from those of its neighbours: locally, a gel is stretched, turned and sheared.
+//! Displacement of a point from its neighbours by a local linear model: stretch, rotation and shear.
 
 use super::spots::distance;
 
-/// A place and how far it has moved.
+/// A place and its displacement, pixels.
 pub(super) type Moved = ([f64; 2], [f64; 2]);
 
-/// How near, in spacings, two places count as one.
+/// Distance, in spacings, below which weights level off.
 const NEAR: f64 = 0.3;
-/// What is added to the diagonal of the normal equations, where a place one spacing away adds about 1: nothing else bounds gradients where all
-/// neighbours lie on a line.
+/// Addend to the diagonal of the normal equations, where a place one spacing away contributes about 1. It bounds gradients if all
+/// neighbours are on a line.
 const STIFF: f64 = 0.05;
 
-/// How far `place` has moved if displacements around it are a linear function of place, by least squares weighted by 1 / distance²;
-/// `None` without any neighbour.
+/// Displacement of `place`, if displacements around it are linear in position, by least squares weighted by 1 / distance².
+/// `None` without neighbours.
 ///
-/// With weighted means `ū` of places and `d̄` of displacements, and `G` from the normal equations with `STIFF` added to their diagonal, it is
-/// `d̄ - G ū`.
+/// The result is `d̄ - G ū`, with weighted means `ū` of positions and `d̄` of displacements. `G` solves the normal equations with `STIFF`
+/// added to their diagonal.
 pub(super) fn displacement(
     place: [f64; 2],
     spacing_px: f64,
@@ -39,7 +39,7 @@ pub(super) fn displacement(
             mean[axis] += weight * moved[axis] / total;
         }
     }
-    // Second moments of places, and of places with displacements.
+    // Second moments of positions, and of positions with displacements.
     let (mut xx, mut xy, mut yy) = (STIFF, 0.0, STIFF);
     let mut with = [[0.0; 2]; 2];
     for (weight, off, moved) in &weighted {
@@ -54,7 +54,7 @@ pub(super) fn displacement(
             with[axis][1] += share * y * own;
         }
     }
-    // Positive: the diagonal is larger than Cauchy and Schwarz ask for.
+    // Positive by the Cauchy–Schwarz inequality, because the diagonal is increased.
     let determinant = xx * yy - xy * xy;
     Some([0, 1].map(|axis| {
         let [x, y] = with[axis];

@@ -1,10 +1,10 @@
-//! A frame as gray numbers, and their local means.
+//! Gray pictures and their local means.
 
 use taceva_core::Frame;
 
 use crate::features::pixels::{LUMA, LUMA_SUM};
 
-/// Gray numbers row by row; full scale is 1.
+/// Gray values row by row; full scale is 1.
 #[derive(Clone, Debug)]
 pub(super) struct Plane {
     pub(super) width: usize,
@@ -13,7 +13,7 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// The luma of `frame` (Rec. ITU-R BT.601).
+    /// Luma of `frame` (Rec. ITU-R BT.601).
     #[expect(
         clippy::cast_possible_truncation,
         reason = "gray in single precision, rounded once"
@@ -43,8 +43,8 @@ impl Plane {
         }
     }
 
-    /// The mean over the square of `2 radius + 1` pixels around each; near the border over as many fewer as lie on both sides, so that light that
-    /// grows evenly has the same mean everywhere as in the middle.
+    /// Mean over a square of `2 radius + 1` pixels around each pixel. Near the border the square shrinks symmetrically, so that the mean
+    /// of a linear light gradient stays unbiased.
     pub(super) fn local_mean(&self, radius: usize) -> Plane {
         let across = self.means_across(radius);
         Plane {
@@ -68,7 +68,7 @@ impl Plane {
         means
     }
 
-    /// Sums run along with the window: a row enters, a row leaves.
+    /// Computes running sums: a row enters and a row leaves.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "means of numbers in single precision"
@@ -98,11 +98,11 @@ impl Plane {
         means
     }
 
-    /// The standard deviation of what differs from pixel to pixel, by the median, so that edges do not count; that of rounding to 8 bits at least.
+    /// Standard deviation of pixel noise, by the median, so that edges do not count. At least that of rounding to 8 bits.
     pub(super) fn noise(&self) -> f32 {
-        /// From the median of absolute deviations to a standard deviation, for normal noise less its mean over nine pixels.
+        /// Factor from the median absolute deviation to the standard deviation of normal noise minus its mean over nine pixels.
         const DEVIATIONS: f32 = 1.4826 * 1.0607;
-        /// One level over √12.
+        /// Rounding error: one level over √12.
         const ROUNDING: f32 = 0.2887 / 255.0;
         let means = self.local_mean(1);
         let pairs = self.values.iter().zip(&means.values);
@@ -113,7 +113,7 @@ impl Plane {
     }
 }
 
-/// The positions up to `radius` away, as far as there are as many on either side.
+/// Symmetric window of at most `radius` positions to each side, within `length`.
 fn window(position: usize, radius: usize, length: usize) -> (usize, usize) {
     let radius = radius.min(position).min(length - 1 - position);
     (position - radius, position + radius + 1)

@@ -1,8 +1,8 @@
-//! Spots that are darker or brighter than what surrounds them, each to a fraction of a pixel.
+//! Subpixel detection of spots darker or brighter than their surroundings.
 
 use super::plane::Plane;
 
-/// Whether markers are darker or brighter than the gel around them.
+/// Contrast of markers with the gel: darker or brighter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Polarity {
     /// Black dots on a bright gel.
@@ -11,38 +11,38 @@ pub enum Polarity {
     Bright,
 }
 
-/// A spot.
+/// A detected spot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marker {
-    /// Columns and rows from the middle of the first pixel.
+    /// Column and row, from the centre of the first pixel.
     pub place_px: [f64; 2],
-    /// How much it stands out from its surroundings; full scale is 1.
+    /// Contrast with the surroundings; full scale is 1.
     pub contrast: f32,
 }
 
-/// What is looked for: spots of one polarity, so far apart.
+/// Polarity and spacing of spots to detect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scale {
     pub(super) polarity: Polarity,
     pub(super) spacing_px: f64,
 }
 
-/// The nearest that two spots may be, in spacings.
+/// Smallest distance of two spots, in spacings.
 const APART: f64 = 0.5;
 
 impl Scale {
-    /// Pixels to each side of the square over which is averaged, twice, to find a spot: a fifth of the spacing across.
+    /// Half width of the averaging square, applied twice to detect a spot. Its side is a fifth of the spacing.
     fn near(self) -> usize {
         whole(0.1 * self.spacing_px)
     }
 
-    /// Pixels to each side of the square that a spot is compared with, one spacing across: it ends between the spot and the next, since one
-    /// that it cut would pull the spot aside.
+    /// Half width of the square of surroundings, one spacing wide. It ends between spots: a spot that it cut would shift the
+    /// position.
     fn around(self) -> usize {
         whole(0.5 * self.spacing_px)
     }
 
-    /// The standard deviation of a response where that of pixels is 1: squares of the weights of the two averages, the surroundings left aside.
+    /// Standard deviation of a response for unit pixel noise: from the squared weights of both averages, without the surroundings.
     pub(super) fn noise_gain(self) -> f32 {
         #[expect(clippy::cast_precision_loss, reason = "a few pixels")]
         let side = (2 * self.near() + 1) as f32;
@@ -59,11 +59,11 @@ fn whole(pixels: f64) -> usize {
     pixels.round().max(1.0) as usize
 }
 
-/// The spots of `picture` that stand out by more than `least`, the most outstanding first.
+/// Detects spots of `picture` with a contrast above `least`, highest contrast first.
 ///
-/// The response of a pixel is a weighted mean over its neighbourhood, falling off like a tent, less the mean of its surroundings. A spot is where
-/// the response is largest within half a spacing; its place is the top of the paraboloid through nine responses around it, by least
-/// squares. Spots that the frame cuts are left out.
+/// The response of a pixel is a tent-weighted local mean minus the mean of its surroundings. A spot is a maximum of the response within
+/// half a spacing. Its position is the vertex of the least-squares paraboloid through nine responses around it. Spots cut by the
+/// frame are skipped.
 pub(super) fn spots(picture: &Plane, scale: Scale, least: f32) -> Vec<Marker> {
     let response = response(picture, scale);
     let (width, height) = (picture.width, picture.height);
@@ -78,7 +78,7 @@ pub(super) fn spots(picture: &Plane, scale: Scale, least: f32) -> Vec<Marker> {
             }
         }
     }
-    // Of equals the one that is further up or left, which a stable sort keeps first.
+    // A stable sort keeps the upper or left one of equals first.
     tops.sort_by(|left, right| right.contrast.total_cmp(&left.contrast));
     let mut kept: Vec<Marker> = Vec::new();
     let apart = APART * scale.spacing_px;
@@ -102,7 +102,7 @@ fn response(picture: &Plane, scale: Scale) -> Vec<f32> {
     pairs.map(|(near, around)| sign * (near - around)).collect()
 }
 
-/// Whether no neighbour responds more, and none of those before it as much.
+/// True for a local maximum. Of equal neighbours, only the first counts.
 fn is_top(response: &[f32], width: usize, place: usize) -> bool {
     let own = response[place];
     let before = [
@@ -121,7 +121,7 @@ fn is_top(response: &[f32], width: usize, place: usize) -> bool {
         && after.iter().all(|&other| response[other] <= own)
 }
 
-/// The top of the paraboloid through the responses at `place` and `step` pixels to each side.
+/// Vertex of the paraboloid through the responses at `place` and `step` pixels to each side.
 fn marker(response: &[f32], width: usize, place: usize, step: usize) -> Marker {
     let at = |column: usize, row: usize| {
         f64::from(response[place + row * step * width + column * step - step * width - step])
@@ -135,7 +135,7 @@ fn marker(response: &[f32], width: usize, place: usize, step: usize) -> Marker {
     ];
     let twist = (at(2, 2) - at(0, 2) - at(2, 0) + at(0, 0)) / 4.0;
     let determinant = bend[0] * bend[1] - twist * twist;
-    // A top bends down on all sides; where it does not, the pixel itself is all that is known.
+    // A maximum has negative curvature in all directions; otherwise takes the pixel itself.
     let off = if determinant > 0.0 && bend[0] < 0.0 {
         [
             (twist * slope[1] - bend[1] * slope[0]) / determinant,

@@ -1,4 +1,4 @@
-//! From the markers of an untouched gel to where each of them is in a frame.
+//! Tracking of markers from the untouched gel to other frames.
 
 mod growth;
 
@@ -10,32 +10,32 @@ use super::plane::Plane;
 use super::spots::{Marker, Polarity, distance, spots};
 use crate::features::FeatureError;
 
-/// Markers around one that say where it should be.
+/// Neighbours that predict the position of a marker.
 const NEIGHBOURS: usize = 8;
-/// Markers from which a match is begun.
+/// Number of seed markers.
 const SEEDS: usize = 4;
-/// How far a seed may have moved, in spacings.
+/// Largest displacement of a seed, in spacings.
 const SEED_REACH: f64 = 1.6;
-/// What a displacement of one spacing counts against a marker that is not seen: a regular grid looks the same when it is moved by a whole
-/// spacing but for its rim, and where even that is hidden, less movement is likelier.
+/// Cost of a displacement of one spacing, relative to an unseen marker. A regular grid moved by one spacing differs only at
+/// its rim. Where even the rim is hidden, less movement is likelier.
 const MOVEMENT: f64 = 0.02;
-/// The share of markers that may be unseen before another beginning is tried.
+/// Share of unseen markers up to which the first match is accepted.
 const ENOUGH: f64 = 0.03;
 
-/// A marker in a frame.
+/// A tracked marker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tracked {
-    /// Pixels to the right and down from where it was when nobody touched the gel; of a marker that is not seen, what its neighbours say.
+    /// Displacement from the untouched gel to the right and down, pixels. Interpolated from neighbours if unseen.
     pub displacement_px: [f64; 2],
-    /// Whether it is seen.
+    /// True if the marker was found in the frame.
     pub is_seen: bool,
 }
 
-/// The markers of an untouched gel, and how to find them again.
+/// Tracks the markers of an untouched gel in other frames.
 ///
-/// They may be dark or bright, on a square or a hexagonal grid of which some are missing. In a frame, the match begins at a marker that has
-/// hardly moved and grows from neighbour to neighbour, each looked for where those before it say, so that a marker may move by more than the
-/// distance to the next. Several beginnings are tried, and the match that finds most markers is taken.
+/// Markers may be dark or bright, on a square or hexagonal grid with gaps. The match starts at a marker that has hardly moved and grows
+/// from neighbour to neighbour. Matched neighbours predict where to search, so a marker may move farther than the spacing. Several
+/// starts are tried, and the match with the most markers is taken.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -59,15 +59,15 @@ pub struct MarkerTracker {
     info: FrameInfo,
     lattice: Lattice,
     places: Vec<[f64; 2]>,
-    /// For each marker those closest to it.
+    /// Nearest neighbours of each marker.
     neighbours: Vec<Vec<usize>>,
 }
 
 impl MarkerTracker {
-    /// The tracker of a gel as `reference` shows it untouched.
+    /// Finds the markers of the untouched gel in `reference`.
     ///
     /// # Errors
-    /// [`FeatureError::NoMarkers`] if nothing stands out, or what does stands in no grid.
+    /// [`FeatureError::NoMarkers`] if there are no significant spots, or they form no grid.
     pub fn new(reference: &Frame) -> Result<MarkerTracker, FeatureError> {
         let lattice = Lattice::find(&Plane::of(reference))
             .map_err(|found| FeatureError::NoMarkers { found })?;
@@ -85,25 +85,25 @@ impl MarkerTracker {
         })
     }
 
-    /// Whether markers are dark or bright.
+    /// Dark or bright markers.
     pub fn polarity(&self) -> Polarity {
         self.lattice.scale.polarity
     }
 
-    /// The typical distance of a marker from the next, in pixels.
+    /// Typical spacing of markers, pixels.
     pub fn spacing_px(&self) -> f64 {
         self.lattice.spacing_px
     }
 
-    /// The markers of the untouched gel, the most outstanding first.
+    /// Markers of the untouched gel, highest contrast first.
     pub fn markers(&self) -> &[Marker] {
         &self.lattice.markers
     }
 
-    /// Each of [`markers`](MarkerTracker::markers) in `frame`.
+    /// Tracks each of [`markers`](MarkerTracker::markers) in `frame`.
     ///
     /// # Errors
-    /// [`FeatureError::Kind`] if the frame is of another size or format than the reference.
+    /// [`FeatureError::Kind`] if the frame differs from the reference in size or format.
     pub fn track(&self, frame: &Frame) -> Result<Vec<Tracked>, FeatureError> {
         if frame.info() != self.info {
             return Err(FeatureError::Kind {
@@ -114,7 +114,7 @@ impl MarkerTracker {
         Ok(self.follow(frame))
     }
 
-    /// The same of a frame whose size and format were checked.
+    /// Tracks markers in a frame of checked size and format.
     pub(super) fn follow(&self, frame: &Frame) -> Vec<Tracked> {
         let found = spots(&Plane::of(frame), self.lattice.scale, self.lattice.least);
         let found: Vec<[f64; 2]> = found.iter().map(|spot| spot.place_px).collect();
@@ -135,7 +135,7 @@ impl MarkerTracker {
         best.tracked()
     }
 
-    /// Pairs of a marker and a spot that may be one, the likeliest first: markers that seem to have moved least, and the spots near to each.
+    /// Candidate seeds as pairs of marker and spot, the likeliest first: the markers that seem to have moved least, with spots near them.
     fn beginnings(&self, found: &[[f64; 2]]) -> Vec<(usize, usize)> {
         let mut seeds: Vec<(f64, usize)> = Vec::new();
         for (own, place) in self.places.iter().enumerate() {

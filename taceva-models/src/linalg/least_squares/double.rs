@@ -1,15 +1,15 @@
-//! Numbers of two doubles: about 32 digits.
+//! Double-double numbers with about 32 digits.
 
 use std::ops::{Add, Mul, Sub};
 
-/// high + low, the low one at most half a unit in the last place of the high one.
+/// Sum high + low, with |low| at most half a unit in the last place of high.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Double {
     high: f64,
     low: f64,
 }
 
-/// a + b exactly: the rounded sum, and what rounding lost (Knuth).
+/// a + b exactly: the rounded sum and its rounding error (Knuth).
 fn two_sum(a: f64, b: f64) -> Double {
     let sum = a + b;
     let of_b = sum - a;
@@ -32,7 +32,7 @@ impl Double {
         }
     }
 
-    /// Rounded to one double.
+    /// Rounds to a double.
     pub(super) fn value(&self) -> f64 {
         self.high + self.low
     }

@@ -1,11 +1,11 @@
-//! Householder's decomposition of a matrix whose columns are scaled by powers of two.
+//! Householder decomposition of a matrix with columns scaled by powers of two.
 
 use faer::Mat;
 
-/// A D = Q R, with D a power of two a column that brings its norm near 1.
+/// A D = Q R, with a power of two in D for each column that brings its norm near 1.
 #[derive(Clone, Debug)]
 pub(super) struct Householder {
-    /// Below and on the diagonal the reflectors, above it R.
+    /// Reflectors below and on the diagonal, R above it.
     packed: Mat<f64>,
     /// The diagonal of R.
     diagonal: Vec<f64>,
@@ -46,7 +46,7 @@ impl Householder {
         }
     }
 
-    /// The first column that, but for rounding, is a combination of those before.
+    /// First column that is a linear combination of earlier ones to within rounding.
     pub(super) fn dependent(&self) -> Option<usize> {
         let rounding = self.packed.nrows() as f64 * f64::EPSILON;
         self.diagonal
@@ -54,7 +54,7 @@ impl Householder {
             .position(|value| value.abs() <= rounding)
     }
 
-    /// x and r with r + A x = `upper` and Aᵀr = `lower`.
+    /// Solves r + A x = `upper` and Aᵀr = `lower` for x and r.
     pub(super) fn solve(&self, upper: &[f64], lower: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let columns = self.diagonal.len();
         let scaled: Vec<f64> = lower.iter().zip(&self.scale).map(|(a, b)| a * b).collect();
@@ -112,7 +112,7 @@ fn norm(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
-/// `values` less twice their part along the unit vector `reflector`.
+/// Reflects `values` at the plane normal to the unit vector `reflector`.
 fn reflect(reflector: &[f64], values: &mut [f64]) {
     let along: f64 = reflector
         .iter()
@@ -123,7 +123,7 @@ fn reflect(reflector: &[f64], values: &mut [f64]) {
     places.for_each(|(value, own)| *value -= 2.0 * along * own);
 }
 
-/// The power of two that brings `size` into 0.5..2; 1 for 0. Multiplying by it loses nothing.
+/// Power of two that scales `size` to 0.5..2; 1 for 0. Scaling by it is exact.
 fn power_of_two_over(size: f64) -> f64 {
     if size > 0.0 && size.is_finite() {
         (-size.log2().round()).exp2()

@@ -1,17 +1,17 @@
-//! The certified sets of NIST, solved.
+//! Least squares on the certified data sets of NIST.
 
 use faer::Mat;
 
 use super::double::Double;
 use super::{Wide, least_squares};
 
-/// A set: its name, its file, whether x is raised to powers (up to which) and whether there is an intercept.
+/// A data set: name, file, highest power of x if any, and intercept.
 struct Set {
     name: &'static str,
     text: &'static str,
     powers: Option<usize>,
     intercept: bool,
-    /// Digits that every coefficient must have.
+    /// Least correct digits of every coefficient.
     digits: f64,
 }
 
@@ -41,7 +41,7 @@ const SETS: &[Set] = &[
     set!("Wampler5", Some(5), true, 9.0),
 ];
 
-/// The numbers of every file begin on its line 61.
+/// Rows of a file, which begin on line 61.
 fn rows(text: &str) -> Vec<Vec<f64>> {
     let lines = text.lines().skip(60).map(str::split_whitespace);
     let rows = lines.map(|words| words.map(|word| word.parse().expect("a number")).collect());
@@ -49,7 +49,7 @@ fn rows(text: &str) -> Vec<Vec<f64>> {
 }
 
 impl Set {
-    /// A row a sample, a column a coefficient; powers are exact in two doubles.
+    /// One row per sample, one column per coefficient. Powers are exact in two doubles.
     fn design(&self) -> (Mat<f64>, Mat<f64>, Mat<f64>) {
         let rows = rows(self.text);
         let entries: Vec<Vec<Double>> = rows
@@ -84,7 +84,7 @@ impl Set {
         (of(Double::value), of(low), targets)
     }
 
-    /// The coefficients to 40 digits, rounded.
+    /// Coefficients, rounded from 40 digits.
     fn exact(&self) -> Vec<f64> {
         let lines = include_str!("../../../tests/strd/exact_f64.txt").lines();
         let mut words = lines.map(str::split_whitespace);
@@ -96,7 +96,7 @@ impl Set {
     }
 }
 
-/// The right digits of the coefficient that has fewest.
+/// Fewest correct digits of any coefficient.
 fn digits(found: &[f64], exact: &[f64]) -> f64 {
     let of = |(found, exact): (&f64, &f64)| {
         let error = ((found - exact) / exact).abs();
@@ -132,7 +132,7 @@ fn certified_coefficients_are_found_to_the_digits_asked_for() {
 
 #[test]
 fn matrices_of_plain_doubles_lose_what_rounding_them_lost() {
-    // Filip's powers rounded to double: 7.6 digits are all that any method could give.
+    // With Filip's powers rounded to doubles, no method can give more than 7.6 digits.
     let set = SETS.iter().find(|set| set.name == "Filip").expect("listed");
     let (high, _, targets) = set.design();
     let wide = Wide {

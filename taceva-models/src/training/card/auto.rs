@@ -1,44 +1,44 @@
-//! Which models were tried, with which error, and why one was chosen.
+//! Record of an automatic choice: models tried, their errors, and the reasons.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Into how many folds a training part is divided.
+/// Number of folds of a training part.
 pub(crate) const FOLDS: usize = 5;
 
-/// How a model was chosen among others.
+/// Record of a choice among models.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AutoCard {
-    /// The work that could be spent, in seconds of a core that does a thousand million multiplications each second.
+    /// Budget of work, in seconds of a core with 10⁹ multiplications per second.
     pub budget_s: f64,
-    /// How many folds the training part was divided into.
+    /// Number of folds of the training part.
     pub folds: usize,
-    /// Whether folds are whole groups of samples; runs of neighbours if not.
+    /// True if folds are whole groups of samples, false for runs of neighbours.
     pub by_group: bool,
-    /// The models that were tried, in order; a network twice where its first look did not decide.
+    /// Models tried, in order. A network appears twice if its first look was not decisive.
     pub tried: Vec<AutoTrial>,
-    /// The models that were not.
+    /// Models not tried.
     pub untried: Vec<Untried>,
-    /// The model that was taken.
+    /// Chosen model.
     pub taken: String,
 }
 
-/// A model that was tried.
+/// Trial of a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AutoTrial {
-    /// Its name.
+    /// Name of the model.
     pub model: String,
-    /// Root mean square error on the folds that it was tried on, relative to the deviation of the labels, over the channels that vary.
+    /// Root mean square error on its folds, relative to the standard deviation of labels, over the channels that vary.
     pub error: f64,
-    /// The work of trying it, in the seconds of the budget.
+    /// Work of the trial, s of the budget.
     pub cost_s: f64,
-    /// How many folds it was tried on, the first ones.
+    /// Number of its folds, from the first on.
     pub folds: usize,
-    /// The share of its training that was done, where it was not all.
+    /// Completed share of its training. `None` if all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
-    /// Why it was not tried on more folds, or not taken, where that was decided before the end.
+    /// Reason for leaving the race. `None` if it stayed until the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left: Option<String>,
 }
@@ -46,16 +46,16 @@ pub struct AutoTrial {
 /// A model that was not tried.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Untried {
-    /// Its name.
+    /// Name of the model.
     pub model: String,
-    /// The work of trying it on one fold, in the seconds of the budget.
+    /// Work of a trial on one fold, s of the budget.
     pub cost_s: f64,
-    /// Why not.
+    /// Reason.
     pub reason: String,
 }
 
 impl AutoCard {
-    /// The trial of the model that was taken, the last one if there are several.
+    /// Last trial of the chosen model.
     pub fn best(&self) -> Option<&AutoTrial> {
         let mut trials = self.tried.iter();
         trials.rfind(|trial| trial.model == self.taken)

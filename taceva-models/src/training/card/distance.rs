@@ -1,10 +1,10 @@
-//! The limits of the distance from the training part.
+//! Limits of the training distance.
 
 use serde::{Deserialize, Serialize};
 
 use crate::features::FeatureDistance;
 
-/// The limits beyond which a sample lies outside what a model has seen; see [`FeatureDistance`].
+/// Limits above which a sample is unlike the training part; see [`FeatureDistance`].
 ///
 /// ```
 /// let text = r#"{"along": 2.1, "beside": 0.015}"#;
@@ -14,9 +14,9 @@ use crate::features::FeatureDistance;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DistanceCard {
-    /// Along the directions of the training part, in its standard deviations.
+    /// Limit along the directions of the training part, in its standard deviations.
     pub along: f64,
-    /// Beside them, in units of the features.
+    /// Limit beside the directions, in units of the features.
     pub beside: f64,
 }
 

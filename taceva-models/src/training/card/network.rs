@@ -1,28 +1,28 @@
-//! What a model file says of a network, beside its tensors.
+//! Network settings in a model card.
 
 use serde::{Deserialize, Serialize};
 use taceva_network::{Architecture, ConvolutionForm, LabelScale};
 
 use crate::features::Preprocessing;
 
-/// What a model file says of a network.
+/// Settings of a network in a model file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NetworkCard {
-    /// Which layers it has, and of which sizes.
+    /// Architecture.
     pub architecture: Architecture,
-    /// What is done to pictures before the network sees them.
+    /// Preprocessing of pictures.
     pub preprocessing: Preprocessing,
-    /// How outputs become labels.
+    /// Scale from outputs to labels.
     pub scale: LabelScale,
-    /// The label of each channel that never changed in the training part, and is predicted as that; nothing for those
-    /// that the outputs stand for, one after the other.
+    /// Label of each channel that is constant in the training part, and predicted as such. `None` for other channels, which the
+    /// outputs predict in order.
     pub constant: Vec<Option<f64>>,
-    /// The form in which convolutions are computed for predictions.
+    /// Form of convolutions for predictions.
     pub convolutions: ConvolutionForm,
-    /// The instructions of the processor: on the same ones predictions have the same bits.
+    /// Instruction set of the CPU. Predictions on the same one are bitwise equal.
     pub instructions: String,
-    /// The GPU that trained it, where the processor did not; trained there anew, it has other bits.
+    /// GPU that trained the network. `None` for the CPU. Repeated training on a GPU gives other bits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<String>,
 }

@@ -1,16 +1,16 @@
-//! What a model file says of the plugin of its model.
+//! Plugin of a model, in its card.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{EstimatorFactory, ModelError};
 
-/// What a card says of the plugin that fitted a model and is needed to predict with it.
+/// Plugin that fitted a model and is needed for predictions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PluginCard {
-    /// The plugin.
+    /// Id of the plugin.
     pub id: String,
-    /// The estimator in it, `id/word`.
+    /// Key of its estimator, `id/word`.
     pub key: String,
-    /// The digest of the library that fitted it, `sha256:…`; `None` where it was linked into the program.
+    /// Digest of the plugin library, `sha256:…`. `None` if it was linked into the program.
     pub build: Option<String>,
 }
 

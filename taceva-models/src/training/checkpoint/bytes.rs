@@ -1,4 +1,4 @@
-//! A checkpoint as bytes: a safetensors file whose metadata name the training.
+//! Checkpoints as bytes: safetensors with metadata that identify the training.
 
 use std::collections::BTreeMap;
 use std::io::{self, BufWriter, Write};
@@ -11,17 +11,17 @@ use taceva_network::{Checkpoint, NamedTensor, Summary};
 
 use super::identity::{Identity, Origin, add_numbers, hexadecimal};
 
-/// The key of the metadata.
+/// Key of the metadata.
 const KEY: &str = "taceva.checkpoint";
-/// A file of any other version is refused: it is of a training that another program began, which summed otherwise.
+/// Format version. Other versions are rejected: they come from a program with another order of sums.
 ///
-/// 3: convolutions have a form; all before had the direct one.
+/// 3: convolutions have a form; before, all were direct.
 const FORMAT: &str = "3";
 
-/// Four times the largest model: its weights now and at their best, and two moments of each.
+/// Largest file: four times the largest model, for present weights, best weights and two moments.
 pub(super) const FILE_MAX: u64 = 1 << 30;
 
-/// Format of a checkpoint, which decides how the rest is read.
+/// Format of a checkpoint, which determines how the rest is read.
 #[derive(Deserialize)]
 struct Format {
     format: String,
@@ -34,11 +34,11 @@ struct Card {
     format: String,
     of: Origin,
     summary: Summary,
-    /// The digest of the summary and of all tensors in the order of their names.
+    /// Digest of the summary and of all tensors, sorted by name.
     digest: String,
 }
 
-/// Writes `checkpoint` of the training that is `identity` to `file`, tensor by tensor, so that no second copy is made of it.
+/// Writes `checkpoint` of the training `identity` to `file`, tensor by tensor, to avoid a second copy in memory.
 pub(super) fn write(
     identity: &Identity,
     checkpoint: &Checkpoint,
@@ -60,7 +60,7 @@ pub(super) fn write(
         header.insert(tensor.name.clone(), place);
     }
     let mut header = serde_json::to_vec(&header)?;
-    // Tensors begin at a whole word.
+    // Tensors begin at a multiple of 8 bytes.
     header.resize(header.len().next_multiple_of(8), b' ');
     let mut out = BufWriter::new(file);
     out.write_all(&(header.len() as u64).to_le_bytes())?;
@@ -73,7 +73,7 @@ pub(super) fn write(
     out.flush()
 }
 
-/// The checkpoint in `bytes`, and what it is of; or what is wrong with them.
+/// Reads a checkpoint and its origin, or returns the fault of `bytes`.
 pub(super) fn read(bytes: &[u8]) -> Result<(Origin, Checkpoint), String> {
     if bytes.len() as u64 > FILE_MAX {
         return Err(format!("more than {FILE_MAX} bytes"));

@@ -1,4 +1,4 @@
-//! Why a checkpoint cannot be written or resumed from.
+//! Errors of checkpoints.
 
 use std::io;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use taceva_core::{ErrorKind, ModelError};
 use taceva_network::NetworkError;
 
-/// Why a checkpoint cannot be written or resumed from.
+/// Error of writing or resuming a checkpoint.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
@@ -16,42 +16,42 @@ pub enum CheckpointError {
         taceva_core::shown(path)
     )]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
-    /// The device that trains does not give its weights.
+    /// The training device does not return its weights.
     #[error("cannot take the weights of the training for a checkpoint: {0}")]
     Unread(NetworkError),
     /// The file cannot be read.
     #[error("cannot read checkpoint {}: {source}", taceva_core::shown(path))]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
-    /// The file is not what was written.
+    /// The file is damaged.
     #[error(
         "checkpoint {}: {problem}; remove it to begin anew",
         taceva_core::shown(path)
     )]
     Damaged {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Fault.
         problem: String,
     },
-    /// The file is of another training.
+    /// The file belongs to another training.
     #[error(
         "checkpoint {} is of another training, with other {what}; remove it to begin anew",
         taceva_core::shown(path)
     )]
     Foreign {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What differs.
+        /// Difference.
         what: &'static str,
     },
 }

@@ -1,11 +1,11 @@
-//! What identifies a training.
+//! Identity of a training.
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use taceva_network::GpuKind;
 use taceva_network::{Architecture, Isa, Labels, Recipe, Samples, Summary};
 
-/// What identifies a training: everything that its result depends on.
+/// Identity of a training: everything that its result depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Identity {
     architecture: Architecture,
@@ -13,14 +13,14 @@ pub(crate) struct Identity {
     pub(super) of: Origin,
 }
 
-/// What a checkpoint says of where it comes from, beside its summary.
+/// Origin of a checkpoint, beside its summary.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Origin {
-    /// The digest of all pictures and labels, as the network sees them.
+    /// Digest of all labels and of the preprocessed pictures.
     samples: String,
-    /// Whether products are rounded before they are added: then results differ in last places.
+    /// True without fused multiply-add, which changes the last digits.
     rounds_products: bool,
-    /// What trained it: `cpu`, or the kind of a GPU, whose sums have no one order.
+    /// Training device: `cpu`, or the kind of GPU, whose sums have no fixed order.
     device: String,
 }
 
@@ -47,7 +47,7 @@ impl Identity {
         }
     }
 
-    /// In what a checkpoint differs; `None` if it is one of this training.
+    /// Difference of a checkpoint from this training. `None` if there is none.
     pub(super) fn differs_from(&self, of: &Origin, summary: &Summary) -> Option<&'static str> {
         if self.architecture != summary.architecture {
             Some("layers, channels or sizes of pictures")
@@ -90,7 +90,7 @@ fn add_samples(digest: &mut Sha256, samples: Samples<'_>) {
     add_numbers(digest, samples.pictures);
 }
 
-/// Adds the bytes of `numbers`, a few thousand at a time.
+/// Adds the bytes of `numbers` in chunks of a few thousand values.
 pub(super) fn add_numbers(digest: &mut Sha256, numbers: &[f32]) {
     for numbers in numbers.chunks(1 << 14) {
         let bytes: Vec<u8> = numbers

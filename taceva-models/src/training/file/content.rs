@@ -1,4 +1,4 @@
-//! A model file whose card and tensors were checked, and from which a row of the registry loads its model.
+//! Content of a model file whose card and tensors were checked.
 
 use taceva_core::{Channels, FeatureShape};
 
@@ -8,26 +8,26 @@ use crate::training::card::ModelCard;
 use crate::training::components::ProjectedRegressor;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// A model file that is being read.
+/// Content of a model file.
 pub(crate) struct Stored<'a> {
     pub(crate) tensors: Tensors<'a>,
     pub(crate) card: &'a ModelCard,
     pub(crate) channels: Channels,
 }
 
-/// Loads the model that a file holds.
+/// Loads a model from a file.
 pub(crate) type Load = fn(&Stored<'_>) -> Result<ModelRegressor, FormatError>;
 
 impl Stored<'_> {
-    /// The shape of what is seen.
+    /// Shape of the features.
     pub(crate) fn shape(&self) -> FeatureShape {
         self.card.features.shape()
     }
 
-    /// The model that `load` makes of the tensors for features of a shape, behind the principal components of the file if it has any.
+    /// Loads a regressor from the tensors by `load`. Wraps it in principal components if the file has any.
     ///
     /// # Errors
-    /// [`FormatError`] of `load`, and of a tensor that belongs to neither.
+    /// [`FormatError`] of `load`, or for a tensor that belongs to neither.
     pub(crate) fn on_components<M: FittedModel>(
         &self,
         load: impl FnOnce(&Tensors<'_>, Channels, FeatureShape) -> Result<M, FormatError>,

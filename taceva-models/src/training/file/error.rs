@@ -1,4 +1,4 @@
-//! Why bytes are no model.
+//! Errors of model files.
 
 use taceva_core::ModelError;
 use taceva_files::seal::SealError;
@@ -6,118 +6,118 @@ use taceva_network::NetworkError;
 
 use super::limits::{CARD, FILE_MAX, FORMAT, HEADER_MAX};
 
-/// Why bytes are no model.
+/// Error of reading a model file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FormatError {
-    /// Fewer bytes than the length of the header takes.
+    /// The file is shorter than the length field of its header.
     #[error("the file ends before its header")]
     Short,
-    /// A file beyond what a model takes.
+    /// The file is too large.
     #[error("{length} bytes, a model has at most {FILE_MAX}")]
     FileSize {
-        /// Its length.
+        /// Length found, bytes.
         length: u64,
     },
-    /// A header beyond what a card takes.
+    /// The header is too large.
     #[error("a header of {length} bytes, a model has at most {HEADER_MAX}")]
     HeaderSize {
-        /// Its length.
+        /// Length found, bytes.
         length: u64,
     },
-    /// Not a safetensors file, or a damaged one.
+    /// The file is not a valid safetensors file.
     #[error("not a whole safetensors file: {0}")]
     Container(#[from] safetensors::SafeTensorError),
-    /// A safetensors file of something else.
+    /// The safetensors file contains no model.
     #[error("the metadata lack `{CARD}`: a safetensors file, but no model of TacEva")]
     NoCard,
-    /// A card that cannot be read.
+    /// The card cannot be parsed.
     #[error("the card: {0}")]
     CardText(#[from] serde_json::Error),
-    /// A card that contradicts itself.
+    /// The card is inconsistent.
     #[error(
         "the card contradicts itself: feature sizes out of range, or choices for other channels than it lists"
     )]
     Card,
-    /// A model that is not what it was when it was written.
+    /// The seal does not match: the file was changed.
     #[error("the model: {0}")]
     Seal(#[from] SealError),
-    /// A version this TacEva cannot read.
+    /// This TacEva does not support the format version.
     #[error("format {found}: this TacEva reads {FORMAT}, a newer one may read both")]
     Version {
-        /// The version of the file.
+        /// Format version of the file.
         found: String,
     },
-    /// A file of a format from before formats began at 1.0.
+    /// The file has a format older than 1.0.
     #[error(
         "format {format} of TacEva {taceva} is no longer read: fit the model anew with `taceva fit RECORDING --model NAME --out FILE`", format = taceva_core::shown(format), taceva = taceva_core::shown(taceva)
     )]
     Earlier {
-        /// The version of the format.
+        /// Format version of the file.
         format: String,
-        /// The version of TacEva that wrote it.
+        /// Version of TacEva that wrote the file.
         taceva: String,
     },
-    /// A model that this TacEva does not have.
+    /// This TacEva does not have the model.
     #[error("fitted by `{model}`, which this TacEva does not have", model = taceva_core::shown(model))]
     NoModel {
-        /// The model.
+        /// Name of the model.
         model: String,
     },
-    /// A tensor that is not there.
+    /// A tensor is missing.
     #[error("no tensor `{name}`")]
     Missing {
-        /// Its name.
+        /// Name of the tensor.
         name: &'static str,
     },
-    /// A model of a plugin that is not there.
+    /// The plugin of the model is missing.
     #[error(
         "fitted by `{key}` of the plugin `{id}`, which is not among the plugins that were found", key = taceva_core::shown(key), id = taceva_core::shown(id)
     )]
     NoPlugin {
-        /// The plugin.
+        /// Id of the plugin.
         id: String,
-        /// The estimator in it.
+        /// Key of its estimator.
         key: String,
     },
-    /// A model of a library that this program was built without.
+    /// The program was built without the library of the model.
     #[error(
         "fitted by `{model}`: this program was built without the feature `{feature}`: build it with `--features {feature}`", model = taceva_core::shown(model), feature = taceva_core::shown(feature)
     )]
     NoLibrary {
-        /// The model.
+        /// Name of the model.
         model: String,
-        /// The feature that offers it.
+        /// Cargo feature of the library.
         feature: String,
     },
-    /// A tensor that does not belong there.
+    /// A tensor is unexpected.
     #[error("unexpected tensor `{name}`", name = taceva_core::shown(name))]
     Unexpected {
-        /// Its name.
+        /// Name of the tensor.
         name: String,
     },
-    /// A tensor of another type or shape than the card says.
+    /// A tensor has another type or shape than the card requires.
     #[error("tensor `{name}` is {found}, the card says {expected}")]
     Tensor {
-        /// Its name.
+        /// Name of the tensor.
         name: &'static str,
         /// Type and shape found.
         found: String,
         /// Type and shape expected.
         expected: String,
     },
-    /// A tensor of a network of another type than all have.
+    /// A network tensor has the wrong type.
     #[error("tensor `{name}` is {found}, those of a network are F32", name = taceva_core::shown(name))]
     Type {
-        /// Its name.
+        /// Name of the tensor.
         name: String,
-        /// The type found.
+        /// Type found.
         found: String,
     },
-    /// Tensors that are not those of the network that the card names.
+    /// The tensors do not match the network of the card.
     #[error("the network: {0}")]
     Network(#[from] NetworkError),
-    /// Channels or numbers that no model has.
+    /// Channels or numbers are invalid.
     #[error("{0}")]
     Content(#[from] ModelError),
 }

@@ -1,9 +1,9 @@
-//! What a model file is called by, and how large it may be.
+//! Identification and size limits of model files.
 
-/// The version of the file format.
+/// Version of the file format.
 pub(crate) const FORMAT: &str = "1.0";
 
-/// The key of the card in the metadata.
+/// Key of the card in the metadata.
 pub(crate) const CARD: &str = "taceva.model";
 
 /// Longest header: a card is a few kilobytes.

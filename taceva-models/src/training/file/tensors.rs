@@ -1,19 +1,19 @@
-//! The tensors of a model file: written in the order of their names, read by name, type and shape.
+//! Tensors of a model file, written in the order of their names and read by name, type and shape.
 
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
 use crate::training::file::error::FormatError;
 
-/// Directions in which the features of the training part vary.
+/// Directions of variation of the training features.
 pub(crate) const DIRECTIONS: &str = "distance.directions";
-/// The mean of the features of the training part.
+/// Mean of the training features.
 pub(crate) const MEAN: &str = "distance.mean";
-/// Their standard deviations along the directions.
+/// Standard deviations of the training features along the directions.
 pub(crate) const DEVIATIONS: &str = "distance.deviations";
-/// The tensors of the distance from the training part.
+/// Tensors of the training distance.
 pub(crate) const DISTANCE: [&str; 3] = [DIRECTIONS, MEAN, DEVIATIONS];
 
-/// A tensor as a file keeps it.
+/// A tensor as stored in a file.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Raw {
     pub(crate) name: String,
@@ -48,7 +48,7 @@ impl Raw {
     }
 }
 
-/// The tensors of a file that is read.
+/// Tensors of a file to read.
 pub(crate) struct Tensors<'a>(pub(crate) SafeTensors<'a>);
 
 impl<'a> Tensors<'a> {
@@ -56,7 +56,7 @@ impl<'a> Tensors<'a> {
         self.0.tensor(name).is_ok()
     }
 
-    /// Refuses every tensor but `known`, and those of the distance from the training part, which whoever reads the file looks at.
+    /// Rejects every tensor outside `known`, except those of the training distance, which are read separately.
     pub(crate) fn only(&self, known: &[&str]) -> Result<(), FormatError> {
         let mut names = self.0.names().into_iter();
         match names.find(|name| !known.contains(name) && !DISTANCE.contains(name)) {
@@ -67,7 +67,7 @@ impl<'a> Tensors<'a> {
         }
     }
 
-    /// The first number of the shape of `name`.
+    /// First dimension of the tensor `name`.
     pub(crate) fn rows(&self, name: &'static str) -> Result<usize, FormatError> {
         let tensor = self.0.tensor(name);
         let tensor = tensor.map_err(|_| FormatError::Missing { name })?;

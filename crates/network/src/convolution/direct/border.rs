@@ -1,20 +1,20 @@
-//! Places of a kernel that meet the picture and not its border. What they do not meet is zero and adds nothing, so that leaving it out changes
-//! no bit; it is worth the shorter runs where nearly everything is border.
+//! Kernel positions that overlap the picture. The border is zero, so skipping it changes no bit. On tiny pictures, which are mostly
+//! border, the saved work outweighs the shorter runs.
 
 use std::ops::Range;
 
 use crate::convolution::Convolution;
 use crate::picture::Picture;
 
-/// Rows and columns up to which the border is left out: at 2 × 2 a kernel of 3 × 3 meets it with five of its nine places.
+/// Largest side of a picture whose border is skipped, pixels. At 2 × 2, a 3 × 3 kernel overlaps the border with five of nine positions.
 const SIDE: usize = 2;
 
-/// Whether the border of `picture` is left out.
+/// True if the border of `picture` is skipped.
 pub(super) fn is_left_out(picture: Picture) -> bool {
     picture.height.max(picture.width) <= SIDE
 }
 
-/// Positions along one side, and the places of the kernel that they read.
+/// Output positions along one side and the kernel positions that they read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Reach {
     pub(super) positions: Range<usize>,
@@ -22,7 +22,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// All of so many positions with all places.
+    /// All `positions` outputs with all kernel positions.
     pub(super) fn all(convolution: Convolution, positions: usize) -> Reach {
         Reach {
             positions: 0..positions,
@@ -31,7 +31,7 @@ impl Reach {
     }
 }
 
-/// Each of so many positions with the places that meet a picture of `length` pixels along that side.
+/// One reach per output position, limited to kernel positions that overlap a picture of `length` pixels along this side.
 pub(super) fn reaches(convolution: Convolution, positions: usize, length: usize) -> Vec<Reach> {
     let padding = convolution.padding();
     let reach = |position: usize| {
@@ -45,7 +45,7 @@ pub(super) fn reaches(convolution: Convolution, positions: usize, length: usize)
     (0..positions).map(reach).collect()
 }
 
-/// The positions that read `place`, in their order.
+/// Output positions that read the kernel position `place`, in order.
 pub(super) fn positions(reaches: &[Reach], place: usize) -> impl Iterator<Item = usize> {
     let reading = reaches
         .iter()

@@ -1,4 +1,4 @@
-//! What the forward pass and the gradient of the input have in common: sums of runs of pixels times rows of weights.
+//! Kernel shared by the forward pass and the input gradient: sums of runs of pixels times rows of weights.
 
 use std::ops::Range;
 
@@ -7,38 +7,38 @@ use crate::convolution::ending::{Finish, Start};
 use crate::panel::PANEL;
 use crate::simd::{Job, Pixels, Tile, Vector};
 
-/// Bytes of weights that stay in the second-level cache beside the pixels that they meet.
+/// Bytes of weights that fit into the second-level cache beside their pixels.
 const WEIGHTS_AT_ONCE: usize = 700 << 10;
 
-/// A run of consecutive input numbers and the rows of weights that it meets.
+/// A run of consecutive input values and the rows of weights that multiply it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Tap {
-    /// From where a pixel's kernel begins to the run.
+    /// Offset of the run from the start of a pixel's kernel.
     pub(crate) offset: usize,
-    /// The first row of weights.
+    /// First row of weights.
     pub(crate) row: usize,
 }
 
-/// How outputs lie.
+/// Memory layout of the outputs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Lie {
-    /// As pictures of so many numbers do, of which as many as `skipped` stand before those that are written.
+    /// Pictures of `image` values each. The buffer begins `skipped` values into the first one.
     Pictures { image: usize, skipped: usize },
-    /// One pixel of the range after the other, so many channels each.
+    /// Pixels of the range back to back, `channels` values each.
     Apart { channels: usize },
 }
 
 /// output[pixel, channel] = finish(start + Σ over taps, run: input · weights).
 pub(crate) struct Correlation<'a> {
-    /// Where each pixel of a picture begins in the input and lies in the output.
+    /// Offsets of each pixel of a picture in input and output.
     pub(crate) pixels: &'a Pixels,
-    /// Pixels that are written, counted over all pictures.
+    /// Pixels to write, counted over all pictures.
     pub(crate) range: Range<usize>,
-    /// The pictures, `input_image` numbers each.
+    /// Pictures of `input_image` values each.
     pub(crate) input: &'a [f32],
     pub(crate) input_image: usize,
     pub(crate) taps: &'a [Tap],
-    /// Numbers of each tap's run.
+    /// Values in the run of each tap.
     pub(crate) run: usize,
     /// `[panels, rows, PANEL]`.
     pub(crate) weights: &'a [f32],
@@ -49,7 +49,7 @@ pub(crate) struct Correlation<'a> {
     pub(crate) finish: Finish<'a>,
 }
 
-/// The part of a correlation that one round over the pixels does.
+/// Part of a correlation done in one pass over the pixels.
 #[derive(Clone, Copy)]
 struct Round<'a> {
     taps: &'a [Tap],
@@ -58,9 +58,9 @@ struct Round<'a> {
     is_last: bool,
 }
 
-/// Whether the weights of `rows` rows are too many to be met at once by a machine with wide tiles.
+/// True if the weights of `rows` rows exceed the cache share of a machine with wide tiles.
 ///
-/// Measured at four panels, whatever the machine, so that how work is divided depends on shapes alone.
+/// Always computed for at most four panels, so that the division of work depends on shapes alone.
 pub(crate) fn are_weights_many(rows: usize, panels: usize) -> bool {
     rows * panels.min(4) * PANEL * size_of::<f32>() > WEIGHTS_AT_ONCE
 }
@@ -81,7 +81,7 @@ impl Job for Correlation<'_> {
         let mut panel = 0;
         while panel < panels {
             let width = (panels - panel).min(V::PANELS);
-            // One round even without taps, which writes what sums begin with.
+            // At least one round, even without taps: it writes the start of the sums.
             for index in 0..taps.len().div_ceil(piece).max(1) {
                 let end = ((index + 1) * piece).min(taps.len());
                 let round = Round {
@@ -156,8 +156,8 @@ impl Correlation<'_> {
         tile.store(self.output, outputs, PANEL);
     }
 
-    /// Asks for what these sums need at their end, and for what the next ones are the first to read: the end of the last run of each
-    /// pixel. All comes while these are summed.
+    /// Prefetches the outputs of these sums, and the end of each pixel's last run for the next sums. Both arrive during this
+    /// summation.
     #[inline(always)]
     fn prefetch<V: Vector, const ROWS: usize, const VECTORS: usize>(
         &self,
@@ -179,7 +179,7 @@ impl Correlation<'_> {
         }
     }
 
-    /// Where pixel `position`, counted over all pictures, begins in the input and lies in the output.
+    /// Offsets of pixel `position`, counted over all pictures, in input and output.
     #[inline(always)]
     fn place(&self, position: usize) -> (usize, usize) {
         let image = position / self.pixels.len();

@@ -17,26 +17,26 @@ use crate::planes::{Layout, Planes};
 use crate::simd::Pixels;
 use crate::team;
 
-/// Pixels of pictures that one thread takes at a time: enough to outweigh the weights that they meet.
+/// Pixels per task of a thread: enough to amortise reading the weights.
 const PIXELS_AT_ONCE: usize = 384;
 
-/// Pictures from which on the border is left out where it may be: as many as a tile of sums has rows.
+/// Fewest pictures for which the border is skipped: the rows of a tile of sums.
 const IMAGES_WORTH_CLASSES: usize = 6;
 
-/// Pixels that a tile of sums has at most.
+/// Most pixels of a tile of sums.
 pub(super) const ROWS: usize = 6;
 
-/// A forward pass over pictures of one layout, ready to be run.
+/// Forward pass, prepared for pictures of one layout.
 #[derive(Clone, Debug)]
 pub(crate) struct Forward {
-    /// All pixels.
+    /// One class of all pixels.
     whole: Class,
-    /// The same without the border, which are several classes; none where it is not left out.
+    /// Classes without the border. Empty if the border is not skipped.
     apart: Vec<Class>,
     rows: usize,
 }
 
-/// Output pixels that read the same places of the kernel.
+/// Output pixels that read the same kernel positions.
 #[derive(Clone, Debug)]
 pub(super) struct Class {
     pub(super) pixels: Pixels,
@@ -45,7 +45,7 @@ pub(super) struct Class {
 }
 
 impl Forward {
-    /// The pass of `convolution` from pictures of layout `input` to those of layout `output`.
+    /// Pass of `convolution` from pictures of layout `input` to those of layout `output`.
     pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> Forward {
         let layouts = (input, output);
         let (height, width) = (output.picture.height, output.picture.width);
@@ -67,8 +67,8 @@ impl Forward {
         }
     }
 
-    /// What is passed of so many pictures. A class reads the weights for itself, which is worth it where there are pixels enough to read them
-    /// for; as nothing but zeros is left out, the outputs are the same.
+    /// Classes to compute for `images` pictures. Each class reads the weights again, which pays off for enough pixels. Only zeros
+    /// are skipped, so outputs do not depend on this choice.
     fn classes(&self, images: usize) -> &[Class] {
         if self.apart.is_empty() || images < IMAGES_WORTH_CLASSES {
             std::slice::from_ref(&self.whole)
@@ -77,7 +77,7 @@ impl Forward {
         }
     }
 
-    /// What there is to be divided of a picture with so many panels of outputs.
+    /// Work of one picture with `panels` output panels, to be divided among threads.
     pub(in crate::convolution) fn outputs(&self, panels: usize) -> Outputs {
         Outputs {
             pixels: self.whole.pixels.len(),
@@ -88,7 +88,7 @@ impl Forward {
         }
     }
 
-    /// Runs it, into the first pictures of `output`; `each` of a picture sees its output while that is still in a cache.
+    /// Runs the pass into the first pictures of `output`. `see` receives each picture's item of `each` and its output while still cached.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,
@@ -186,11 +186,11 @@ impl Class {
     }
 }
 
-/// How many pictures of `pixels` pixels a thread takes at a time. It changes the time that a pass takes, and no bit of it.
+/// Number of pictures of `pixels` pixels per task of a thread. Affects only the time, not the result.
 pub(super) fn images_at_once(pixels: usize, count: usize, are_weights_many: bool) -> usize {
     let share = count.div_ceil(rayon::current_num_threads()).max(1);
     if are_weights_many {
-        // Weights are read from memory once for each group.
+        // Each group reads the weights from memory once.
         share
     } else {
         PIXELS_AT_ONCE.div_ceil(pixels).min(share)

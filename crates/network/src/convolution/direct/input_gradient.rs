@@ -1,5 +1,5 @@
-//! The gradient of the input: a correlation of the output's gradient with exchanged weights, one for each class of pixels
-//! that the same places of the kernel reach.
+//! Input gradient: correlation of the output gradient with exchanged weights, one for each class of pixels reached by the same
+//! kernel positions.
 
 use rayon::prelude::*;
 
@@ -13,14 +13,14 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::Pixels;
 
-/// The pass that gives the gradient of the input, ready to be run.
+/// Input-gradient pass, prepared for pictures of one layout.
 #[derive(Clone, Debug)]
 pub(crate) struct InputGradient {
     classes: Vec<Class>,
     convolution: Convolution,
 }
 
-/// Input pixels that the same places of the kernel reach; with stride 2, four classes by parity.
+/// Input pixels reached by the same kernel positions. With stride 2: four classes by parity.
 #[derive(Clone, Debug)]
 struct Class {
     pixels: Pixels,
@@ -28,9 +28,9 @@ struct Class {
 }
 
 impl InputGradient {
-    /// The pass from gradients of the output, of layout `output`, to those of the input, of layout `input`.
+    /// Pass from output gradients of layout `output` to input gradients of layout `input`.
     ///
-    /// The border of `output` is at least the padding.
+    /// The border of `output` must be at least the padding.
     pub(crate) fn new(convolution: Convolution, output: Layout, input: Layout) -> InputGradient {
         let stride = convolution.stride;
         let classes = (0..stride).flat_map(|y| (0..stride).map(move |x| (y, x)));
@@ -43,7 +43,7 @@ impl InputGradient {
         }
     }
 
-    /// Runs it on the first `count` pictures with exchanged weights.
+    /// Runs the pass on the first `count` pictures with exchanged weights.
     pub(crate) fn run(
         &self,
         machine: Machine,
@@ -90,8 +90,8 @@ impl InputGradient {
 }
 
 impl Class {
-    /// The classes of input pixels from the first row and column of these on, in steps of the stride: one, or one for each pixel where
-    /// the border is left out.
+    /// Classes of the input pixels at `first_y` + i · stride, `first_x` + j · stride. One class, or one for each pixel if the border
+    /// is skipped.
     fn all_of(
         convolution: Convolution,
         output: Layout,
@@ -100,10 +100,10 @@ impl Class {
         first_x: usize,
     ) -> Vec<Class> {
         let (stride, padding) = (convolution.stride, convolution.padding());
-        // Input pixel `first + stride·i` meets kernel place `tap` in output pixel `i + shift`, where it meets it at all.
+        // Input pixel `first + stride·i` meets kernel position `tap` in output pixel `i + shift`, if at all.
         let shift = |first: usize, tap: usize| -> Option<usize> {
             let distance = (first + padding + stride * padding).checked_sub(tap)?;
-            // Shifts are kept non-negative by `padding` pixels of border.
+            // `padding` pixels of border keep shifts non-negative.
             distance.is_multiple_of(stride).then_some(distance / stride)
         };
         let places = (0..convolution.kernel)

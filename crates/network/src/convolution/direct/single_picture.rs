@@ -1,4 +1,4 @@
-//! The forward pass of one picture in parts, each on a thread of its own.
+//! Forward pass of one picture, divided among threads.
 
 use std::ops::Range;
 
@@ -13,20 +13,20 @@ use crate::panel::PANEL;
 use crate::planes::Layout;
 use crate::team;
 
-/// One picture and what it is convolved with.
+/// One picture and its convolution.
 #[derive(Clone, Copy)]
 pub(super) struct Divided<'a> {
     pub(super) class: &'a Class,
-    /// Rows of weights of each panel.
+    /// Rows of weights in each panel.
     pub(super) rows: usize,
     pub(super) input: &'a [f32],
     pub(super) weights: &'a [f32],
-    /// How the output lies.
+    /// Memory layout of the output.
     pub(super) layout: Layout,
 }
 
 impl<'a> Divided<'a> {
-    /// Writes the output; `ending` says what stands around the sums of some numbers of it.
+    /// Writes the output. `ending` returns the start and finish of the sums of a range of its values.
     pub(super) fn run(
         self,
         machine: Machine,
@@ -47,7 +47,7 @@ impl<'a> Divided<'a> {
         }
     }
 
-    /// Each part writes its stretch of the output.
+    /// Divides by pixels: each part writes one stretch of the output.
     fn by_pixels(
         self,
         machine: Machine,
@@ -79,7 +79,7 @@ impl<'a> Divided<'a> {
         });
     }
 
-    /// Each part writes its panels apart, and they are brought together.
+    /// Divides by panels: each part writes its own buffer, and the buffers are gathered.
     fn by_panels(
         self,
         machine: Machine,
@@ -121,7 +121,7 @@ impl<'a> Divided<'a> {
             pixels: &self.class.pixels,
             range,
             input: self.input,
-            // There is but one picture.
+            // A single picture needs no stride.
             input_image: 0,
             taps: &self.class.taps,
             run: self.class.run,

@@ -1,4 +1,4 @@
-//! The gradient of the weights: rows are input numbers, sums run over pixels.
+//! Weight gradient: one row per input value, summed over pixels.
 
 use rayon::prelude::*;
 
@@ -10,37 +10,37 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Pixels, Tile, Vector};
 
-/// Bytes of the output's gradient that are met at once, so that they stay in the second-level cache.
+/// Bytes of output gradient processed at once, so that they stay in the second-level cache.
 const GRADIENT_AT_ONCE: usize = 400 << 10;
 
-/// Rows of weights that make one task.
+/// Rows of weights in one task.
 const ROWS_AT_ONCE: usize = 48;
 
-/// The pass that gives the gradient of the weights, ready to be run.
+/// Weight-gradient pass, prepared for pictures of one layout.
 #[derive(Clone, Debug)]
 pub(crate) struct WeightGradient {
-    /// Those that one place of the kernel meets, or all.
+    /// Pixels read by each kernel position, or one table of all pixels for each kernel row.
     pixels: Vec<Pixels>,
     blocks: Vec<Block>,
     rows: usize,
 }
 
-/// Consecutive rows of weights that meet consecutive numbers of the input.
+/// Consecutive rows of weights for consecutive input values.
 #[derive(Clone, Copy, Debug)]
 struct Block {
-    /// Which pixels.
+    /// Index into `WeightGradient::pixels`.
     pixels: usize,
-    /// From where a pixel's kernel begins to the number that the first row meets.
+    /// Offset of the first row's input value from the start of a pixel's kernel.
     offset: usize,
     rows: usize,
 }
 
 impl WeightGradient {
-    /// The pass from pictures of layout `input` and gradients of layout `output`.
+    /// Pass from pictures of layout `input` and gradients of layout `output`.
     pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> WeightGradient {
         let Convolution { inputs, kernel, .. } = convolution;
         let picture = output.picture;
-        // Whole rows of places meet all pixels, or each place meets its own.
+        // A kernel row is processed as a whole over all pixels, or each kernel position over its own pixels.
         let is_left_out = border::is_left_out(picture);
         let run = if is_left_out { inputs } else { kernel * inputs };
         let side = |positions, length| match is_left_out {
@@ -76,10 +76,10 @@ impl WeightGradient {
         }
     }
 
-    /// Runs it on the first `count` pictures.
+    /// Runs the pass on the first `count` pictures.
     ///
     /// # Shapes
-    /// `into`: that of the weights.
+    /// `into`: shape of the weights.
     pub(crate) fn run(
         &self,
         machine: Machine,
@@ -111,7 +111,7 @@ impl WeightGradient {
         });
     }
 
-    /// The gradient's memory divided into tasks: a block of rows of up to four panels each.
+    /// Divides the gradient buffer into tasks: a block of rows of up to four panels each.
     fn tasks<'a>(&self, into: &'a mut [f32]) -> Vec<Task<'a>> {
         let mut tasks = Vec::new();
         for (group, panels) in into.chunks_mut(4 * self.rows * PANEL).enumerate() {
@@ -133,23 +133,23 @@ impl WeightGradient {
     }
 }
 
-/// A block of rows of some panels.
+/// One block of rows of up to four panels.
 struct Task<'a> {
     block: Block,
-    /// The first channel of the first panel.
+    /// First channel of the first panel.
     channel: usize,
     /// `[block rows, PANEL]` each.
     panels: Vec<&'a mut [f32]>,
 }
 
-/// One task on some pictures.
+/// One task over a group of pictures.
 struct Sums<'a, 'b> {
     pixels: &'a Pixels,
     input: &'a [f32],
     input_image: usize,
     gradient: &'a [f32],
     gradient_image: usize,
-    /// Whether sums begin with zero, or with what the task holds.
+    /// True if sums begin at zero instead of the values in `task`.
     is_first: bool,
     task: &'a mut Task<'b>,
 }

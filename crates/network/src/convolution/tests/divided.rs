@@ -4,7 +4,7 @@ use super::super::division::Division;
 use super::*;
 use crate::panel::PANEL;
 
-/// A convolution of so many pictures of odd sizes.
+/// A convolution of a number of pictures of odd sizes.
 fn case(
     channels: [usize; 2],
     [kernel, stride]: [usize; 2],
@@ -29,7 +29,7 @@ fn case(
 
 fn cases() -> Vec<Case> {
     vec![
-        // One channel, and panels that no tile of four divides.
+        // One channel, and a number of panels that is not a multiple of four.
         case([1, 48], [7, 2], [61, 35], 1),
         case([16, 80], [3, 1], [23, 17], 1),
         case([64, 64], [3, 1], [13, 19], 1),
@@ -84,7 +84,7 @@ fn pictures_divided_among_threads_have_the_same_bits_under_every_epilogue_and_fu
                         on_threads(threads, || {
                             let how = (machine, form);
                             let outputs = finished(&weights, &pictures, epilogue, how);
-                            // Borders too, which are to stay zero.
+                            // Includes borders, which must stay zero.
                             bits(outputs.first(case.batch))
                         })
                     };
@@ -116,7 +116,7 @@ fn the_cases_are_divided_by_pixels_and_by_panels_in_both_forms() {
                     Some(pass.outputs(case.output().channels / PANEL))
                 }
                 (Forward::Winograd(pass), _) => Some(pass.outputs()),
-                // Taken as direct in either form.
+                // Direct in either form.
                 _ => None,
             };
             let each = outputs.map(|outputs| THREADS.map(|threads| outputs.divided(threads)));

@@ -15,31 +15,31 @@ use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 use crate::team;
 
-/// A forward pass over pictures of one layout, ready to be run.
+/// Forward pass, prepared for pictures of one layout.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Forward {
     products: Products,
 }
 
 impl Forward {
-    /// The pass from pictures of layout `input` to those of layout `output`.
+    /// Pass from pictures of layout `input` to those of layout `output`.
     pub(crate) fn new(input: Layout, output: Layout) -> Forward {
         Forward {
             products: Products::new(input, output),
         }
     }
 
-    /// What there is to be divided of a picture.
+    /// Work of one picture, to be divided among threads.
     pub(in crate::convolution) fn outputs(&self) -> Outputs {
         self.products.outputs()
     }
 
-    /// Numbers of transformed weights.
+    /// Length of the transformed weights.
     pub(crate) fn transformed_len(&self) -> usize {
         self.products.transformed_len()
     }
 
-    /// Transforms weights into the first numbers of `room`, and gives these.
+    /// Transforms weights into the start of `room` and returns that part.
     pub(crate) fn transform<'a>(
         &self,
         machine: Machine,
@@ -52,8 +52,8 @@ impl Forward {
         room
     }
 
-    /// Runs it with transformed weights, into the first pictures of `output`; `each` of a picture sees its output while that is still
-    /// in a cache.
+    /// Runs the pass with transformed weights into the first pictures of `output`. The callback of `each` receives each picture's
+    /// output while still cached.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,

@@ -1,5 +1,5 @@
-//! The gradient of the input: the forward pass from the gradient of the output, with inputs and outputs of the weights exchanged and
-//! kernels turned.
+//! Input gradient: the forward pass applied to the output gradient, with inputs and outputs of the weights exchanged and
+//! kernels rotated by 180°.
 
 use super::products::Products;
 use super::weights::to_points;
@@ -8,26 +8,26 @@ use crate::convolution::workspace::Rooms;
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 
-/// The pass that gives the gradient of the input, ready to be run.
+/// Input-gradient pass, prepared for pictures of one layout.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct InputGradient {
     products: Products,
 }
 
 impl InputGradient {
-    /// The pass from gradients of the output, of layout `output`, to those of the input, of layout `input`.
+    /// Pass from output gradients of layout `output` to input gradients of layout `input`.
     pub(crate) fn new(output: Layout, input: Layout) -> InputGradient {
         InputGradient {
             products: Products::new(output, input),
         }
     }
 
-    /// Numbers of transformed weights.
+    /// Length of the transformed weights.
     pub(crate) fn transformed_len(&self) -> usize {
         self.products.transformed_len()
     }
 
-    /// Runs it on the first `count` pictures with exchanged weights.
+    /// Runs the pass on the first `count` pictures with exchanged weights.
     pub(crate) fn run(
         &self,
         machine: Machine,
@@ -41,7 +41,7 @@ impl InputGradient {
         to_points(machine, exchanged, outputs, true, weights);
         let read = (gradient.first(count), &*weights);
         let written = (into.first_mut(count), |_| (onto.start(), Finish::Keep));
-        // Nobody looks at the gradients on the way.
+        // No callback reads the gradients.
         let each = (&mut vec![(); count][..], |(): &mut (), _: &[f32]| {});
         self.products.run(machine, read, written, each, rooms.tiles);
     }

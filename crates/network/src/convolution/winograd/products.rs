@@ -1,4 +1,4 @@
-//! Tiles times transformed weights: the forward pass, and with exchanged weights the gradient of the input.
+//! Products of tiles and transformed weights: the forward pass, and with exchanged weights the input gradient.
 
 use std::ops::Range;
 
@@ -14,28 +14,28 @@ use crate::panel::PANEL;
 use crate::planes::Layout;
 use crate::simd::{Job, Tile, Vector};
 
-/// Tiles that a thread takes at once.
+/// Tiles per step of a thread.
 const TILES_AT_ONCE: usize = 32;
 
-/// The same where there are more weights than a cache holds, which are read once for all tiles that are taken at once.
+/// Tiles per step if the weights exceed the cache; a step reads them once.
 const TILES_AT_ONCE_OF_MANY_WEIGHTS: usize = 48;
 
-/// Channels that are summed by themselves before they are added to the sum of the others, so that errors hardly grow with channels: hundreds
-/// in one row lose more digits than the transforms do. A sum of sums is most exact where either has as many terms, so that these are the root
-/// of the channels, or the next larger power of two: 8 of 64, 16 of 128 and 256, 32 of 512.
+/// Channels per partial sum. Partial sums keep rounding errors from growing with channels: hundreds of terms in one row lose more
+/// digits than the transforms do. Errors are smallest if inner and outer sums have equally many terms. The count is therefore the square
+/// root of the channels, or the next larger power of two: 8 of 64, 16 of 128 and 256, 32 of 512.
 ///
-/// Against double precision that is the most exact of 4, 8, 16, 32 and all, or within a few hundredths of it, in each layer of a ResNet
-/// (`tests/blocks.rs` prints and holds it). One count for all layers is further from it: 8 by a fifth at 512 channels, 16 by a twentieth at
-/// 64. Errors alone did not find it: with 16 everywhere, `two_hundred_steps_go_as_pytorch_s` parts from PyTorch at step 11, as if a gate of a
-/// ReLU near zero opened otherwise (which one was not looked for). 8 everywhere, one of four settings that were tried, and then this fifth pass it.
+/// Against double precision, this count is the most exact of 4, 8, 16, 32 and all in each layer of a ResNet, to within a few
+/// hundredths (`tests/blocks.rs` prints and checks it). One count for all layers is less exact: 8 by a fifth at 512 channels, 16 by a
+/// twentieth at 64. Errors alone did not find this count. With 16 everywhere, `two_hundred_steps_go_as_pytorch_s` diverges from PyTorch at
+/// step 11, perhaps at a ReLU whose input is near zero. Of five settings tried, 8 everywhere and this count pass the test.
 pub(super) const fn channels_at_once(channels: usize) -> usize {
     1 << channels.next_power_of_two().ilog2().div_ceil(2)
 }
 
-/// Bytes of transformed weights that a cache holds.
+/// Bytes of transformed weights that fit into the cache.
 const WEIGHTS_IN_CACHE: usize = 4 << 20;
 
-/// How many tiles are taken at once that meet `weights`.
+/// Number of tiles per step for `weights`.
 pub(super) fn tiles_at_once(weights: &[f32]) -> usize {
     let are_many = size_of_val(weights) > WEIGHTS_IN_CACHE;
     if are_many {
@@ -45,22 +45,22 @@ pub(super) fn tiles_at_once(weights: &[f32]) -> usize {
     }
 }
 
-/// Tiles of each stretch of `total`, of at most about `most`: of nearly the same length, which tiles of sums divide.
+/// Tiles per stretch, about `most` at most: `total` divided into nearly equal stretches, rounded up to whole tiles of sums.
 pub(super) fn stretch(total: usize, most: usize) -> usize {
     total.div_ceil(total.div_ceil(most)).next_multiple_of(6)
 }
 
-/// Pictures of one layout and the layout of what comes of them.
+/// Layouts of the input and output pictures.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Products {
     pub(super) input: Layout,
     pub(super) output: Layout,
-    /// Channels of the input that are summed by themselves.
+    /// Input channels per partial sum.
     pub(super) channels_at_once: usize,
 }
 
 impl Products {
-    /// The products from pictures of layout `input` to those of layout `output`.
+    /// Products from pictures of layout `input` to those of layout `output`.
     pub(super) fn new(input: Layout, output: Layout) -> Products {
         Products {
             input,
@@ -69,16 +69,16 @@ impl Products {
         }
     }
 
-    /// Numbers of transformed weights.
+    /// Length of the transformed weights.
     pub(super) fn transformed_len(&self) -> usize {
         transformed_len(self.input.picture.channels, self.output.picture.channels)
     }
 
-    /// Writes the outputs of pictures; `ending` says what stands around the sums of some numbers of them, and `each` of a picture sees its
-    /// output while that is still in a cache.
+    /// Writes the outputs of pictures. `ending` returns the start and finish of the sums of a range of values. `see` receives each
+    /// picture's item of `each` and its output while still cached.
     ///
     /// # Shapes
-    /// `weights`: as [`to_points`](super::weights::to_points) writes them.
+    /// `weights`: written by [`to_points`](super::weights::to_points).
     pub(super) fn run<'a, E: Send>(
         &self,
         machine: Machine,
@@ -130,21 +130,21 @@ impl Products {
     }
 }
 
-/// Some pictures.
+/// Work of one thread on some pictures.
 pub(super) struct Group<'a> {
     pub(super) tiles: Tiles,
-    /// Tiles that are written, counted over all the pictures.
+    /// Tiles to write, counted over all the pictures.
     pub(super) range: Range<usize>,
     pub(super) at_once: usize,
-    /// Read and written.
+    /// Input and output channels.
     pub(super) channels: [usize; 2],
     pub(super) channels_at_once: usize,
     pub(super) pictures: (&'a [f32], Layout),
     pub(super) weights: &'a [f32],
-    /// The pictures that are written, and how many numbers of them are left out before the first.
+    /// Output buffer, its layout, and the number of values of the pictures before the buffer.
     pub(super) output: (&'a mut [f32], Layout, usize),
     pub(super) ending: (Start<'a>, Finish<'a>),
-    /// `[point, tile, channel]`: inputs and sums.
+    /// `[point, tile, channel]` of inputs and of sums.
     pub(super) room: [&'a mut [f32]; 2],
 }
 
@@ -176,7 +176,7 @@ impl Job for Group<'_> {
 }
 
 impl Group<'_> {
-    /// Sums the products at one point, of so many tiles.
+    /// Sums the products of `tiles` tiles at one point.
     #[inline(always)]
     fn point<V: Vector>(&mut self, proof: V::Proof, point: usize, tiles: usize) {
         let panels = self.channels[1] / PANEL;

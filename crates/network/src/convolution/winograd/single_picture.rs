@@ -1,4 +1,4 @@
-//! The forward pass of one picture in parts, each on a thread of its own.
+//! Forward pass of one picture, divided among threads.
 
 use std::ops::Range;
 
@@ -13,31 +13,31 @@ use crate::panel::PANEL;
 use crate::planes::Layout;
 use crate::team;
 
-/// One picture and what it is convolved with.
+/// One picture and its convolution.
 #[derive(Clone, Copy)]
 pub(super) struct Divided<'a> {
     pub(super) products: Products,
     pub(super) input: &'a [f32],
-    /// Transformed.
+    /// Transformed weights.
     pub(super) weights: &'a [f32],
 }
 
-/// A part of the picture.
+/// Work of one thread.
 struct Part<'a> {
     tiles: Range<usize>,
     weights: &'a [f32],
-    /// What is written, how it lies, and how many numbers are left out before it.
+    /// Output buffer, its layout, and the number of values of the picture before the buffer.
     output: (&'a mut [f32], Layout, usize),
     ending: (Start<'a>, Finish<'a>),
 }
 
 impl Products {
-    /// What there is to be divided of a picture.
+    /// Work of one picture, to be divided among threads.
     pub(super) fn outputs(&self) -> Outputs {
         let tiles = Tiles::of(self.output.picture);
         Outputs {
             pixels: tiles.per_picture,
-            // Whole rows of tiles, which write whole rows of the output.
+            // Parts are whole rows of tiles, which write whole rows of the output.
             together: tiles.across,
             panels: self.output.picture.channels / PANEL,
             products: self.input.picture.channels,
@@ -47,7 +47,7 @@ impl Products {
 }
 
 impl<'a> Divided<'a> {
-    /// Writes the output; `ending` says what stands around the sums of some numbers of it.
+    /// Writes the output. `ending` returns the start and finish of the sums of a range of its values.
     pub(super) fn run(
         self,
         machine: Machine,
@@ -68,7 +68,7 @@ impl<'a> Divided<'a> {
         }
     }
 
-    /// Each part writes some rows of tiles.
+    /// Divides by rows of tiles.
     fn by_rows(
         self,
         machine: Machine,
@@ -106,7 +106,7 @@ impl<'a> Divided<'a> {
         team::divide(stretches, |part| self.part(machine, part, rooms));
     }
 
-    /// Each part writes its panels apart, and they are brought together.
+    /// Divides by panels: each part writes its own buffer, and the buffers are gathered.
     fn by_panels(
         self,
         machine: Machine,

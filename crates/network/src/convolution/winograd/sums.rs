@@ -1,4 +1,4 @@
-//! Sums over tiles at each point: those of one point and a few panels are one task, which adds tile after tile.
+//! Sums over tiles at each point. One task sums one point and a few panels, tile after tile.
 
 use rayon::prelude::*;
 
@@ -9,26 +9,26 @@ use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::simd::{Job, Pixels, Tile, Vector};
 
-/// Tiles of a piece.
+/// Tiles per piece.
 pub(super) const PIECE: usize = 16;
 
-/// Panels of channels that one task sums: as many as the widest machine takes at once.
+/// Channel panels per task: the most that the widest machine sums at once.
 const PANELS_AT_ONCE: usize = 4;
 
-/// Transformed tiles, in pieces of so many.
+/// Transformed tiles in pieces of [`PIECE`] tiles.
 pub(super) struct Pieces<'a> {
-    /// Read and written.
+    /// Input and output channels.
     channels: [usize; 2],
     values: &'a [f32],
-    /// Numbers of a piece.
+    /// Length of a piece, values.
     piece: usize,
-    /// The tiles of a piece, and of the last one where that has fewer.
+    /// Offsets of the tiles of a full piece, and of a shorter last one.
     whole: Pixels,
     rest: Pixels,
 }
 
 impl<'a> Pieces<'a> {
-    /// The pieces of `tiles` tiles.
+    /// Pieces of `tiles` tiles.
     pub(super) fn new(channels: [usize; 2], tiles: usize, values: &'a [f32]) -> Pieces<'a> {
         Pieces {
             channels,
@@ -39,15 +39,15 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Numbers of a piece.
+    /// Length of a piece, values.
     pub(super) fn length(channels: [usize; 2]) -> usize {
         POINTS * (slab(PIECE, channels[0]) + slab(PIECE, channels[1]))
     }
 
-    /// Adds the products of inputs and gradients to sums, or writes them where they are the first.
+    /// Adds the products of inputs and gradients to `sums`, or overwrites `sums` if `is_first`.
     ///
     /// # Shapes
-    /// `sums`: `[point, panel, input, PANEL]`, a panel of nothing after the inputs of each.
+    /// `sums`: `[point, panel, input, PANEL]`, one unused panel after the inputs of each.
     pub(super) fn add(&self, machine: Machine, is_first: bool, sums: &mut [f32]) {
         let [read, written] = self.channels;
         let slab = slab(read, PANEL);
@@ -69,20 +69,20 @@ impl<'a> Pieces<'a> {
     }
 }
 
-/// Where the channels of so many tiles lie at a point.
+/// Offsets of the channels of `tiles` tiles at a point.
 fn pixels(tiles: usize, [read, written]: [usize; 2]) -> Pixels {
     let places = (0..tiles).map(|tile| (offset(tile * read), offset(tile * written)));
     Pixels::new(places.collect())
 }
 
-/// The sums of a point and some panels.
+/// Sums of one point and some panels.
 struct Sums<'a> {
     pieces: &'a Pieces<'a>,
     point: usize,
-    /// The first channel of the first panel.
+    /// First channel of the first panel.
     channel: usize,
     is_first: bool,
-    /// Numbers from one panel to the next.
+    /// Stride between panels, values.
     slab: usize,
     sums: &'a mut [f32],
 }

@@ -1,4 +1,4 @@
-//! How exact Winograd's passes are, whatever is passed through them, and which convolutions they take.
+//! Accuracy of Winograd's passes for various inputs, and the convolutions that they support.
 
 mod blocks;
 
@@ -6,7 +6,7 @@ use super::*;
 use crate::convolution::tests::{Case, Numbers, batch_of, forward, machines, passes, values};
 use crate::convolution::{ConvolutionForm, ConvolutionWeights};
 
-/// The most that errors may have, as a root of a mean square over that of the results.
+/// Largest error allowed, as root mean square relative to that of the results.
 const ERROR: f64 = 4e-6;
 
 const PASSES: [&str; 3] = ["output", "gradient of the input", "gradient of the weights"];
@@ -29,7 +29,7 @@ fn case(channels: (usize, usize), (height, width): (usize, usize), batch: usize)
     }
 }
 
-/// The root of the mean square of errors, over that of the expected numbers.
+/// Root mean square error relative to that of the expected values.
 fn error(found: &[f32], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let squares: f64 = expected.iter().map(|value| value * value).sum();
@@ -38,7 +38,7 @@ fn error(found: &[f32], expected: &[f64]) -> f64 {
     (differences.sum::<f64>() / squares).sqrt()
 }
 
-/// The errors of each pass, of the worst instruction set.
+/// Errors of each pass, for the worst instruction set.
 fn errors(case: &Case, numbers: &Numbers) -> [f64; 3] {
     let expected = case.definition(numbers);
     let mut worst = [0.0_f64; 3];
@@ -136,7 +136,7 @@ fn a_convolution_of_one_channel_is_direct_and_exact() {
     let expected = case.definition(&numbers);
     for (isa, machine) in machines() {
         let found = passes(&case, machine, &numbers);
-        // Nobody asks for the gradient of its input.
+        // Its input gradient is never computed.
         for pass in [0, 2] {
             let error = error(&found[pass], &expected[pass]);
             assert!(error <= ERROR, "{isa}: {}: {error:e}", PASSES[pass]);
@@ -185,7 +185,7 @@ fn scales_that_are_powers_of_two_change_no_digit() {
         for factor in [2.0_f32.powi(14), 2.0_f32.powi(-14)] {
             let after = passes(&case, machine, &scaled(factor));
             for (pass, (before, after)) in PASSES.iter().zip(before.iter().zip(&after)) {
-                // That of the weights has both factors.
+                // The weight gradient has both factors.
                 let factor = if *pass == PASSES[2] {
                     factor * factor
                 } else {

@@ -1,4 +1,4 @@
-//! Tiles of pictures and what lies at their points, `[point, tile, channel]`.
+//! Transforms tiles of pictures to their points, `[point, tile, channel]`, and back.
 
 use std::ops::Range;
 
@@ -8,20 +8,20 @@ use crate::convolution::ending::{Finish, Start};
 use crate::planes::Layout;
 use crate::simd::{Spaced, Vector};
 
-/// Some of the tiles of pictures of one layout.
+/// A range of the tiles of pictures of one layout.
 #[derive(Clone)]
 pub(super) struct Stretch {
     pub(super) tiles: Tiles,
     pub(super) range: Range<usize>,
-    /// Numbers from one point to the next.
+    /// Stride between points, values.
     pub(super) slab: usize,
 }
 
 impl Stretch {
-    /// Writes the inputs of the tiles at each point.
+    /// Writes the transformed inputs of the tiles.
     ///
     /// # Shapes
-    /// `pictures`: with a border of at least one.
+    /// `pictures`: with a border of at least one pixel.
     #[inline(always)]
     pub(super) fn read_inputs<V: Vector>(
         &self,
@@ -32,7 +32,7 @@ impl Stretch {
         let (channels, row) = (layout.picture.channels, layout.row());
         for (position, tile) in self.range.clone().enumerate() {
             let place = self.tiles.place(tile);
-            // A tile begins a pixel above and beside its outputs; beyond the border of zeros there are more of them.
+            // A tile begins one pixel above and left of its outputs. Values beyond the border are zero.
             let corner = place.image * layout.len()
                 + (place.y + layout.border - 1) * row
                 + (place.x + layout.border - 1) * channels;
@@ -58,7 +58,7 @@ impl Stretch {
         }
     }
 
-    /// Writes the gradients of the tiles of outputs as those of the sums at each point.
+    /// Writes the transformed output gradients of the tiles.
     #[inline(always)]
     pub(super) fn read_gradients<V: Vector>(
         &self,
@@ -93,7 +93,7 @@ impl Stretch {
         }
     }
 
-    /// Writes the tiles of outputs from the sums at each point, into pictures of which so many numbers are left out before the first.
+    /// Writes the tiles of outputs from the sums at each point. The buffer begins `skipped` values into the pictures.
     #[inline(always)]
     pub(super) fn write_outputs<V: Vector>(
         &self,
@@ -137,7 +137,7 @@ impl Stretch {
         }
     }
 
-    /// The points of a row where the numbers of a tile's channels lie at `start` of each.
+    /// Places of the six points of `row`, `start` values after the beginning of each.
     #[inline(always)]
     fn row_of_points(&self, row: usize, start: usize) -> Spaced {
         Spaced {
@@ -148,7 +148,7 @@ impl Stretch {
     }
 }
 
-/// Sums of a row of a tile with what they begin and end with; they are of `pixels`, from `channel` on.
+/// Sums of one row of a tile at `pixels`, from `channel` on, with start value and finish applied.
 #[inline(always)]
 fn finished<V: Vector>(
     proof: V::Proof,

@@ -1,4 +1,4 @@
-//! The transforms of one dimension. Points are 0, a, −a, b, −b and infinity with a² = ½ and b² = 2: at each, a polynomial of the numbers.
+//! Winograd transforms along one dimension. Points are 0, a, −a, b, −b and ∞ with a² = ½ and b² = 2, where polynomials are evaluated.
 
 use super::{SIDE, TILE};
 use crate::simd::Vector;
@@ -8,7 +8,7 @@ const B: f64 = std::f64::consts::SQRT_2;
 const A2: f64 = 0.5;
 const B2: f64 = 2.0;
 
-/// What kernels are divided by at ±a and ±b; at 0 it is a²b² = 1.
+/// Factors of kernels at ±a and ±b. At 0 the factor is 1, because a²b² = 1.
 const AT_A: f64 = 1.0 / (2.0 * A2 * (A2 - B2));
 const AT_B: f64 = 1.0 / (2.0 * B2 * (B2 - A2));
 
@@ -34,7 +34,7 @@ fn times_plus<V: Vector>(proof: V::Proof, vector: V, factor: f64, addend: V) -> 
     vector.times_plus(constant(proof, factor), addend)
 }
 
-/// Bᵀd: the inputs of a tile at each point.
+/// Bᵀd: transforms the inputs of a tile.
 #[inline(always)]
 pub(super) fn input<V: Vector>(proof: V::Proof, d: [V; SIDE]) -> [V; SIDE] {
     let even_a = times_plus(proof, d[2], -B2, d[4]);
@@ -51,7 +51,7 @@ pub(super) fn input<V: Vector>(proof: V::Proof, d: [V; SIDE]) -> [V; SIDE] {
     ]
 }
 
-/// Aᵀm: the outputs of a tile from the sums at each point.
+/// Aᵀm: transforms the sums at the points back to outputs.
 #[inline(always)]
 pub(super) fn output<V: Vector>(proof: V::Proof, m: [V; SIDE]) -> [V; TILE] {
     let (even_a, odd_a) = (m[1].plus(m[2]), times_plus(proof, m[2], -1.0, m[1]));
@@ -64,7 +64,7 @@ pub(super) fn output<V: Vector>(proof: V::Proof, m: [V; SIDE]) -> [V; TILE] {
     ]
 }
 
-/// Ay: the gradient of a tile of outputs as that of the sums at each point.
+/// Ay: transforms the gradient of a tile of outputs to the gradient of the sums at the points.
 #[inline(always)]
 pub(super) fn gradient<V: Vector>(proof: V::Proof, y: [V; TILE]) -> [V; SIDE] {
     let even_a = times_plus(proof, y[2], A2, y[0]);
@@ -81,7 +81,7 @@ pub(super) fn gradient<V: Vector>(proof: V::Proof, y: [V; TILE]) -> [V; SIDE] {
     ]
 }
 
-/// Gw: a row of a kernel at each point.
+/// Gw: transforms a row of a kernel.
 #[inline(always)]
 pub(super) fn kernel<V: Vector>(proof: V::Proof, w: [V; 3]) -> [V; SIDE] {
     let even_a = times_plus(proof, w[2], A2 * AT_A, times(proof, w[0], AT_A));
@@ -96,7 +96,7 @@ pub(super) fn kernel<V: Vector>(proof: V::Proof, w: [V; 3]) -> [V; SIDE] {
     ]
 }
 
-/// Gᵀu: the gradient of a row of a kernel from that at each point.
+/// Gᵀu: transforms the gradient at the points to the gradient of a row of a kernel.
 #[inline(always)]
 pub(super) fn kernel_gradient<V: Vector>(proof: V::Proof, u: [V; SIDE]) -> [V; 3] {
     let (even_a, odd_a) = (u[1].plus(u[2]), times_plus(proof, u[2], -1.0, u[1]));

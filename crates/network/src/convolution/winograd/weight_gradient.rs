@@ -1,7 +1,7 @@
-//! The gradient of the weights: tiles of inputs times gradients of tiles of outputs, summed at each point.
+//! Weight gradient: products of transformed inputs and output gradients, summed over tiles at each point.
 //!
-//! Tiles are transformed piece by piece; then each sum, of one point and a few panels, is one thread's, which adds tile after tile: there is
-//! nothing to reduce, and the order is the same on any number of threads.
+//! Tiles are transformed piece by piece. Then one thread computes each sum, of one point and a few panels, tile after tile. No
+//! reduction is needed, and the order is the same for any number of threads.
 
 use std::ops::Range;
 
@@ -16,13 +16,13 @@ use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// Pieces whose sums are taken at once, at least.
+/// Fewest pieces in memory at once.
 const PIECES_AT_ONCE: usize = 4;
 
-/// Bytes of pieces whose sums are taken at once, where that is more of them.
+/// Bytes of pieces in memory at once, if that is more pieces.
 const BYTES_AT_ONCE: usize = 2 << 20;
 
-/// The pass that gives the gradient of the weights, ready to be run.
+/// Weight-gradient pass, prepared for pictures of one layout.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WeightGradient {
     input: Layout,
@@ -30,20 +30,20 @@ pub(crate) struct WeightGradient {
 }
 
 impl WeightGradient {
-    /// The pass from pictures of layout `input` and gradients of layout `output`.
+    /// Pass from pictures of layout `input` and gradients of layout `output`.
     pub(crate) fn new(input: Layout, output: Layout) -> WeightGradient {
         WeightGradient { input, output }
     }
 
-    /// Numbers of the gradient of transformed weights.
+    /// Length of the gradient of transformed weights.
     pub(crate) fn transformed_len(&self) -> usize {
         transformed_len(self.input.picture.channels, self.output.picture.channels)
     }
 
-    /// Runs it on the first `count` pictures.
+    /// Runs the pass on the first `count` pictures.
     ///
     /// # Shapes
-    /// `into`: that of the weights.
+    /// `into`: shape of the weights.
     pub(crate) fn run(
         &self,
         machine: Machine,
@@ -84,13 +84,13 @@ impl WeightGradient {
     }
 }
 
-/// Tiles of inputs and gradients of outputs to be transformed.
+/// One piece: tiles of inputs and of output gradients to transform.
 struct Piece<'a> {
     tiles: Tiles,
     range: Range<usize>,
     pictures: (&'a [f32], Layout),
     gradients: (&'a [f32], Layout),
-    /// `[point, tile, channel]`: those of inputs, and then those of outputs.
+    /// `[point, tile, channel]` of inputs, then of output gradients.
     room: &'a mut [f32],
 }
 

@@ -1,4 +1,4 @@
-//! Kernels at the points, and their gradient back from there.
+//! Transforms of kernels and of their gradients.
 
 use rayon::prelude::*;
 
@@ -8,14 +8,14 @@ use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::simd::{Job, Spaced, Vector};
 
-/// Rows, columns and places of a kernel.
+/// Side of a kernel, and its number of positions.
 const KERNEL: usize = 3;
 const TAPS: usize = KERNEL * KERNEL;
 
-/// Transforms weights for `inputs` channels; `turned` reads each kernel from its last place to its first.
+/// Transforms weights for `inputs` channels. `turned` rotates each kernel by 180°.
 ///
 /// # Shapes
-/// `weights`: `[panel, tap, input, PANEL]`; `into`: `[panel, point, input, PANEL]`, a panel of nothing after the inputs of each point.
+/// `weights`: `[panel, tap, input, PANEL]`; `into`: `[panel, point, input, PANEL]`, one unused panel after the inputs of each point.
 pub(super) fn to_points(
     machine: Machine,
     weights: &[f32],
@@ -35,10 +35,10 @@ pub(super) fn to_points(
     });
 }
 
-/// Gives the gradient of weights for `inputs` channels from that of transformed ones.
+/// Computes the gradient of weights for `inputs` channels from the gradient of transformed weights.
 ///
 /// # Shapes
-/// `transformed`: `[point, panel, input, PANEL]`, a panel of nothing after the inputs of each; `into`: `[panel, tap, input, PANEL]`.
+/// `transformed`: `[point, panel, input, PANEL]`, one unused panel after the inputs of each; `into`: `[panel, tap, input, PANEL]`.
 pub(super) fn from_points(machine: Machine, transformed: &[f32], inputs: usize, into: &mut [f32]) {
     let panels = into.len() / (TAPS * inputs * PANEL);
     let gradients = into.par_chunks_mut(TAPS * inputs * PANEL);
@@ -55,7 +55,7 @@ pub(super) fn from_points(machine: Machine, transformed: &[f32], inputs: usize, 
 /// One panel of kernels.
 struct Kernels<'a> {
     weights: &'a [f32],
-    /// Numbers of a place of the kernel.
+    /// Values per kernel position.
     width: usize,
     turned: bool,
     into: &'a mut [f32],
@@ -102,11 +102,11 @@ impl Job for Kernels<'_> {
     }
 }
 
-/// The gradient of one panel of kernels.
+/// Gradient of one panel of kernels.
 struct KernelGradients<'a> {
-    /// From the panel at the first point on.
+    /// Values from this panel at the first point on.
     transformed: &'a [f32],
-    /// Numbers from one point to the next.
+    /// Stride between points, values.
     stride: usize,
     width: usize,
     into: &'a mut [f32],

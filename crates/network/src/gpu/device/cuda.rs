@@ -1,4 +1,4 @@
-//! A device by way of CUDA.
+//! CUDA devices.
 
 use burn_cuda::Cuda;
 use cudarc::driver::result as driver;
@@ -9,13 +9,13 @@ use super::Device;
 use crate::gpu::engine::begin;
 use crate::gpu::{GpuError, GpuKind};
 
-/// What is needed.
+/// Requirements, for errors.
 const LOOKED_FOR: &str =
     "NVIDIA's driver (libcuda), its compiler NVRTC (libnvrtc of CUDA 11 or later) and a GPU";
 
-/// The first device.
+/// Finds the first device.
 pub(crate) fn find() -> Result<Device, GpuError> {
-    // A library that is not there makes cudarc panic, and it has no other way to ask.
+    // cudarc panics if a library is missing, and offers no other check.
     let found = contained(|| {
         let name = driver::init()
             .and_then(|()| driver::device::get(0))

@@ -1,4 +1,4 @@
-//! A device by way of wgpu.
+//! wgpu devices.
 
 use std::pin::pin;
 use std::sync::Mutex;
@@ -13,10 +13,10 @@ use super::Device;
 use crate::gpu::engine::begin;
 use crate::gpu::{GpuError, GpuKind};
 
-/// The name of the device that burn uses, once it was initialised, which may be done only once in a process.
+/// Name of burn's device after its initialisation, which is allowed only once per process.
 static READY: Mutex<Option<String>> = Mutex::new(None);
 
-/// The first device.
+/// Finds the first device.
 pub(crate) fn find() -> Result<Device, GpuError> {
     let backend = AutoGraphicsApi::backend();
     let refuse = |found: String| GpuError::NotFound {
@@ -52,7 +52,7 @@ const fn looked_for(backend: Backend) -> &'static str {
     }
 }
 
-/// The name of the adapter that burn would choose, or why there is none.
+/// Name of the adapter that burn would choose, or the reason for none.
 fn adapter(backend: Backend) -> Result<String, String> {
     let instance = Instance::new(InstanceDescriptor {
         backends: backend.into(),
@@ -63,7 +63,7 @@ fn adapter(backend: Backend) -> Result<String, String> {
         ..RequestAdapterOptions::default()
     };
     let future = pin!(instance.request_adapter(&options));
-    // Outside of browsers the answer is there at once.
+    // Outside of browsers, the first poll answers.
     match future.poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(Ok(adapter)) => Ok(adapter.get_info().name),
         Poll::Ready(Err(error)) => Err(error.to_string()),

@@ -1,4 +1,4 @@
-//! `linfa/elastic-net`: a penalty that leaves out whole features, for all targets at once.
+//! `linfa/elastic-net`: a penalty that removes whole features, for all targets at once.
 
 use linfa::Dataset;
 use linfa::traits::Fit;
@@ -43,7 +43,7 @@ const MIX: Number = Number {
     unset: Unset::Is(0.5),
 };
 
-/// From the weakest to the strongest, four a decade.
+/// Candidate strengths, ascending, four per decade.
 const STRENGTHS: [f64; 11] = [
     3.162_277_660_168_379e-3,
     5.623_413_251_903_491e-3,
@@ -58,14 +58,14 @@ const STRENGTHS: [f64; 11] = [
     1.0,
 ];
 
-/// Sweeps over all features that a fit takes at most, and the change of weights at which it ends.
+/// Most sweeps over all features, and the change of weights at which a fit ends.
 const SWEEPS: u32 = 1000;
 const TOLERANCE: f64 = 1e-4;
 
-/// The multi-task elastic net: minimises ½n⁻¹ ‖Y − XW‖² + λ (α Σ‖wⱼ‖₂ + ½(1 − α)‖W‖²), wⱼ the weights of feature j for every target.
+/// Multi-task elastic net: minimises ½n⁻¹ ‖Y − XW‖² + λ (α Σ‖wⱼ‖₂ + ½(1 − α)‖W‖²), wⱼ the weights of feature j for every target.
 ///
-/// λ is the strength × the least λ at which every weight is 0. Targets are learnt together, each strength once; each target takes the
-/// weights of the strength that is chosen for it.
+/// λ is the strength × the least λ at which every weight is 0. Targets are fitted together, once per strength. Each target takes the
+/// weights of its chosen strength.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -96,7 +96,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// The least λ at which every weight is 0.
+/// Least λ at which every weight is 0.
 fn least(records: &Array2<f64>, targets: &Array2<f64>, mix: f64) -> f64 {
     let products = records.t().dot(targets);
     let lengths = products.rows().into_iter().map(|row| row.dot(&row).sqrt());

@@ -19,10 +19,10 @@ use crate::training::info::ModelInfo;
 
 const NAME: &str = "linfa/linear";
 
-/// Ordinary least squares by Householder's decomposition, each target alone.
+/// Ordinary least squares by Householder decomposition, each target separately.
 ///
-/// Where there are no more samples than features, or features depend on each other, the library is handed the samples in the coordinates
-/// of the space that they span, and the answer is the shortest of all solutions.
+/// With no more samples than features, or with dependent features, the library gets the samples in coordinates of their span. The
+/// result is the solution of least norm.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -48,7 +48,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// The weights of one target.
+/// Weights of one target.
 fn solved(rows: &[f64], labels: &Array1<f64>) -> Result<Vec<f64>, ModelError> {
     let records = matrix(rows, labels.len())?;
     let dataset = Dataset::new(records, labels.clone());

@@ -20,7 +20,7 @@ use crate::training::info::ModelInfo;
 
 const NAME: &str = "linfa/logistic";
 
-/// Classes of a channel at most.
+/// Most classes of a channel.
 const VALUES_MAX: usize = 256;
 
 const STRENGTH: Number = Number {
@@ -35,11 +35,11 @@ const STRENGTH: Number = Number {
     unset: Unset::ChosenAmong(&STRENGTHS),
 };
 
-/// From the weakest to the strongest.
+/// Candidate strengths, ascending.
 const STRENGTHS: [f64; 5] = [1e-1, 1.0, 1e1, 1e2, 1e3];
 
-/// Multinomial logistic regression with a penalty on squared weights, each target alone: a channel is predicted as one of the values that it
-/// takes in the training part, for boards, kinds, spacings and levels.
+/// Multinomial logistic regression with a penalty on squared weights, each target separately. Predicts one of a channel's training
+/// values, for boards, kinds, spacings and levels.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -58,7 +58,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
                    features,
                    targets,
                }| {
-            // A hundred steps at six strengths; two products a step for each class, of which there are tens.
+            // A hundred steps at six strengths; two products per step for each of about forty classes.
             Some(6.0 * 100.0 * 2.0 * 40.0 * targets as f64 * samples as f64 * features as f64)
         },
         load: Planes::load,
@@ -69,14 +69,14 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Labels ascending, each once.
+/// Distinct labels, ascending.
 fn levels(mut labels: Vec<f64>) -> Vec<f64> {
     labels.sort_by(f64::total_cmp);
     labels.dedup_by(|a, b| a.total_cmp(b).is_eq());
     labels
 }
 
-/// The planes of one target, `strength` the penalty.
+/// Planes of one target with the penalty `strength`.
 fn planes(task: &LibraryTask<'_>, target: usize, strength: f64) -> Result<Classes, ModelError> {
     let labels = task.target(target);
     let known = levels(labels.clone());
@@ -88,7 +88,7 @@ fn planes(task: &LibraryTask<'_>, target: usize, strength: f64) -> Result<Classe
             .alpha(strength)
             .fit(&dataset)
     })?;
-    // `[features, classes]`, of the classes ascending.
+    // `[features, classes]`, classes ascending.
     let weights = fitted.params().t();
     Ok(Classes {
         labels: fitted.classes().iter().map(|&class| known[class]).collect(),

@@ -32,13 +32,13 @@ const COMPONENTS: Number = Number {
     unset: Unset::ChosenAmong(&COUNTS),
 };
 
-/// From the most to the fewest: of equals the last is the plainest.
+/// Candidate counts, descending: of equal errors the last, smallest one is taken.
 const COUNTS: [f64; 9] = [30.0, 25.0, 20.0, 15.0, 10.0, 6.0, 4.0, 2.0, 1.0];
 
-/// How many rows the library predicts at a time, to find its weights from its predictions.
+/// Rows per prediction when weights are derived from predictions.
 const ROWS: usize = 256;
 
-/// Partial least squares by power iterations (NIPALS), for all targets at once; no more components than samples less one, or features.
+/// Partial least squares by power iterations (NIPALS), for all targets at once. Components are limited by features and samples − 1.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -66,7 +66,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// The weights of a fitted model, a target after the other, with its bias: what it says of each feature alone.
+/// Weights and bias of each target, derived from the model's prediction for each unit vector.
 fn weights(
     fitted: &PlsRegression<f64>,
     features: usize,
@@ -110,7 +110,7 @@ fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
     counts.sort_unstable();
     counts.dedup();
     let one = |count: &usize| {
-        // Components that are left where nothing is to be explained any more are refused: fewer explain it all.
+        // The library rejects components after everything is explained: retries with fewer.
         let mut outcome = Err(ModelError::new(ErrorKind::InvalidArgument, NAME));
         for tried in (1..=*count).rev() {
             interrupted(task.progress)?;

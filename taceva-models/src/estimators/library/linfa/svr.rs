@@ -31,13 +31,13 @@ const COST: Number = Number {
     is_whole: false,
     unset: Unset::ChosenAmong(&COSTS),
 };
-/// From the largest penalty of errors to the least: of equals the last is the plainest.
+/// Candidate costs, descending: of equal errors the last, smallest one is taken.
 const COSTS: [f64; 4] = [100.0, 10.0, 1.0, 0.1];
 
-/// Below this the library counts a coefficient as 0.
+/// Coefficients up to this size count as 0 in the library.
 const NOTHING: f64 = 100.0 * f64::EPSILON;
 
-/// Support vector regression by sequential minimal optimisation, each target alone.
+/// Support vector regression by sequential minimal optimisation, each target separately.
 ///
 /// The kernel is exp(−‖x − v‖² / (2 ℓ² d²)), d² the mean squared distance of training samples from their mean.
 pub(super) static ADAPTER: Adapter = Adapter {
@@ -72,7 +72,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// What squared distances are multiplied by in a kernel of that `length`.
+/// Factor of squared distances in a kernel of length `length`.
 pub(crate) fn rate(task: &LibraryTask<'_>, length: f64) -> f64 {
     let squares: f64 = task.rows.iter().map(|value| value * value).sum();
     task.sizes.samples as f64 / (2.0 * length * length * squares)

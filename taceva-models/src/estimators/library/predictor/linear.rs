@@ -1,4 +1,4 @@
-//! Predictions that are linear in the features.
+//! Linear predictors.
 
 use taceva_core::ModelError;
 
@@ -6,7 +6,7 @@ use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
 use crate::training::file::tensors::Raw;
 
-/// For each target a bias and a weight a feature.
+/// Weights and bias of each target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Linear {
     /// `[targets, features]`.
@@ -15,17 +15,17 @@ pub(crate) struct Linear {
     bias: Vec<f64>,
 }
 
-/// The weights of one target, and its bias.
+/// Weights and bias of one target.
 pub(crate) type Weighted = (Vec<f64>, f64);
 
 const BIAS: &str = "bias";
 const WEIGHTS: &str = "weights";
 
 impl Linear {
-    /// Of the weights and the bias of each target.
+    /// Builds the predictor from weights and bias of each target.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `OutOfRange` if a number is not finite.
+    /// [`ModelError`] of kind `OutOfRange` if a value is not finite.
     pub(crate) fn new(name: &str, targets: Vec<Weighted>) -> Result<Linear, ModelError> {
         let (weights, bias): (Vec<Vec<f64>>, Vec<f64>) = targets.into_iter().unzip();
         let weights = weights.concat();
@@ -33,7 +33,7 @@ impl Linear {
         Ok(Linear { weights, bias })
     }
 
-    /// That which a file keeps.
+    /// Loads the predictor from a file.
     pub(crate) fn load(
         tensors: &LibraryTensors<'_>,
         sizes: LibrarySizes,
@@ -64,7 +64,7 @@ impl LibraryPredictor for Linear {
     }
 }
 
-/// Eight partial sums, always in the same order.
+/// Dot product with eight partial sums, in a fixed order.
 pub(super) fn dot(weights: &[f64], values: &[f32]) -> f64 {
     let (weights, last_weights) = weights.as_chunks::<8>();
     let (values, last_values) = values.as_chunks::<8>();

@@ -1,4 +1,4 @@
-//! A plane for each class of each target, of which the highest is predicted.
+//! Classification by planes: each target's label of the highest plane is predicted.
 
 use taceva_core::ModelError;
 
@@ -8,14 +8,14 @@ use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
 use crate::training::file::tensors::Raw;
 
-/// The planes of all targets.
+/// Planes of all targets.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Planes(Vec<Classes>);
 
-/// The classes of one target.
+/// Classes of one target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Classes {
-    /// The label of each class.
+    /// Label of each class.
     pub(crate) labels: Vec<f64>,
     /// `[classes]`.
     pub(crate) offsets: Vec<f64>,
@@ -29,10 +29,10 @@ const OFFSETS: &str = "offsets";
 const WEIGHTS: &str = "weights";
 
 impl Planes {
-    /// Those of each target: labels, offsets and weights.
+    /// Builds the predictor from labels, offsets and weights of each target.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `OutOfRange` if a number is not finite.
+    /// [`ModelError`] of kind `OutOfRange` if an offset or weight is not finite.
     pub(crate) fn new(name: &str, targets: Vec<Classes>) -> Result<Planes, ModelError> {
         for target in &targets {
             finite(name, target.offsets.iter().chain(&target.weights))?;
@@ -40,7 +40,7 @@ impl Planes {
         Ok(Planes(targets))
     }
 
-    /// Those which a file keeps.
+    /// Loads the predictor from a file.
     pub(crate) fn load(
         tensors: &LibraryTensors<'_>,
         sizes: LibrarySizes,

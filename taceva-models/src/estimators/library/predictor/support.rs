@@ -1,4 +1,4 @@
-//! Support vectors: sums of Gaussian kernels, of training samples that are kept.
+//! Support vector predictors: sums of Gaussian kernels around stored training samples.
 
 use taceva_core::ModelError;
 
@@ -7,7 +7,7 @@ use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
 use crate::training::file::tensors::Raw;
 
-/// Σ coefficient · exp(−rate ‖x − v‖²) + bias for each target, over the training samples that have a coefficient in any target.
+/// Σ coefficient · exp(−rate ‖x − v‖²) + bias for each target, over training samples with a nonzero coefficient in any target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Support {
     rate: f64,
@@ -19,9 +19,9 @@ pub(crate) struct Support {
     bias: Vec<f64>,
 }
 
-/// What a library found for one target.
+/// Library fit for one target.
 pub(crate) struct Machine {
-    /// A coefficient a training sample; 0 for one that is no support vector of the target.
+    /// Coefficient of each training sample; 0 if it is no support vector of the target.
     pub(crate) coefficients: Vec<f64>,
     pub(crate) bias: f64,
 }
@@ -32,10 +32,10 @@ const RATE: &str = "rate";
 const VECTORS: &str = "vectors";
 
 impl Support {
-    /// Of `rows`, `[samples, features]`, whose numbers are single-precision ones, and a machine a target.
+    /// Builds the predictor from `rows`, `[samples, features]` of single-precision values, and one machine per target.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `OutOfRange` if a number is not finite.
+    /// [`ModelError`] of kind `OutOfRange` if a coefficient or bias is not finite.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "the numbers are single-precision ones"
@@ -69,7 +69,7 @@ impl Support {
         })
     }
 
-    /// That which a file keeps.
+    /// Loads the predictor from a file.
     pub(crate) fn load(
         tensors: &LibraryTensors<'_>,
         sizes: LibrarySizes,
@@ -114,7 +114,7 @@ impl LibraryPredictor for Support {
     }
 }
 
-/// Eight partial sums, always in the same order.
+/// Squared distance with eight partial sums, in a fixed order.
 fn squared_distance(left: &[f32], right: &[f32]) -> f64 {
     let (left, last_left) = left.as_chunks::<8>();
     let (right, last_right) = right.as_chunks::<8>();

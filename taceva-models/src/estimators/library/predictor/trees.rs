@@ -1,4 +1,4 @@
-//! Trees whose leaves are added up.
+//! Predictors that add up leaves of trees.
 
 use taceva_core::ModelError;
 
@@ -7,28 +7,28 @@ use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
 use crate::training::file::tensors::Raw;
 
-/// For each target base + factor · Σ leaf, over its trees.
+/// Prediction of each target: base + factor · Σ leaf, over its trees.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Trees {
     /// `[targets]`.
     base: Vec<f64>,
     /// `[targets]`.
     factor: Vec<f64>,
-    /// How many trees each target has, one target's after the other's.
+    /// Number of trees of each target. `trees` lists them target by target.
     counts: Vec<u32>,
     trees: Vec<Tree>,
 }
 
-/// The nodes of a tree; the first is its root.
+/// Nodes of a tree, root first.
 pub(crate) type Tree = Vec<Node>;
 
-/// A comparison, or a leaf where `low` is 0.
+/// A comparison, or a leaf if `low` is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Node {
     pub(crate) feature: u32,
-    /// A feature of at most this goes on at `low`, any other at `high`.
+    /// Largest feature value that continues at `low`. Greater values continue at `high`.
     pub(crate) threshold: f64,
-    /// Places of nodes in the tree, behind this one.
+    /// Indices of the child nodes, greater than that of this node.
     pub(crate) low: u32,
     pub(crate) high: u32,
     pub(crate) value: f64,
@@ -42,10 +42,10 @@ const PLACES: &str = "places";
 const SIZES: &str = "sizes";
 
 impl Trees {
-    /// Of (base, factor, trees) a target.
+    /// Builds the predictor from (base, factor, trees) of each target.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `OutOfRange` if a number is not finite.
+    /// [`ModelError`] of kind `OutOfRange` if a value is not finite.
     pub(crate) fn new(
         name: &str,
         targets: Vec<(f64, f64, Vec<Tree>)>,
@@ -68,7 +68,7 @@ impl Trees {
         Ok(joined)
     }
 
-    /// Those which a file keeps.
+    /// Loads the predictor from a file.
     pub(crate) fn load(
         tensors: &LibraryTensors<'_>,
         sizes: LibrarySizes,
@@ -110,7 +110,7 @@ impl Trees {
     }
 }
 
-/// Refuses a tree that compares a feature which does not exist, or in which some node leads to no leaf.
+/// Rejects a tree that compares an unknown feature or has a node without a leaf below.
 fn checked(tree: Tree, features: usize) -> Result<Tree, ModelError> {
     let leads_on = |(place, node): (usize, &Node)| {
         let behind = |child: u32| (place + 1..tree.len()).contains(&(child as usize));
@@ -124,7 +124,7 @@ fn checked(tree: Tree, features: usize) -> Result<Tree, ModelError> {
     }
 }
 
-/// The value of the leaf that `sample` comes to.
+/// Value of the leaf that `sample` reaches.
 fn leaf(tree: &Tree, sample: &[f32]) -> f64 {
     let mut node = &tree[0];
     while node.low > 0 {
@@ -135,7 +135,7 @@ fn leaf(tree: &Tree, sample: &[f32]) -> f64 {
     node.value
 }
 
-/// A count that a file can keep.
+/// Converts a count to the type of files.
 pub(crate) fn small(count: usize) -> u32 {
     u32::try_from(count).expect("fewer than a file holds")
 }

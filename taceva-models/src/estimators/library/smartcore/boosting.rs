@@ -1,4 +1,4 @@
-//! `smartcore/gradient-boosting`: trees, each of which is fitted to the errors of those before it.
+//! `smartcore/gradient-boosting`: each tree is fitted to the errors of the trees before it.
 
 use rayon::prelude::*;
 use serde_json::Value;
@@ -74,8 +74,8 @@ const SEED: Number = Number {
     unset: Unset::Is(0.0),
 };
 
-/// Gradient boosting with exact splits and a penalty on leaves, each target alone. Nothing is chosen by error: every split sorts every
-/// feature anew, so that one fit takes as long as others take to choose.
+/// Gradient boosting with exact splits and a penalty on leaves, each target separately. No setting is chosen by error: every split
+/// sorts every feature again, so one fit takes as long as the choice of settings in other models.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -109,14 +109,14 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// The nodes of a serialised tree, root first.
+/// Converts a serialised tree to nodes, root first.
 fn tree(root: &Value) -> Option<Tree> {
     let mut nodes = Tree::new();
     grow(root, &mut nodes)?;
     Some(nodes)
 }
 
-/// Adds `node` and what is below it; gives its place.
+/// Appends `node` and its descendants; returns its index.
 fn grow(node: &Value, nodes: &mut Tree) -> Option<u32> {
     let place = nodes.len();
     nodes.push(Node {

@@ -67,7 +67,7 @@ const SEED: Number = Number {
     unset: Unset::Is(0.0),
 };
 
-/// From the most to the fewest: of equals the last is the cheapest.
+/// Candidate shares, descending: of equal errors the last, cheapest one is taken.
 const SHARES: [f64; 3] = [0.3, 0.1, 0.03];
 
 const NUMBERS: &[Number] = &[TREES, LEAF, SHARE, SEED];
@@ -81,7 +81,7 @@ const SETTINGS: &[SettingInfo] = &[
     LibrarySettings::REFIT,
 ];
 
-/// Of trees on samples drawn with replacement that split where that explains most, each target alone.
+/// Random forest: trees on bootstrap samples with best splits, each target separately.
 pub(super) static FOREST: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -100,7 +100,7 @@ pub(super) static FOREST: Adapter = Adapter {
     fit: |set, task| fit(&FOREST, random_forest, set, task),
 };
 
-/// Of trees on all samples that split at random places, each target alone.
+/// Extra trees: trees on all samples with random splits, each target separately.
 pub(super) static EXTRA_TREES: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -119,7 +119,7 @@ pub(super) static EXTRA_TREES: Adapter = Adapter {
     fit: |set, task| fit(&EXTRA_TREES, extra_trees, set, task),
 };
 
-/// A hundred trees, grown four times: at each of three shares, and once more at the one that is chosen. Every tree keeps every feature sorted at
+/// Work of a hundred trees, grown four times: for each of three shares, and for the chosen one. Every tree sorts every feature at
 /// every depth.
 fn work(sizes: LibrarySizes) -> Option<f64> {
     let LibrarySizes {
@@ -132,10 +132,10 @@ fn work(sizes: LibrarySizes) -> Option<f64> {
     Some(4.0 * 100.0 * 2.0 * targets as f64 * samples * features as f64 * depth)
 }
 
-/// The trees of one target as the library serialises them, each split among so many features; or why there are none.
+/// Grows the trees of one target with a number of features per split. Returns them as serialised by the library, or its error.
 type Grow = fn(&Numbers<'_>, &DenseMatrix<f64>, &Vec<f64>, usize) -> Result<Value, String>;
 
-/// A `Grow` of the library's type `$regressor`, whose parameters are a type of their own with the same methods.
+/// Defines a `Grow` for the library type `$regressor`. Its parameter types share methods but no trait.
 macro_rules! grow {
     ($name:ident, $regressor:ident, $parameters:ident) => {
         fn $name(
@@ -167,7 +167,7 @@ grow!(
     ExtraTreesRegressorParameters
 );
 
-/// The trees of a serialised forest.
+/// Converts a serialised forest to trees.
 fn trees(forest: &Value) -> Option<Vec<Tree>> {
     let trees = forest.get("forest_regressor")?.get("trees")?.as_array()?;
     let trees = trees.iter().map(|tree| {

@@ -1,4 +1,4 @@
-//! `smartcore/knn`: the mean of the nearest training samples, which the library looks up.
+//! `smartcore/knn`: mean of the nearest training samples, with the library's search.
 
 use smartcore::algorithm::neighbour::linear_search::LinearKNNSearch;
 use smartcore::metrics::distance::euclidian::Euclidian;
@@ -30,10 +30,10 @@ const COUNT: Number = Number {
     unset: Unset::ChosenAmong(&COUNTS),
 };
 
-/// From the fewest to the most: of equals the last is the smoothest.
+/// Candidate counts, ascending: of equal errors the last, smoothest one is taken.
 const COUNTS: [f64; 8] = [1.0, 2.0, 3.0, 4.0, 5.0, 8.0, 12.0, 20.0];
 
-/// Nearest neighbours by Euclidean distance, each weighted by 1 / distance; samples at no distance count alone.
+/// Nearest neighbours by Euclidean distance, weighted by 1 / distance. Samples at distance 0 exclude all others.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -59,7 +59,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Training samples that the library searches, and their labels.
+/// Training samples in the library's search, and their labels.
 struct Lookup {
     search: LinearKNNSearch<Vec<f64>, Euclidian<f64>>,
     features: usize,
@@ -145,7 +145,7 @@ impl LibraryPredictor for Lookup {
 }
 
 impl Lookup {
-    /// The nearest samples with their weights, in the order of samples.
+    /// Nearest samples with their weights, in sample order.
     fn nearest(&self, asked: &Vec<f64>, count: u32) -> Result<Vec<(usize, f64)>, ModelError> {
         let found = guarded(NAME, || self.search.find(asked, count as usize))?;
         let mut near: Vec<(usize, f64)> = found

@@ -1,4 +1,4 @@
-//! `smartcore/lasso`: least squares with a penalty on the size of weights.
+//! `smartcore/lasso`: least squares with a penalty on absolute weights.
 
 use rayon::prelude::*;
 use smartcore::linalg::basic::arrays::Array;
@@ -30,17 +30,17 @@ const STRENGTH: Number = Number {
     unset: Unset::ChosenAmong(&STRENGTHS),
 };
 
-/// From the weakest to the strongest.
+/// Candidate strengths, ascending.
 const STRENGTHS: [f64; 4] = [1e-2, 3e-2, 1e-1, 3e-1];
 
-/// Steps of the method at most, and the relative gap at which it ends.
+/// Most steps of the method, and the relative gap at which it ends.
 const STEPS: usize = 50;
 const TOLERANCE: f64 = 1e-2;
 
-/// The lasso by an interior-point method, each target alone: minimises ‖y − Xw‖² + λ ‖w‖₁.
+/// Lasso by an interior-point method, each target separately: minimises ‖y − Xw‖² + λ ‖w‖₁.
 ///
-/// λ is the strength × the least λ at which every weight is 0. The library refuses fewer samples than features; it is then handed as many
-/// samples more as it takes whose features and label are all 0, which changes no sum.
+/// λ is the strength × the least λ at which every weight is 0. The library rejects fewer samples than features. In that case, samples
+/// with zero features and labels are appended, which change no sum.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -71,7 +71,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// The least λ at which every weight is 0: twice the largest product of a feature with the labels.
+/// Least λ at which every weight is 0: twice the largest product of a feature with the labels.
 fn least(rows: &[f64], features: usize, labels: &[f64]) -> f64 {
     let mut products = vec![0.0; features];
     for (row, label) in rows.chunks_exact(features).zip(labels) {
@@ -99,7 +99,7 @@ fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
         let lambda = task.values[target] * least(task.rows, features, &labels);
         labels.resize(rows, 0.0);
         let parameters = LassoParameters {
-            // The library multiplies it by the number of rows.
+            // The library multiplies alpha by the number of rows.
             alpha: lambda / rows as f64,
             normalize: false,
             tol: TOLERANCE,

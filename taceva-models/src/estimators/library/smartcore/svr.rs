@@ -1,4 +1,4 @@
-//! `smartcore/svr`: support vector regression with a Gaussian kernel, where there are at least as many samples as features.
+//! `smartcore/svr`: support vector regression with a Gaussian kernel, for at least as many samples as features.
 
 use rayon::prelude::*;
 use serde_json::Value;
@@ -31,7 +31,7 @@ const COST: Number = Number {
     is_whole: false,
     unset: Unset::Is(10.0),
 };
-/// Support vector regression by sequential minimal optimisation, each target alone. Nothing is chosen by error.
+/// Support vector regression by sequential minimal optimisation, each target separately. No setting is chosen by error.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -63,7 +63,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// What the library found, read from its serialised form: the support vectors come in the order of samples.
+/// Reads a fit from its serialised form, with the support vectors in sample order.
 fn machine(fitted: &Value, task: &LibraryTask<'_>) -> Option<Machine> {
     let vectors = fitted.get("instances")?.as_array()?;
     let mut found = vectors.iter().zip(fitted.get("w")?.as_array()?).peekable();
@@ -80,7 +80,7 @@ fn machine(fitted: &Value, task: &LibraryTask<'_>) -> Option<Machine> {
         let own = found.next_if(|(vector, _)| is_row(vector));
         coefficients.push(own.map_or(Some(0.0), |(_, weight)| weight.as_f64())?);
     }
-    // One that is no sample would be left over.
+    // Rejects support vectors that match no sample.
     found.next().is_none().then_some(Machine {
         coefficients,
         bias: fitted.get("b")?.as_f64()?,

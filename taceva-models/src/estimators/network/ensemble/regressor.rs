@@ -1,4 +1,4 @@
-//! Fitted networks whose predictions are averaged.
+//! Fitted ensembles.
 
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 use taceva_network::NamedTensor;
@@ -13,20 +13,20 @@ use crate::training::file::error::FormatError;
 use crate::training::file::tensors::Raw;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// The most members of an ensemble.
+/// Most members of an ensemble.
 pub(super) const MEMBERS_MOST: usize = 16;
 
-/// Fitted networks, from features to channels: the mean of what each predicts.
+/// Fitted networks whose predictions are averaged.
 #[derive(Clone, Debug)]
 pub struct EnsembleRegressor {
     members: Vec<NetworkRegressor>,
 }
 
 impl EnsembleRegressor {
-    /// A regressor of ready networks.
+    /// Builds a regressor from networks.
     ///
     /// # Errors
-    /// [`ModelError`] if they are fewer or more than an ensemble has, or of different channels or features.
+    /// [`ModelError`] if the number of networks is out of range, or their channels or features differ.
     pub(crate) fn new(members: Vec<NetworkRegressor>) -> Result<EnsembleRegressor, ModelError> {
         let is_like = |other: &NetworkRegressor| {
             let first = &members[0];
@@ -41,7 +41,7 @@ impl EnsembleRegressor {
         Ok(EnsembleRegressor { members })
     }
 
-    /// The networks that a file holds, the tensors of each under a name of its own.
+    /// Loads the networks from a file. Each member's tensors have its own prefix.
     pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         let mut found = named_tensors(&stored.tensors)?;
         let mut members = Vec::new();
@@ -65,7 +65,7 @@ impl EnsembleRegressor {
     }
 }
 
-/// How tensors of a member are called.
+/// Prefix of a member's tensor names.
 fn prefix(member: usize) -> String {
     format!("member{member}.")
 }
@@ -120,7 +120,7 @@ impl Regressor for EnsembleRegressor {
                 *sum += value;
             }
         }
-        // What all members predict is predicted to the last bit: a channel whose labels are all the same.
+        // Copies equal predictions without rounding: channels with constant labels.
         for (position, sum) in into.iter_mut().enumerate() {
             let channel = position % self.channels().len();
             if self.members[0].card().constant[channel].is_none() {

@@ -1,4 +1,4 @@
-//! Groups left out one after the other.
+//! Leave-one-group-out errors.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
@@ -12,18 +12,18 @@ use crate::linalg::multiply;
 use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::Errors;
 
-/// What is computed once for the rows of one group, whatever the penalty.
+/// Precomputed terms of one group, independent of the penalty.
 struct Group {
-    /// Its rows of U.
+    /// Rows of U.
     vectors: Mat<f64>,
-    /// Its block of R.
+    /// Block of R.
     unspanned: Mat<f64>,
-    /// Its rows of R times the targets.
+    /// Rows of R times the targets.
     residuals: Mat<f64>,
 }
 
 impl LeaveOut<'_> {
-    /// The mean squared error of each target at each penalty, each group predicted by a fit that never saw it.
+    /// Mean squared error of each target at each penalty. Each group is predicted by a fit without it.
     pub(in crate::estimators::ridge) fn groups(
         &self,
         groups: &[Vec<usize>],
@@ -87,7 +87,7 @@ impl LeaveOut<'_> {
     }
 }
 
-/// A diagonal block of I − 11ᵀ/n.
+/// Diagonal block of I − 11ᵀ/n.
 fn centring(size: usize, samples: usize) -> Mat<f64> {
     Mat::from_fn(size, size, |row, column| {
         let identity = if row == column { 1.0 } else { 0.0 };
@@ -95,7 +95,7 @@ fn centring(size: usize, samples: usize) -> Mat<f64> {
     })
 }
 
-/// The solution for a positive definite matrix; `None` where rounding leaves none, at penalties too weak to judge.
+/// Solves for a positive definite matrix. `None` if the matrix is numerically singular, at penalties too weak to judge.
 fn solve(mut matrix: Mat<f64>, mut right: Mat<f64>) -> Option<Mat<f64>> {
     let size = matrix.nrows();
     let scratch = cholesky_in_place_scratch::<f64>(size, Par::Seq, Default::default())

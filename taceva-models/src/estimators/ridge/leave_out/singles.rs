@@ -1,4 +1,4 @@
-//! Samples left out one after the other: groups of one, all at once.
+//! Leave-one-out errors: groups of one sample, computed in blocks.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -9,18 +9,18 @@ use crate::linalg::multiply;
 use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::Errors;
 
-/// Samples a block.
+/// Samples per block.
 const BLOCK: usize = 256;
 
-/// The diagonals of λ / (σ² + λ) and their products with the rotated targets, for every penalty.
+/// Diagonals of λ / (σ² + λ) and their products with the rotated targets, for every penalty.
 struct Shrunk {
     shrinkage: Mat<f64>,
-    /// A column a penalty and channel, channels of one penalty side by side.
+    /// One column per penalty and channel, channels of one penalty adjacent.
     coefficients: Mat<f64>,
 }
 
 impl LeaveOut<'_> {
-    /// The mean squared error of each target at each penalty, each sample predicted by a fit that never saw it.
+    /// Mean squared error of each target at each penalty. Each sample is predicted by a fit without it.
     pub(in crate::estimators::ridge) fn singles(
         &self,
         penalties: &[f64],
@@ -54,7 +54,7 @@ impl LeaveOut<'_> {
         Ok(errors.chunks_exact(channels).map(<[f64]>::to_vec).collect())
     }
 
-    /// The summed squares of the samples of `block`, a number a penalty and channel.
+    /// Summed squared errors of the samples of `block`, one value per penalty and channel.
     fn squares(&self, block: &[usize], shrunk: &Shrunk) -> Vec<f64> {
         let channels = self.targets.ncols();
         let vectors = rows(&self.vectors, block);
@@ -76,7 +76,7 @@ impl LeaveOut<'_> {
             if share > 0.0 {
                 (residuals[(row, column)] + unspanned_residuals[(row, column % channels)]) / share
             } else {
-                // Rounding left nothing, at a penalty too weak to judge.
+                // Only rounding is left, at a penalty too weak to judge.
                 f64::INFINITY
             }
         };

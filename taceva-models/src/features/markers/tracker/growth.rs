@@ -1,13 +1,13 @@
-//! A match of markers and spots that grows from neighbour to neighbour.
+//! Matching of markers and spots that grows from neighbour to neighbour.
 
 use super::{MarkerTracker, Tracked};
 use crate::features::markers::local::{Moved, displacement};
 use crate::features::markers::spots::distance;
 
-/// How far from where its neighbours say a marker may be, in spacings: below half, so that no spot is near enough to two.
+/// Largest distance of a marker from its prediction, in spacings. Below half, so that no spot matches two markers.
 const REACH: f64 = 0.4;
 
-/// Which marker is which spot, as far as is known.
+/// Partial match of markers to spots.
 #[derive(Clone, Debug)]
 pub(super) struct Growth<'a> {
     tracker: &'a MarkerTracker,
@@ -26,7 +26,7 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// Matches `seed` with `spot`, and then always the marker with most neighbours that are matched.
+    /// Matches `seed` with `spot`, then repeatedly the marker with the most matched neighbours.
     pub(super) fn grow_from(&mut self, seed: usize, spot: usize) {
         let count = self.spot_of.len();
         let mut is_asked = vec![false; count];
@@ -41,7 +41,7 @@ impl<'a> Growth<'a> {
                     votes[near] += 1;
                 }
             }
-            // Of equals the one that stands out more, which comes first.
+            // Ties go to the marker of higher contrast, which comes first.
             let open = (0..count).filter(|other| !is_asked[*other] && votes[*other] > 0);
             let own = open.reduce(|best, other| {
                 if votes[other] > votes[best] {
@@ -55,7 +55,7 @@ impl<'a> Growth<'a> {
         self.mend();
     }
 
-    /// Takes back what contradicts the neighbours, and looks once more.
+    /// Removes matches that contradict their neighbours, and searches once more.
     fn mend(&mut self) {
         for own in 0..self.spot_of.len() {
             let Some(spot) = self.spot_of[own] else {
@@ -79,12 +79,12 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// Markers that are not seen.
+    /// Number of unseen markers.
     pub(super) fn unseen(&self) -> usize {
         self.spot_of.iter().filter(|spot| spot.is_none()).count()
     }
 
-    /// Markers that are not seen, and `movement` for each that has moved by a spacing.
+    /// Cost: number of unseen markers plus `movement` for each squared displacement in spacings.
     pub(super) fn cost(&self, movement: f64) -> f64 {
         let moved = (0..self.spot_of.len()).filter_map(|own| {
             let [right, down] = self.moved(own)?.1;
@@ -94,7 +94,7 @@ impl<'a> Growth<'a> {
         self.unseen() as f64 + movement * moved.sum::<f64>()
     }
 
-    /// What became of each marker.
+    /// State of each marker.
     pub(super) fn tracked(&self) -> Vec<Tracked> {
         let all: Vec<Moved> = (0..self.spot_of.len())
             .filter_map(|own| self.moved(own))
@@ -112,7 +112,7 @@ impl<'a> Growth<'a> {
         (0..self.spot_of.len()).map(of).collect()
     }
 
-    /// The displacement by the neighbours of a marker, or by all markers where no neighbour is seen; 0 where none is.
+    /// Displacement predicted by seen neighbours, otherwise by all seen markers, otherwise 0.
     fn displacement(&self, own: usize, all: &[Moved]) -> [f64; 2] {
         let place = self.tracker.places[own];
         let spacing_px = self.tracker.lattice.spacings_px[own];
@@ -129,7 +129,7 @@ impl<'a> Growth<'a> {
         (off <= self.reach(own)).then_some(spot)
     }
 
-    /// Where a marker should be by what its neighbours do; `None` if none is seen.
+    /// Predicted position of a marker. `None` if no neighbour is seen.
     fn expected(&self, own: usize) -> Option<[f64; 2]> {
         let place = self.tracker.places[own];
         let spacing_px = self.tracker.lattice.spacings_px[own];
@@ -137,7 +137,7 @@ impl<'a> Growth<'a> {
         Some([place[0] + right, place[1] + down])
     }
 
-    /// The neighbours of a marker and theirs, as far as they are seen.
+    /// Seen markers among the neighbours and their neighbours.
     fn around(&self, own: usize) -> Vec<Moved> {
         let neighbours = &self.tracker.neighbours;
         let further = neighbours[own].iter().flat_map(|near| &neighbours[*near]);

@@ -28,7 +28,7 @@ fn every_grid() -> impl Iterator<Item = (Polarity, bool)> {
         .flat_map(|polarity| [(polarity, false), (polarity, true)])
 }
 
-/// How far off the displacements of markers are that are seen, and how many are not.
+/// Largest displacement error of all markers, pixels, and the number of unseen ones.
 fn track(
     tracker: &MarkerTracker,
     frame: &Frame,
@@ -94,10 +94,10 @@ fn errors_of_places_grow_in_proportion_to_noise() {
     let errors = [0.0, 2.0, 4.0, 8.0].map(error);
     println!("noise of 0, 2, 4, 8 levels under markers of 100 to 164: {errors:?} px");
     let [bias, _, half, whole] = errors;
-    // What the grid of pixels and uneven light leave.
+    // Bias of the pixel grid and uneven light.
     assert!(bias < 0.03, "{errors:?}");
     assert!(whole < 0.1, "{errors:?}");
-    // What noise adds is proportional to it: twice, give or take a tenth.
+    // Added errors are proportional to noise: twice, within a tenth.
     let added = |error: f64| (error * error - bias * bias).sqrt();
     let ratio = added(whole) / added(half);
     assert!((ratio - 2.0).abs() < 0.2, "{errors:?}");

@@ -1,4 +1,4 @@
-//! How errors go with the number of channels that are summed by themselves: what `channels_at_once` was chosen by.
+//! Errors by the number of channels per partial sum, on which `channels_at_once` is based.
 
 use super::super::products::{Products, channels_at_once};
 use super::super::weights::to_points;
@@ -11,13 +11,13 @@ use crate::machine::Machine;
 use crate::panel::Aligned;
 use crate::planes::Planes;
 
-/// Layers of residual networks that take Winograd's form for pictures of 64² to 112²: channels, and rows and columns of their pictures.
+/// Layers of residual networks in Winograd's form for pictures of 64² to 112²: channels and side of their pictures.
 const LAYERS: [(usize, usize); 4] = [(64, 16), (128, 8), (256, 4), (512, 4)];
 
-/// Channels that are summed by themselves; the last is all of them.
+/// Channels per partial sum. The last is all channels.
 const BLOCKS: [usize; 5] = [4, 8, 16, 32, 512];
 
-/// Outputs of pictures and gradients of their inputs, summed by so many channels.
+/// Outputs of pictures and gradients of their inputs, by channels per partial sum.
 fn summed(case: &Case, machine: Machine, numbers: &Numbers, channels: usize) -> [Vec<f32>; 2] {
     let mut weights = ConvolutionWeights::zeros(case.convolution);
     weights.set_plain(&numbers.weights);
@@ -49,7 +49,7 @@ fn summed(case: &Case, machine: Machine, numbers: &Numbers, channels: usize) -> 
     ]
 }
 
-/// Numbers as behind a ReLU: half of the pixels are zero, none is below.
+/// Values like those after a ReLU: half of the pixels are zero, none is negative.
 fn rectified(mut numbers: Numbers) -> Numbers {
     let pixels = numbers.pictures.iter_mut();
     pixels.for_each(|value| *value = value.max(0.0));
@@ -81,7 +81,7 @@ fn channels_are_summed_by_as_many_as_are_most_exact_and_not_all_in_one_row() {
             let errors = errors.map(|errors| errors[pass]);
             let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
             let what = format!("{channels} channels, {what}: {errors:?}");
-            // A tenth is what draws make of it.
+            // Random draws explain a tenth.
             assert!(errors[chosen] <= 1.1 * least, "{what}");
             assert!(errors[BLOCKS.len() - 1] >= 1.4 * errors[chosen], "{what}");
         }
