@@ -37,7 +37,7 @@ pub trait Sensor: Send {
     /// Size and format of every frame, from opening to dropping.
     fn frame_info(&self) -> FrameInfo;
 
-    /// Begins to send frames. A sensor that has nothing to begin does nothing.
+    /// Starts the frames. Does nothing if the sensor needs no start.
     ///
     /// # Errors
     /// [`DriverError`] if the device does not answer within `deadline`, is held by somebody else, or is gone.
@@ -59,8 +59,8 @@ pub trait Sensor: Send {
     /// - `Disconnected` or `EndOfStream` if none will come any more.
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
 
-    /// The number of the last frame, where the device or its link counts frames, starting anywhere: a gap between two numbers means frames
-    /// that arrived and were not read in time.
+    /// Sequence number of the last frame, if the device or its link counts frames; it starts anywhere. A gap between two numbers means that
+    /// frames were not read in time.
     fn sequence(&self) -> Option<u64> {
         None
     }
@@ -78,7 +78,7 @@ pub trait Sensor: Send {
         Ok(())
     }
 
-    /// What ends a pending call from another thread; without it a call lasts until its deadline.
+    /// Handle that interrupts a pending call from another thread; without one a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }

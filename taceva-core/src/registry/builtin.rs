@@ -2,7 +2,7 @@
 
 use super::{DescriptorError, Factory};
 
-/// A driver that is linked in: how to make its factory.
+/// A linked-in driver: the function that makes its factory.
 ///
 /// With the feature `inventory`, `submit_builtin!` puts it on the list of the program, which `Registry::builtin` reads.
 ///
@@ -43,7 +43,7 @@ impl<D: ?Sized + 'static> Builtin<D> {
         Builtin { make }
     }
 
-    /// Its factory.
+    /// Factory of the driver.
     ///
     /// # Errors
     /// [`DescriptorError`] if the driver contradicts itself.

@@ -1,4 +1,4 @@
-//! Why a driver could not be added or found.
+//! Errors of adding and finding drivers.
 
 use crate::printable::shown;
 use std::fmt;
@@ -20,11 +20,11 @@ use crate::id::DriverKey;
 pub enum RegistryError {
     /// Nobody registered that name.
     Unknown {
-        /// Of which kind.
+        /// Kind of driver that was requested.
         kind: DriverKind,
         /// The name as the user wrote it.
         key: String,
-        /// The known name that is most like it, if one is.
+        /// Most similar known name, if any.
         nearest: Option<String>,
         /// Every known name.
         known: Vec<DriverKey>,

@@ -1,4 +1,4 @@
-//! What opens a device.
+//! Factories, which open devices.
 
 use super::{Descriptor, DescriptorError, Found, Rig};
 use crate::args::Args;
@@ -36,10 +36,10 @@ use crate::driver::DriverError;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Factory<D: ?Sized>: Send + Sync {
-    /// What is known before anything is opened, whatever the arguments.
+    /// Description of the unopened device, for any arguments.
     fn descriptor(&self) -> &Descriptor;
 
-    /// What is known before anything is opened, with these arguments: the size of the frames that they ask for.
+    /// Description of the unopened device with these arguments, such as the size of the frames that they set.
     ///
     /// # Errors
     /// [`DescriptorError`] if the arguments contradict each other or the device.
@@ -64,8 +64,8 @@ pub trait Factory<D: ?Sized>: Send + Sync {
         Ok(Vec::new())
     }
 
-    /// The digest of the library that it is in, `sha256:` and 64 hexadecimal digits; `None` where it is linked into the program. Results
-    /// that were kept of one build are not used for another.
+    /// Digest of its library, `sha256:` and 64 hexadecimal digits; `None` if it is linked into the program. Results of one build are not
+    /// used for another.
     ///
     /// # Errors
     /// [`DriverError`] if the library cannot be read.
