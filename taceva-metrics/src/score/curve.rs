@@ -24,9 +24,9 @@ pub struct Curve {
     pub x_unit: Unit,
     /// The value at each level.
     pub values: Vec<Option<f64>>,
-    /// How many samples each value is made of.
+    /// Number of samples of each value.
     pub counts: Vec<u64>,
-    /// What lies below and above each value; the metric says of which meaning.
+    /// Lower and upper curve around the values; the metric defines their meaning.
     pub band: Option<Band>,
 }
 
@@ -61,8 +61,8 @@ impl Curve {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Band {
-    /// The lower one.
+    /// Lower curve.
     pub low: Vec<Option<f64>>,
-    /// The upper one.
+    /// Upper curve.
     pub high: Vec<Option<f64>>,
 }
