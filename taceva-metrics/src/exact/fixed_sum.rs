@@ -52,7 +52,7 @@ impl FixedSum {
 mod tests {
     use super::*;
 
-    /// What is summed of `values`, those that are not held being added one by one.
+    /// Sum of `values`; those outside the range of [`FixedSum`] are added one by one.
     fn summed(values: &[f64]) -> (ExactSum, usize) {
         let (mut fixed, mut sum, mut strays) = (FixedSum::default(), ExactSum::default(), 0);
         for &value in values {
