@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use crate::channel::Channels;
 use crate::field::Field;
 
-/// Samples as columns of equal length; a field that no metric asked for is left empty.
+/// Samples as columns of equal length; fields that no metric needs are empty.
 ///
 /// ```
 /// use taceva_core::{Batch, Channel, Channels, Column};
@@ -146,7 +146,7 @@ impl Batch {
     /// ```
     ///
     /// # Panics
-    /// If there are not as many as the batch has, or there is no such row.
+    /// If the number of indices differs from the number of rows, or an index is out of range.
     #[must_use]
     pub fn in_order(&self, rows: &[u32]) -> Batch {
         assert_eq!(rows.len(), self.rows, "each row once");

@@ -62,8 +62,8 @@ impl Channel {
     /// The channel called `name`: one of the six, or an extra one such as `Rx` in degrees or `shear_x` in mm.
     ///
     /// # Errors
-    /// [`ChannelError`] if the name is not an ASCII letter followed by letters, digits or `_` (at most
-    /// [`NAME_MAX`](Channel::NAME_MAX) bytes), or if one of the six is given another unit than its own.
+    /// [`ChannelError`] if the name is not an ASCII letter followed by letters, digits or `_`, or is longer than
+    /// [`NAME_MAX`](Channel::NAME_MAX) bytes. Also if one of the six channels has a unit other than its own.
     pub fn named(name: &str, unit: Unit) -> Result<Channel, ChannelError> {
         if let Some(known) = Channel::SIX
             .into_iter()
@@ -158,7 +158,7 @@ impl fmt::Display for Channel {
     }
 }
 
-/// The channels of a stream, each once, in the one order: `Px Py Pz Fx Fy Fz`, then extra ones by name.
+/// Channels of a stream, each once, in canonical order: `Px Py Pz Fx Fy Fz`, then extra ones by name.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels};

@@ -24,7 +24,7 @@ pub enum ErrorKind {
     Disconnected = 5,
     /// The operation is not supported.
     Unsupported = 6,
-    /// The caller asked for something impossible.
+    /// An argument of the caller is impossible.
     InvalidArgument = 7,
     /// Bytes that do not follow their format.
     Protocol = 8,

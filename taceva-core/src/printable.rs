@@ -72,7 +72,7 @@ pub fn is_obeyed(letter: char) -> bool {
             | '\u{2060}'..='\u{206f}'
             // The mark of byte order, annotations, and noncharacters.
             | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}'
-            // Tags, which spell words that nobody sees.
+            // Tags, which spell invisible words.
             | '\u{e0000}'..='\u{e007f}')
 }
 

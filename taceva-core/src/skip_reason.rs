@@ -49,7 +49,7 @@ pub enum SkipReason {
     GelIsOpaque,
     /// No requested result reads it.
     NothingReadsIt,
-    /// The samples cannot be divided into training and test parts; the text says why.
+    /// The samples cannot be divided into training and test parts, for the reason in the text.
     NoSplit(String),
     /// The user did not request it.
     NotWanted,

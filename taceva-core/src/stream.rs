@@ -95,7 +95,7 @@ impl<A: SampleSink, B: SampleSink> SampleSink for Tee<A, B> {
     }
 }
 
-/// A sink that hides fields from the one behind it, so that the source does not fill them.
+/// A sink that hides fields from an inner sink, so that the source does not fill them.
 ///
 /// ```
 /// # use taceva_core::{FieldSet, SampleSink, SinkError};

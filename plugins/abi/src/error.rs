@@ -50,7 +50,7 @@ pub struct FaultNumber(pub u32);
 impl FaultNumber {
     /// The device did not stop by itself.
     pub const NONE: FaultNumber = FaultNumber(0);
-    /// Somebody pressed an emergency stop, or a guard opened.
+    /// An emergency stop was pressed, or a safety guard opened.
     pub const EMERGENCY_STOP: FaultNumber = FaultNumber(0xfa17_0001);
     /// The device struck something.
     pub const COLLISION: FaultNumber = FaultNumber(0xfa17_0002);

@@ -10,7 +10,7 @@ use taceva_core::{
 use crate::promise::{Unmet, answered, expect, in_order, refused, skipped};
 use crate::trial::{Alarm, Tried, was_within};
 
-/// A device that gives one item after another.
+/// A device that yields a sequence of items.
 pub(crate) trait Stream {
     /// The name of an item.
     const ITEM: &'static str;
@@ -231,7 +231,7 @@ pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
     expect(first == second, || "two runs differ".to_owned())
 }
 
-/// True for an ability that is there, false for one that is neither there nor declared.
+/// Passes for an ability that is present and declared, and skips one that is neither. Breaks the promise if the two differ.
 pub(crate) fn as_declared(ability: &str, declared: bool, has: bool) -> Result<(), Unmet> {
     match (has, declared) {
         (true, true) => Ok(()),

@@ -18,7 +18,7 @@ pub(crate) fn nanoseconds(time: Duration) -> u64 {
     u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
 }
 
-/// The pose and the speed that a motion asks for.
+/// Requested pose and speed of a motion.
 pub(crate) fn motion(motion: &Motion) -> Result<(Pose, Speed), Failure> {
     let AbiPose {
         x,

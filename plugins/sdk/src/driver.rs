@@ -119,7 +119,7 @@ pub trait Provide {
     /// Function that makes its factory.
     type Make;
 
-    /// The driver whose factory `make` makes.
+    /// The driver with the factory of `make`.
     fn provide(make: Self::Make) -> Driver;
 }
 

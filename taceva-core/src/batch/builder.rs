@@ -94,7 +94,7 @@ impl BatchBuilder {
         &self.batch
     }
 
-    /// The batch so far; the builder starts anew.
+    /// Takes the batch so far and leaves an empty one.
     pub fn take(&mut self) -> Batch {
         let fresh = empty(self.batch.channels.clone(), self.fields);
         std::mem::replace(&mut self.batch, fresh)

@@ -14,7 +14,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Fault {
-    /// Somebody pressed an emergency stop, or a guard opened.
+    /// An emergency stop was pressed, or a safety guard opened.
     EmergencyStop,
     /// The robot struck something.
     Collision,

@@ -1,4 +1,4 @@
-//! Refuses NaN and infinity, in what is sent to a device and in what comes from it.
+//! Rejects NaN and infinity in values sent to a device or received from it.
 
 use std::fmt;
 
@@ -44,7 +44,7 @@ fn check(named: &[(&'static str, f64)]) -> Result<(), NotFinite> {
     }
 }
 
-/// A number that is NaN or infinite where a device takes or gives finite ones.
+/// A NaN or infinite number in place of a finite one.
 ///
 /// ```
 /// use taceva_core::{Newton, Wrench, check_wrench};

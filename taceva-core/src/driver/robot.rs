@@ -12,7 +12,7 @@ use crate::stamp::Stamp;
 /// Poses in mm and degrees in the sensor's frame; z points into the gel.
 ///
 /// # The physical contract
-/// - Opening moves nothing; the robot holds where it stands.
+/// - Opening moves nothing; the robot holds its position.
 /// - [`move_to`](Robot::move_to) moves the tip along a straight line and blocks until it rests there. No other call moves it.
 /// - [`halt`](Robot::halt) stops the motion and latches: every later move is refused with `Interrupted` until
 ///   [`clear_halt`](Robot::clear_halt). A halt between two moves is therefore never lost.
@@ -79,7 +79,7 @@ pub trait Robot: Send {
     /// [`DriverError`] of kind `Timeout`, `Disconnected`, or `DeviceFault` for a coordinate that is not finite.
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError>;
 
-    /// Moves the tip to `target` along a straight line, blocks until it rests there, and says when it came to rest.
+    /// Moves the tip to `target` along a straight line, blocks until it rests there, and returns the time of arrival.
     ///
     /// If `deadline` passes first, the motion is stopped before the error is returned.
     ///
@@ -89,7 +89,7 @@ pub trait Robot: Send {
     /// - `OutOfRange` for a target outside the workspace or a speed above the greatest; nothing moves,
     /// - `Timeout` if it did not arrive within `deadline`,
     /// - `Interrupted` if it was halted, before or during the motion,
-    /// - `DeviceFault` if it reports a fault; with its [`Fault`](super::Fault) where it is one of those.
+    /// - `DeviceFault` if it reports a fault, with its [`Fault`](super::Fault) if it is one of those.
     fn move_to(
         &mut self,
         target: Pose,

@@ -40,7 +40,7 @@ pub trait Sensor: Send {
     /// Starts the frames. Does nothing if the sensor needs no start.
     ///
     /// # Errors
-    /// [`DriverError`] if the device does not answer within `deadline`, is held by somebody else, or is gone.
+    /// [`DriverError`] if the device does not answer within `deadline`, is in use elsewhere, or is gone.
     fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
         let _ = deadline;
         Ok(())
@@ -83,13 +83,13 @@ pub trait Sensor: Send {
         None
     }
 
-    /// The settings of the camera as read back from it, by name, such as `exposure_ms` with `15.7`; a recording keeps them. Empty where none
-    /// is known.
+    /// Settings of the camera as read back from it, by name, such as `exposure_ms` with `15.7`; a recording keeps them. Empty if none is
+    /// known.
     fn settings(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
     }
 
-    /// The light around this sensor, where it can be set.
+    /// Light around this sensor, if it can be set.
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {
         None
     }

@@ -20,7 +20,7 @@ pub struct ModelError {
 }
 
 impl ModelError {
-    /// An error of `kind` that says what was being done and on what.
+    /// An error of `kind` with a message that names the operation and its subject.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> ModelError {
         ModelError {
             kind,

@@ -4,8 +4,8 @@ use super::{STEP, finalise, mix, scaled, unit};
 
 /// The random numbers of one key, each looked up by its counter.
 ///
-/// Number `n` is what [`SplitMix64`](super::SplitMix64) gives at step n + 1 from the key as its state, so that any of them can be had
-/// without those before it.
+/// Number `n` equals that of [`SplitMix64`](super::SplitMix64) at step n + 1 from the key as its state. Each can be computed without those
+/// before it.
 ///
 /// ```
 /// use taceva_core::random::Draws;
@@ -53,7 +53,7 @@ impl Draws {
     #[must_use]
     pub fn normal(self, counter: u64) -> f64 {
         let (first, second) = (self.unit(2 * counter), self.unit(2 * counter + 1));
-        // 1 − u lies in (0, 1], so that its logarithm is finite.
+        // 1 − u is in (0, 1], so its logarithm is finite.
         (-2.0 * (1.0 - first).ln()).sqrt() * (std::f64::consts::TAU * second).cos()
     }
 

@@ -38,7 +38,7 @@ pub struct Builtin<D: ?Sized + 'static> {
 }
 
 impl<D: ?Sized + 'static> Builtin<D> {
-    /// A driver whose factory `make` makes.
+    /// A driver with the factory of `make`.
     pub const fn new(make: fn() -> Result<Box<dyn Factory<D>>, DescriptorError>) -> Builtin<D> {
         Builtin { make }
     }

@@ -29,7 +29,7 @@ where
     }
 }
 
-/// Adds a driver to those that are linked in: the device trait, then a `fn` that makes its factory.
+/// Adds a linked-in driver: the device trait, then a `fn` that makes its factory.
 ///
 /// `submit_builtin!(dyn Sensor, || Ok(Box::new(Replay::new()?)));`
 #[macro_export]

@@ -25,7 +25,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// A device that `driver` could open now, and that needs no argument to be told from others.
+    /// A device that `driver` could open now, without arguments to distinguish it from others.
     pub fn new(driver: DriverKey, title: impl Into<String>) -> Found {
         Found {
             driver,

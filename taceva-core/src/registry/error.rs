@@ -18,7 +18,7 @@ use crate::id::DriverKey;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RegistryError {
-    /// Nobody registered that name.
+    /// No driver is registered under that name.
     Unknown {
         /// Kind of driver that was requested.
         kind: DriverKind,
@@ -33,9 +33,9 @@ pub enum RegistryError {
     Twice {
         /// The name.
         key: DriverKey,
-        /// The title of the one that was there.
+        /// Title of the driver that was registered.
         first: String,
-        /// The title of the one that came.
+        /// Title of the driver that was rejected.
         second: String,
     },
     /// A driver among those of another kind.

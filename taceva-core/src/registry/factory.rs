@@ -4,7 +4,7 @@ use super::{Descriptor, DescriptorError, Found, Rig};
 use crate::args::Args;
 use crate::driver::DriverError;
 
-/// A driver that is not opened yet; `D` is what it opens, such as `dyn Sensor`.
+/// A driver that opens devices of type `D`, such as `dyn Sensor`.
 ///
 /// ```
 /// use taceva_core::{
@@ -50,7 +50,7 @@ pub trait Factory<D: ?Sized>: Send + Sync {
 
     /// Opens the device. Nothing moves, and no light changes.
     ///
-    /// `args` are those that [`descriptor`](Factory::descriptor) declares; devices of one `rig` may share what they need.
+    /// `args` are declared by [`descriptor`](Factory::descriptor); devices of one `rig` may share resources.
     ///
     /// # Errors
     /// [`DriverError`] of kind `NotFound`, `PermissionDenied`, `Busy`, `InvalidArgument`, `Protocol`, `Timeout` or `Unsupported`.

@@ -37,7 +37,7 @@ impl Rig {
     /// # Errors
     /// The error of `make`; nothing is stored then.
     /// # Panics
-    /// If another type is kept under that name: two drivers whose code chose one name.
+    /// If an object of another type has that name: the code of two drivers uses one name.
     pub fn share<T: Any + Send + Sync>(
         &mut self,
         name: &str,

@@ -10,7 +10,7 @@ use crate::signals::Signals;
 use crate::stamp::Stamp;
 
 impl Sample {
-    /// A sample called `id`, all of whose other fields are empty.
+    /// A sample called `id`, with all other fields empty.
     pub fn new(id: impl Into<String>) -> Sample {
         Sample {
             id: id.into(),
@@ -67,7 +67,7 @@ impl Sample {
         self
     }
 
-    /// The same sample with the limit that kept the tip from where it was sent.
+    /// The same sample with the limit that kept the tip from its target.
     #[must_use]
     pub fn with_limited_by(mut self, limited_by: impl Into<Option<Limit>>) -> Sample {
         self.limited_by = limited_by.into();

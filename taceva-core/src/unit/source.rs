@@ -160,9 +160,8 @@ impl SourceUnit {
         self.unit
     }
 
-    /// By how many places the decimal point moves in the conversion to the unit that values are kept in; `None` where the factor is no
-    /// power of ten. A text whose point was moved before it was read is rounded once, a value that was read and then
-    /// converted twice.
+    /// Shift of the decimal point in the conversion to the stored unit, places; `None` if the factor is no power of ten. Shifting the point
+    /// of a text before parsing rounds once; parsing and then converting rounds twice.
     pub fn decimal_shift(&self) -> Option<i32> {
         let find = |factor: f64| {
             let powers: [(f64, i32); 7] = [

@@ -28,7 +28,7 @@ impl Numbers {
         }
     }
 
-    /// From 0 up to 1, which is left out: a multiple of 2⁻⁵³.
+    /// A number in 0..1: a multiple of 2⁻⁵³.
     pub(super) fn unit(&mut self) -> f64 {
         self.0.unit()
     }

@@ -149,7 +149,7 @@ impl Whole {
     }
 }
 
-/// The binary64 nearest to `above / below` × 2^`unit`; `None` where there is none.
+/// The binary64 nearest to `above / below` × 2^`unit`; `None` if `below` is zero or the result is not finite.
 fn ratio(above: &Whole, below: &Whole, unit: i32) -> Option<f64> {
     if below.digits.is_empty() {
         return None;
@@ -157,7 +157,7 @@ fn ratio(above: &Whole, below: &Whole, unit: i32) -> Option<f64> {
     if above.digits.is_empty() {
         return Some(0.0);
     }
-    // Seventy bits of the quotient, one after the other as by hand, and whether anything is left.
+    // Seventy bits of the quotient by long division, and a flag for a remainder.
     let up = (70 + below.bits()).saturating_sub(above.bits());
     let mut rest = Vec::new();
     let raised = above.raised(up);

@@ -33,7 +33,7 @@ impl Canonical {
     /// The form with the given parts.
     ///
     /// # Errors
-    /// [`CanonicalError`] if they are not the one form of a number, or one beyond what sums hold.
+    /// [`CanonicalError`] if they are not the canonical form of a number, or exceed the range of sums.
     pub fn try_new(
         negative: bool,
         first: usize,
@@ -71,7 +71,7 @@ impl Canonical {
         &self.digits
     }
 
-    /// The form of a magnitude whose digits still hold carries.
+    /// Form of a magnitude with unpropagated carries.
     pub(super) fn from_digits(negative: bool, digits: &[i64]) -> Canonical {
         let mut carried = 0;
         let mut magnitude = Vec::with_capacity(digits.len() + 2);

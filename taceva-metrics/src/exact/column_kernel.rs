@@ -55,7 +55,7 @@ impl Job for OfColumn<'_> {
     }
 }
 
-/// The sum of the products of two columns whose values are in range.
+/// Sum of the products of two columns with values in range.
 pub(super) struct OfProducts<'a> {
     pub(super) columns: [&'a [f64]; 2],
     pub(super) grids: [Grid; 2],

@@ -1,4 +1,4 @@
-//! Sums of vectors without rounding, as long as the values lie in a known range of magnitudes.
+//! Sums of vectors without rounding, for values in a known range of magnitudes.
 //!
 //! A large first summand decides where the sum rounds: 1.5 × 2ᵏ plus small values is a multiple of 2^(k−52), and two subtractions find the
 //! cut-off part exactly. A second such sum takes that part. Both stay within one binade, so their bit patterns, as integers, give the

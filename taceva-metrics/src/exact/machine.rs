@@ -1,6 +1,6 @@
-//! The instructions that sums are formed with. All give the same bits; they differ in speed alone.
+//! Instruction sets for sums. All give the same bits; they differ in speed alone.
 //!
-//! `taceva-network` has a file like this one. It is not shared: what each instruction set can do is a type of this crate's `simd/`, whose making
+//! `taceva-network` has a similar file, which is not shared. Each instruction set is a type of this crate's `simd/`, whose construction
 //! proves that the processor has it, and whose operations are those of sums.
 
 use taceva_core::Isa;

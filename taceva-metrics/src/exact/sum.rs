@@ -136,7 +136,7 @@ impl ExactSum {
         self.deposit_parts(position, parts.map(|part| sign * part));
     }
 
-    /// Adds units × 2^unit, which must not lie below the square of the least denormal.
+    /// Adds units × 2^unit, which must be at least the square of the least denormal.
     pub(super) fn add_units(&mut self, units: i64, unit: i32) {
         let position = usize::try_from(unit - UNIT_EXPONENT).expect("a power of two in range");
         let sign = units.signum();

@@ -13,9 +13,9 @@ use crate::families::row_columns::Gathered;
 use crate::pair::{Paired, is_valid};
 use crate::score::value::UndefinedReason;
 
-/// The normal force from which on there is contact, in N.
+/// Least normal force of contact, N.
 pub(crate) const GATE_N: f64 = 0.02;
-/// Samples without contact below which nothing is said of them.
+/// Least samples without contact for a score of them.
 pub(crate) const LEAST_SAMPLES: u64 = 10;
 
 /// Needs of scores of predictions without contact.

@@ -47,7 +47,7 @@ fn formula(metric: &Metric) -> Option<&'static SurfaceFormula> {
     metric.formula.get()
 }
 
-/// Sums of the compliance of the surface, by cell where there is a footprint.
+/// Sums of the compliance of the surface, by cell if there is a footprint.
 pub(crate) struct Surface {
     settings: Settings,
     grid: Option<Grid>,

@@ -311,7 +311,7 @@ mod tests {
     use crate::score::range::Range;
     use crate::stats::ends::{Estimated, Moved};
 
-    /// The interval that `taceva` gives to a value that moves so far, and the estimate that is read off it.
+    /// Computes the interval of a value with this standard error, and the estimate read back from it.
     fn read_back(range: Range, value: f64, standard_error: f64) -> (Estimate, [f64; 2]) {
         let freedom = 7.5;
         let moved = Moved {

@@ -17,7 +17,7 @@ pub(super) struct MeanDifference {
     pub(super) freedom: f64,
 }
 
-/// The clusters that have samples, side by side.
+/// Pairs of clusters that have samples.
 pub(super) struct PairedClusters {
     counts: Vec<u64>,
     differences: Vec<ExactSum>,
@@ -25,7 +25,7 @@ pub(super) struct PairedClusters {
 }
 
 impl PairedClusters {
-    /// Both sides' clusters, which must be the same with as many samples each.
+    /// Pairs the clusters of both sides, which must have the same names and numbers of samples.
     pub(super) fn of(sums: Sides<&ClusterSums>) -> Result<PairedClusters, ComparisonError> {
         let sampled = |(_, cell): &(&str, &ClusterSum)| cell.n > 0;
         let unpaired = |side, name: &str| ComparisonError::Unpaired {

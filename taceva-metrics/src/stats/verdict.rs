@@ -95,7 +95,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The answer that `difference` gives to `question`.
+    /// Answer of `difference` to `question`.
     pub fn of(difference: Result<Difference, ComparisonError>, question: Question) -> Verdict {
         match difference {
             Ok(difference) => {

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::robot::{Motion, Pose};
 use crate::status::Status;
 
-/// The id by which a host asks for this ability.
+/// Id of this ability.
 pub const GUARDED_MOTION: &str = "taceva.robot.guarded-motion/1";
 
 /// `taceva_guarded_stop`: end of a guarded motion.

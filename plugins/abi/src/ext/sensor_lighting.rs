@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::Text;
 
-/// The id by which a host asks for this ability.
+/// Id of this ability.
 pub const SENSOR_LIGHTING: &str = "taceva.sensor.lighting/1";
 
 /// `taceva_sensor_lighting_calls`.

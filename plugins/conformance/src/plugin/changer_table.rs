@@ -39,7 +39,7 @@ fn holds(subject: &Subject) -> Result<Vec<String>, Unmet> {
 
 type Bare = taceva_host::bare::Opened<abi::ChangerCalls>;
 
-/// Past the host, which knows what it holds and refuses the rest.
+/// Calls `bring` without the host, which would reject unknown names itself.
 fn bare_bring(changer: &Bare, name: abi::Text, take: abi::TakeText) -> Result<(), DriverError> {
     let bring = changer.handle.needs(changer.calls.bring, "bring")?;
     let mut taken = Taken::default();

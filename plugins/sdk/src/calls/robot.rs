@@ -54,7 +54,7 @@ impl Kind for dyn Robot {
 }
 
 impl Opened {
-    /// The motion that is asked for, if it keeps to what the robot says of itself.
+    /// The requested motion, if it is within the declared limits.
     fn asked(&self, asked: &Motion) -> Result<(Pose, Speed), Failure> {
         let (target, speed) = convert::motion(asked)?;
         let refused = |message| Err(Failure::new(ErrorKind::OutOfRange, message));
@@ -172,7 +172,7 @@ unsafe extern "C" fn wait(
     unsafe { call(handle, error, work) }
 }
 
-/// Round the queue: whatever call the robot is in.
+/// Halts without waiting for the pending call of the robot.
 unsafe extern "C" fn halt(handle: *mut c_void, error: *mut Error) -> Status {
     let work = || {
         let handle = handles::find::<Handle<Opened>>(handle)?;

@@ -52,7 +52,7 @@ enum Draws {
 }
 
 impl Resampling {
-    /// No choice yet, for the numbers of all clusters, whose value lies in `range`.
+    /// Empty resampling of `numbers`, those of all clusters, with a value in `range`.
     pub(super) fn new(numbers: &Numbers, range: Range) -> Resampling {
         let variants = numbers.variants.iter();
         let names = variants.map(|variant| (Some(variant.name.clone()), variant.range));

@@ -72,7 +72,7 @@ impl Vector for Four {
     #[inline(always)]
     fn load(_proof: Avx2, values: &[f64]) -> Four {
         assert_eq!(values.len(), Self::LANES, "one number per lane");
-        // SAFETY: the machine has AVX2, and four numbers lie where the slice begins.
+        // SAFETY: the machine has AVX2, and the slice has four numbers.
         Four(unsafe { _mm256_loadu_pd(values.as_ptr()) })
     }
 

@@ -58,7 +58,7 @@ impl Vector for Eight {
     #[inline(always)]
     fn load(_proof: Avx512, values: &[f64]) -> Eight {
         assert_eq!(values.len(), Self::LANES, "one number per lane");
-        // SAFETY: the machine has AVX-512F, and eight numbers lie where the slice begins.
+        // SAFETY: the machine has AVX-512F, and the slice has eight numbers.
         Eight(unsafe { _mm512_loadu_pd(values.as_ptr()) })
     }
 

@@ -90,12 +90,12 @@ impl UnitGaps {
         self.count(|pair| pair.gap.is_ok())
     }
 
-    /// Number of pairs that were laid onto each other by points of the same name.
+    /// Number of pairs that were registered by points of the same name.
     pub(super) fn by_point(&self) -> u64 {
         self.count(|pair| pair.by_point)
     }
 
-    /// Number of pairs whose points still changed partners when the steps were over.
+    /// Number of pairs whose registration had not converged after the last step.
     pub(super) fn unsettled(&self) -> u64 {
         self.count(|pair| !pair.settled)
     }
