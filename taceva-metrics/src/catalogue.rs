@@ -1,4 +1,4 @@
-//! Every metric there is: the only source of names, units, directions, definitions and texts.
+//! Catalogue of every metric: the only source of names, units, directions, definitions and texts.
 
 mod bias;
 mod direction;

@@ -1,7 +1,7 @@
 //! Families of metrics, one folder or file each: their sums of samples, and their formulas.
 //!
 //! [`Family`](crate::evaluate::family::Family) is the trait of every family. [`channelwise`] is shared by families with the same sums for
-//! each channel, and [`cells`] by those that compare presses of one contact point and depth. [`gathered`] gathers some rows of several
+//! each channel, and [`cells`] by those that compare presses of one contact point and depth. [`row_columns`] gathers some rows of several
 //! columns.
 
 pub(crate) mod accuracy;

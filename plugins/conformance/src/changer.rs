@@ -76,7 +76,7 @@ fn passed_deadline(tried: &Subject<'_>) -> Result<(), Unmet> {
         let brought = tried.at_once(doing, || changer.bring(name, Deadline::PASSED))?;
         answered(doing, brought, ErrorKind::Timeout)?;
     }
-    // It is usable after it.
+    // The changer is usable afterwards.
     changer.bring(&holds[0], tried.trial.deadline)?;
     Ok(())
 }

@@ -1,4 +1,5 @@
-//! Between the numbers of the boundary, SI, and those of core, mm and degrees; a number that is not finite is refused in both directions.
+//! Conversion between the SI numbers of the boundary and the mm and degrees of core; numbers that are not finite are rejected in both
+//! directions.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Waiting that another thread can end.
+//! Waits that another thread can end.
 
 use std::fmt;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -91,7 +91,7 @@ impl InterruptibleCall<'_> {
     /// Waits for `time`, or less if the call is interrupted.
     ///
     /// # Errors
-    /// [`Interrupted`] if it was, before or during the wait.
+    /// [`Interrupted`] if the call was interrupted, before or during the wait.
     pub fn rest(&self, time: Duration) -> Result<(), Interrupted> {
         let bell = &self.interruption.bell;
         let pending = self.interruption.pending();
@@ -155,7 +155,7 @@ impl HaltLatch {
     /// Waits for `time`, or until it is halted.
     ///
     /// # Errors
-    /// [`Interrupted`] if it is, since before or during the wait.
+    /// [`Interrupted`] if it is halted, since before or during the wait.
     pub fn rest(&self, time: Duration) -> Result<(), Interrupted> {
         let latch = self.latch();
         let (is_halted, _) = self

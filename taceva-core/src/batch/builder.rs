@@ -8,7 +8,7 @@ use crate::nanometre::Nanometre;
 use crate::phase::Phase;
 use crate::sample::{Readings, Sample};
 
-/// Collects samples into batches, in which only the fields that are read are filled.
+/// Collects samples into batches, with only the needed fields.
 ///
 /// ```
 /// use taceva_core::{BatchBuilder, Channel, Channels, FieldSet, Readings, Sample};

@@ -5,7 +5,7 @@ use std::fmt;
 use crate::geometry::Pose;
 use crate::wrench::Wrench;
 
-/// Refuses a pose with a coordinate that is not finite.
+/// Rejects a pose with a coordinate that is not finite.
 ///
 /// # Errors
 /// [`NotFinite`], naming the coordinate.
@@ -21,7 +21,7 @@ pub fn check_pose(pose: &Pose) -> Result<(), NotFinite> {
     ])
 }
 
-/// Refuses a wrench with a component that is not finite.
+/// Rejects a wrench with a component that is not finite.
 ///
 /// # Errors
 /// [`NotFinite`], naming the component.

@@ -24,6 +24,6 @@
 /// assert!(receiver.recv().is_ok());
 /// ```
 pub trait Interrupt: Send + Sync {
-    /// Ends the pending call, and never waits for it.
+    /// Ends the pending call, without waiting for its return.
     fn interrupt(&self);
 }

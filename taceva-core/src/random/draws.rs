@@ -20,7 +20,7 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// The numbers of `key`, which is a seed or what [`mix`] made of one.
+    /// The numbers of `key`, a seed or the result of [`mix`].
     #[inline]
     #[must_use]
     pub const fn new(key: u64) -> Draws {
@@ -48,8 +48,8 @@ impl Draws {
         unit(self.bits(counter))
     }
 
-    /// A normal number of mean 0 and variance 1 (Box and Muller), from the numbers 2 · `counter` and 2 · `counter` + 1. Its last places are
-    /// those of the platform's logarithm and cosine.
+    /// A normal number of mean 0 and variance 1 (Box and Muller), from the numbers 2 · `counter` and 2 · `counter` + 1. Its last digits
+    /// depend on the platform's logarithm and cosine.
     #[must_use]
     pub fn normal(self, counter: u64) -> f64 {
         let (first, second) = (self.unit(2 * counter), self.unit(2 * counter + 1));

@@ -1,4 +1,4 @@
-/// FNV-1a hash of no byte.
+/// FNV-1a hash of the empty input.
 ///
 /// ```
 /// use taceva_core::random::{FNV_OFFSET, fnv_1a};

@@ -1,4 +1,4 @@
-//! A sample made field by field, so that code that makes one still compiles when a field is added.
+//! Setters for single fields of a sample, so that callers still compile when a field is added.
 
 use super::{Readings, Sample};
 use crate::frame::Frame;
@@ -74,7 +74,7 @@ impl Sample {
         self
     }
 
-    /// The same sample with when it was taken.
+    /// The same sample with its time.
     #[must_use]
     pub fn with_stamp(mut self, stamp: impl Into<Option<Stamp>>) -> Sample {
         self.stamp = stamp.into();

@@ -1,10 +1,10 @@
-//! A unit that labels may arrive in, and its conversion to the unit they are kept in.
+//! A unit of incoming labels, and its conversion to the stored unit.
 
 use std::fmt;
 
 use super::Unit;
 
-/// A unit that labels may arrive in, with its conversion to the unit they are kept in.
+/// A unit of incoming labels, and its conversion to the stored unit.
 ///
 /// # Units
 /// [`convert`](SourceUnit::convert) rounds once, so `m → mm` multiplies and `um → mm` divides.
@@ -130,7 +130,7 @@ impl SourceUnit {
     /// The unit written as `symbol`; case matters, because `mN` is not `MN`.
     ///
     /// # Errors
-    /// [`UnitError`], listing what would be accepted.
+    /// [`UnitError`], listing the accepted symbols.
     pub fn parse(symbol: &str) -> Result<SourceUnit, UnitError> {
         SOURCE_UNITS
             .iter()
@@ -155,7 +155,7 @@ impl SourceUnit {
         self.symbol
     }
 
-    /// The unit that values are kept in after conversion.
+    /// Unit of the values after conversion.
     pub const fn unit(&self) -> Unit {
         self.unit
     }
@@ -183,7 +183,7 @@ impl SourceUnit {
         }
     }
 
-    /// `value` in the unit it is kept in, rounded once.
+    /// Converts `value` to the stored unit, rounded once.
     pub fn convert(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Times(factor) => value * factor,

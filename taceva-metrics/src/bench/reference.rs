@@ -1,4 +1,4 @@
-//! True scores in whole numbers, written apart from the sums that are measured by them.
+//! True scores in integers, in code independent of the measured sums.
 //!
 //! Residuals and terms of sMAPE are those of the definitions, rounded once each. They are whole multiples of the least denormal number, so their sums
 //! and squares are whole numbers too, and nothing is rounded before the end.
@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use super::scores::Scores;
 use crate::pair::Paired;
 
-/// The power of two that the last place of every value is a multiple of.
+/// Exponent of two of which every value is a multiple.
 const LEAST: i32 = -1074;
 
 /// The true scores of `pairs`.

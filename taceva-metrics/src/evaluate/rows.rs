@@ -9,7 +9,7 @@ use crate::evaluate::state::{describe, written};
 /// Some samples, given channel by channel: truth, prediction, and perhaps the contact point of each.
 ///
 /// # Shapes
-/// Every column and the locations have one length, the number of samples. It is checked when the rows are taken in.
+/// Every column and the locations have one length, the number of samples. It is checked when the rows are added.
 /// # Units
 /// Values are in the unit of their channel: mm for `Px Py Pz`, N for `Fx Fy Fz`.
 ///

@@ -78,7 +78,7 @@ impl Natural {
         Natural::from_limbs(limbs)
     }
 
-    /// `self` without its lowest `places` bits, and whether one of them was set.
+    /// `self` without its lowest `places` bits, and true if one of them was set.
     fn shifted_down(&self, places: usize) -> (Natural, bool) {
         let (whole, rest) = (places / 64, places % 64);
         let mut limbs: Vec<u64> = self.limbs.iter().skip(whole).copied().collect();
@@ -93,7 +93,7 @@ impl Natural {
         (Natural::from_limbs(limbs), lost)
     }
 
-    /// The whole part of `self / divisor`, and whether nothing is left; one bit after the other, for numbers of a few thousand bits.
+    /// The integer part of `self / divisor`, and true if it is exact; bit by bit, for numbers of a few thousand bits.
     pub(super) fn divided_by(&self, divisor: &Natural) -> (Natural, bool) {
         let Some(most) = self.bits().checked_sub(divisor.bits()) else {
             return (Natural::default(), self.is_zero());
@@ -182,7 +182,7 @@ impl Ord for Natural {
     }
 }
 
-/// Adds `other` in place; whether there is a carry out of the top.
+/// Adds `other` in place; returns true if there is a carry out of the top.
 fn add_to(limbs: &mut [u64], other: &[u64]) -> bool {
     let mut carried = false;
     let padded = other.iter().copied().chain(std::iter::repeat(0));
@@ -194,7 +194,7 @@ fn add_to(limbs: &mut [u64], other: &[u64]) -> bool {
     carried
 }
 
-/// Takes `factor × other` away in place; whether the top had to borrow.
+/// Subtracts `factor × other` in place; returns true if the top had to borrow.
 fn subtract_multiple(limbs: &mut [u64], other: &[u64], factor: u64) -> bool {
     let mut carried = 0;
     let padded = other.iter().copied().chain(std::iter::repeat(0));

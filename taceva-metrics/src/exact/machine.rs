@@ -12,7 +12,7 @@ use super::simd::Portable;
 use super::simd::{Avx2, Avx512};
 use super::vector::Job;
 
-/// An instruction set that the machine was found to have.
+/// An instruction set that the machine has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Machine {
     #[cfg(target_arch = "x86_64")]
@@ -39,12 +39,12 @@ impl Machine {
         }
     }
 
-    /// The machine as [`Isa::detect`] has it.
+    /// The machine with the set of [`Isa::detect`].
     pub(crate) fn detect() -> Machine {
         Machine::with(Isa::detect()).unwrap_or(Machine::Portable(Portable))
     }
 
-    /// Does `job` with the machine's vectors.
+    /// Runs `job` with the machine's vectors.
     #[inline]
     pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
         match self {

@@ -44,7 +44,7 @@ impl Record {
         self.with_cells()
     }
 
-    /// The counts and sums of a record that holds `C` and `S` of them, and perhaps values and cells.
+    /// The counts and sums of a record with `C` counts, `S` sums, and perhaps values and cells.
     pub(crate) fn with_cells<const C: usize, const S: usize>(
         &self,
     ) -> Result<(&[u64; C], &[ExactSum; S]), String> {
@@ -63,7 +63,7 @@ impl Record {
         }
     }
 
-    /// The cells by key, each read by `read`; a key that `parse` does not know is refused.
+    /// The cells by key, each read by `read`; keys that `parse` does not know are rejected.
     pub(crate) fn read_cells<K: Ord, T>(
         &self,
         parse: impl Fn(&str) -> Option<K>,

@@ -31,7 +31,7 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// The curve through `values` at the levels `x`, without a band, whose shapes the caller has checked.
+    /// Curve through `values` at the levels `x`, without a band; the caller has checked their shapes.
     pub fn new(x: Vec<f64>, x_unit: Unit, values: Vec<Option<f64>>, counts: Vec<u64>) -> Curve {
         Curve {
             x,

@@ -26,7 +26,7 @@ pub struct Map {
 }
 
 impl Map {
-    /// The map with these edges, values and counts, whose shapes the caller has checked.
+    /// Map with these edges, values and counts; the caller has checked their shapes.
     pub fn new(
         x_mm: Vec<f64>,
         y_mm: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Spread of the means of bins beyond chance, where samples of one cluster are alike: its value, and an interval that is no narrower than it may be.
+//! Spread of the means of bins beyond chance, for correlated samples of a cluster: its value, and a conservative interval.
 
 use std::collections::BTreeMap;
 
@@ -130,7 +130,7 @@ impl ClusteredBins {
             return Err(UndefinedReason::Overflow);
         }
         if noise.variance <= 0.0 {
-            // Nothing scatters within bins: what differs between them is known.
+            // Nothing scatters within bins, so the differences between them are exact.
             let value = variance.sqrt();
             return Ok(Excess {
                 value,
@@ -167,7 +167,7 @@ impl ClusteredBins {
             (low + high) / 2.0
         };
         let value = (variance - noise.variance).max(0.0).sqrt();
-        // Of so little that is known of chance nothing is shown.
+        // With so few degrees of freedom of chance, no excess is shown.
         let low = match noise.freedom >= LEAST_FREEDOM {
             true => (at(TWO_SIDED) * noise.variance).sqrt().min(value),
             false => 0.0,
@@ -210,7 +210,7 @@ impl ClusteredBins {
             let size = weight / between_freedom;
             let mean_square = between / between_freedom;
             of_cluster = (mean_square - within).max(0.0) / size;
-            // Where clusters scatter less than their samples let expect, how well that is known is still up to them.
+            // At least the variance within clusters, so that few clusters always limit the degrees of freedom.
             let mean_square = mean_square.max(within);
             let alpha = shares.iter().map(|share| share.0).sum::<f64>() / bins / size;
             let beta = shares.iter().map(|share| share.1).sum::<f64>() / bins - alpha;
@@ -307,7 +307,7 @@ struct Noise {
     variance: f64,
     /// Number of bins.
     bins: f64,
-    /// Sum of the variances of their means, and of the squares of these with what heavy tails add.
+    /// Sum of the variances of their means, and below it the sum of their squares with a part for heavy tails.
     sum: f64,
     squares: f64,
     /// Degrees of freedom of the noise.
@@ -363,7 +363,7 @@ impl Excess {
         })
     }
 
-    /// The interval with these ends, as a score holds it.
+    /// Interval of a score with these ends.
     pub(crate) fn interval([low, high]: [f64; 2], clusters: usize) -> Interval {
         if clusters < LEAST_CLUSTERS {
             return Interval::Undefined(UndefinedReason::TooFewClusters { have: clusters });

@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::UndefinedReason;
 
-/// A difference of means, and how far it would move with other clusters.
+/// A difference of means, with its standard error between choices of clusters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeanDifference {
     pub(super) value: f64,
@@ -71,7 +71,7 @@ impl PairedClusters {
         &self.differences
     }
 
-    /// The difference of the means over all samples, and how far it would move with other clusters.
+    /// The difference of the means over all samples, with its standard error between choices of clusters.
     pub(super) fn mean_difference(&self) -> Result<MeanDifference, ComparisonError> {
         let clusters = self.counts.len();
         if clusters < LEAST_CLUSTERS {

@@ -10,7 +10,7 @@ use crate::text::{TakeText, Text};
 /// Id of this ability.
 pub const BENCH: &str = "taceva.rig.bench/draft-1";
 
-/// `taceva_specimen`: what a robot carries.
+/// `taceva_specimen`: the object that a robot carries.
 ///
 /// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
 ///

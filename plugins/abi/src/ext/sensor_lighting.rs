@@ -1,4 +1,4 @@
-//! A sensor that sets the light around it by itself.
+//! A sensor that sets the light around itself.
 
 use core::ffi::c_void;
 
@@ -25,7 +25,7 @@ pub struct SensorLightingCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` A scene of the manifest; returns once it holds.
+    /// `[owner & open]` Sets a scene of the manifest; returns once it is steady.
     pub set: Option<
         unsafe extern "C" fn(*mut c_void, scene: Text, timeout_ns: u64, *mut Error) -> Status,
     >,

@@ -1,4 +1,4 @@
-//! Promises of a changer's table: names that no host passes on.
+//! Promises of a changer's table, for names that no host passes on.
 
 #![expect(
     unsafe_code,
@@ -27,7 +27,7 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Ch
     }
 }
 
-/// The names of what the changer holds; skipped if its arguments have it hold nothing.
+/// Names of the changer's items; skipped without any item.
 fn holds(subject: &Subject) -> Result<Vec<String>, Unmet> {
     let session = &subject.session;
     let changer = subject.opened(session.changer(subject.key()?, &subject.args()?))?;

@@ -324,7 +324,7 @@ fn interrupts(subject: &Subject) -> Result<(), Unmet> {
     opened(subject).map(drop)
 }
 
-/// A handle is no thread's own: opened in one, used and closed in another.
+/// A handle belongs to no thread: it is opened in one, and used and closed in another.
 fn other_thread(subject: &Subject) -> Result<(), Unmet> {
     let device = opened(subject)?;
     let closed = thread::scope(|scope| scope.spawn(move || drop(device)).join());
@@ -347,7 +347,7 @@ fn discovers(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// After the first 100, ten thousand openings add less than 1 MiB to the memory that may be written.
+/// After the first 100, another 9,900 openings add less than 1 MiB to the writable memory.
 fn memory(subject: &Subject) -> Result<(), Unmet> {
     if subject.is_real() {
         let why = "a real device is not opened 10000 times";

@@ -130,7 +130,7 @@ fn counts(subject: &Subject) -> Result<(), Unmet> {
 
 const CANARY: u8 = 0x5a;
 
-/// A buffer that is too short is refused, or the frame is lent; nothing beyond it is written.
+/// With a short buffer the call is rejected or the frame is lent; nothing beyond the buffer is written.
 fn keeps_to_buffer(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for room in [1, sensor.length / 2, sensor.length - 1] {

@@ -21,7 +21,7 @@ use crate::guard::guard;
 use crate::handles::{self, Handle};
 use crate::memory;
 
-/// A robot, and the motion that was accepted and not begun.
+/// A robot, and the accepted motion that has not begun.
 pub(crate) struct Opened {
     robot: Box<dyn Robot>,
     limits: RobotFacts,
@@ -123,7 +123,7 @@ unsafe extern "C" fn pose(
     unsafe { call(handle, error, work) }
 }
 
-/// Accepts a motion; `wait` makes it, as a robot of core moves while it is waited for.
+/// Accepts a motion. `wait` carries it out, because a robot of core moves during a blocking call.
 unsafe extern "C" fn move_to(
     handle: *mut c_void,
     target: *const Motion,

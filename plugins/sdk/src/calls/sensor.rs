@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::handles::Handle;
 use crate::memory;
 
-/// A sensor, and how many frames it gave.
+/// A sensor, and its number of captured frames.
 pub(crate) struct Opened {
     sensor: Box<dyn Sensor>,
     frames: u64,

@@ -1,4 +1,4 @@
-//! A family without the name of its type.
+//! Type-erased families.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -44,7 +44,7 @@ pub(crate) trait AnyFamily: Send {
     ) -> Option<Intervals>;
 }
 
-/// `family` without the name of its type.
+/// Erases the type of `family`.
 pub(crate) fn erased(family: impl Family) -> Option<Box<dyn AnyFamily>> {
     Some(Box::new(Erased(family)))
 }

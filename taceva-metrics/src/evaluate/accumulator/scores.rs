@@ -11,7 +11,7 @@ use crate::score::value::{UndefinedReason, Value};
 use crate::score::{Interval, Score, Variant};
 use crate::stats::IntervalMethod;
 
-/// A score on its way.
+/// A score before its interval.
 struct Request {
     metric: &'static Metric,
     output: Output,

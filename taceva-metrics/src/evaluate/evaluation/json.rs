@@ -149,7 +149,7 @@ fn serialize_value<M: SerializeMap>(
     into.serialize_entry("unit", &unit)
 }
 
-/// The interval of a number with the way it was found, and the standard error and clusters behind it.
+/// Writes the interval of a number with its method, standard error and clusters.
 fn serialize_interval<M: SerializeMap>(
     into: &mut M,
     value: &Value,

@@ -16,12 +16,12 @@ use crate::exact::vector::{Job, Vector};
 pub(crate) struct Neon(());
 
 impl Neon {
-    /// The evidence, if there is any.
+    /// Evidence from the features of this processor; `None` if it lacks one.
     pub(in crate::exact) fn detect() -> Option<Neon> {
         std::arch::is_aarch64_feature_detected!("neon").then_some(Neon(()))
     }
 
-    /// Does `job` with vectors of two.
+    /// Runs `job` with vectors of two.
     pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
         #[target_feature(enable = "neon")]
         fn with_instructions<J: Job>(proof: Neon, job: J) -> J::Output {

@@ -69,7 +69,7 @@ impl Window {
     }
 }
 
-/// ⌊value / width⌋; the widths of levels are named, since a division by a known number is a multiplication.
+/// ⌊value / width⌋; the widths are constants here, since a division by a constant compiles to a multiplication.
 #[inline]
 fn floored(value: i64, width: i64) -> i64 {
     match width {

@@ -1,4 +1,4 @@
-//! Intervals of a robustness to lighting: the delta method on the errors that it is made of.
+//! Intervals of a robustness to lighting, by the delta method on its errors.
 
 use super::robustness::{changes, variant_of};
 use super::sums::LightingSums;
@@ -139,7 +139,7 @@ impl<'a> Moves<'a> {
         with.filter(|cell| cell.scenes.get(scene).is_some()).count()
     }
 
-    /// By how much the mean of `terms` moves where only `others` are there.
+    /// First-order change of the mean of `terms` if only the samples of `others` remain.
     fn moved(&self, terms: &[&Term<'_>], others: &LightingSums) -> Finished {
         let baseline = self.change_of(self.reference, others)?;
         let mut sum = 0.0;
