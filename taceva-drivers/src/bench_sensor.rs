@@ -1,4 +1,4 @@
-//! A sensor with a clock of its own over a simulated bench.
+//! Sensor with its own clock, run over a simulated bench.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -8,19 +8,19 @@ use taceva_core::{
     Deadline, DriverError, FrameInfo, FrameMut, Interrupt, Lighting, Sensor, SimulatedBench, Stamp,
 };
 
-/// A sensor whose frames are stamped by the clock of a simulated bench that it is no part of.
+/// A sensor whose frames are stamped by the clock of a simulated bench to which it does not belong.
 ///
-/// Between two frames as much time passes on the bench as on the sensor's own clock, or more where the bench was busy with other devices meanwhile.
-/// The bench does not know what the sensor sees: nothing in its frames depends on the presses, unless the sensor is truly pressed.
+/// Between two frames, at least as much time passes on the bench as on the sensor's clock. More passes if other devices kept the bench
+/// busy. The bench does not simulate the sensor, so its frames depend on presses only if the sensor is really pressed.
 pub struct OnBench {
     sensor: Box<dyn Sensor>,
     bench: Arc<dyn SimulatedBench>,
-    /// The last frame, on the clock of the sensor and on that of the bench.
+    /// Times of the last frame, on the sensor's clock and on the bench's.
     last: Option<[Duration; 2]>,
 }
 
 impl OnBench {
-    /// `sensor` by the clock of `bench`.
+    /// Wraps `sensor` to use the clock of `bench`.
     pub fn new(sensor: Box<dyn Sensor>, bench: Arc<dyn SimulatedBench>) -> OnBench {
         OnBench {
             sensor,

@@ -16,7 +16,7 @@ use crate::search::{MANIFEST, Plugin};
 
 /// File of the digests of all files but the manifest, in the format of `sha256sum --check`.
 const DIGESTS: &str = "SHA256SUMS";
-/// First words of licence file names.
+/// Prefixes of licence file names.
 const LICENCES: [&str; 4] = ["LICENSE", "LICENCE", "COPYING", "NOTICE"];
 /// Maximum length of a licence, bytes.
 const LICENCE_MAX: u64 = 1 << 20;

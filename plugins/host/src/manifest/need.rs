@@ -16,7 +16,7 @@ use taceva_core::suggestion;
 
 use crate::text::shown;
 
-/// First words of needs.
+/// Words before the first `:` of needs.
 const WORDS: [&str; 9] = [
     "camera", "device", "hid", "listen", "read", "serial", "tcp", "udp", "usb",
 ];
