@@ -219,7 +219,7 @@ fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
         crate::text::shown(&words.replace(&name, "the library"))
     };
     LOADED.fetch_add(1, Ordering::Relaxed);
-    // SAFETY: its constructors are foreign code; whoever calls has decided that they may run in this process.
+    // SAFETY: its constructors are foreign code; the caller has decided that they may run in this process.
     let loaded = unsafe { Loaded::open(Some(&name), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) };
     let loaded = match loaded {
         Ok(loaded) => loaded,

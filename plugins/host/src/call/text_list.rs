@@ -65,7 +65,7 @@ impl Taken {
 /// # Safety
 /// `context` is the pointer that `Taken::context` gave for the call under way, and nothing else reads it during the call.
 pub unsafe extern "C" fn take(context: *mut c_void, text: abi::Text) {
-    // SAFETY: `context` is what `Taken::context` gave for the call that is under way, and nobody else looks at it meanwhile.
+    // SAFETY: `context` is the pointer that `Taken::context` gave for the pending call, and nothing else accesses it during the call.
     let taken = unsafe { &mut *context.cast::<Taken>() };
     taken.add(text);
 }

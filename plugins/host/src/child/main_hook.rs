@@ -91,7 +91,7 @@ unsafe fn close_all_but(kept: &OwnedFd) {
         .collect();
     for file in open {
         if file > 2 && file != kept.as_raw_fd() && is_open(file) {
-            // SAFETY: open, and owned by nobody, as the caller promises.
+            // SAFETY: open and without an owner, as the caller promises.
             drop(unsafe { OwnedFd::from_raw_fd(file) });
         }
     }

@@ -26,7 +26,7 @@ pub(crate) struct SharedMemory {
     file: OwnedFd,
 }
 
-// SAFETY: the mapping belongs to the process, not to a thread; it is unmapped once, by whoever drops the one owner.
+// SAFETY: the mapping belongs to the process, not to a thread; the drop of its only owner unmaps it once.
 unsafe impl Send for SharedMemory {}
 
 impl SharedMemory {
@@ -85,7 +85,7 @@ impl SharedMemory {
     /// If `into` is longer than the memory.
     pub(crate) fn copy_to(&self, into: &mut [u8]) {
         assert!(into.len() <= self.length, "a copy from within the memory");
-        // SAFETY: both places are valid for `into.len()` bytes, and a borrowed slice cannot overlap a mapping that nobody borrows.
+        // SAFETY: both places are valid for `into.len()` bytes, and a borrowed slice cannot overlap a mapping without borrows.
         unsafe { std::ptr::copy_nonoverlapping(self.start.as_ptr(), into.as_mut_ptr(), into.len()) }
     }
 

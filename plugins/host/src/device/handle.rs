@@ -252,7 +252,7 @@ impl Drop for Owned {
             .unwrap_or_else(PoisonError::into_inner);
         if let Some(close) = self.0.calls.close.filter(|_| *is_open) {
             let _under_way = pending_call::begin("close the device");
-            // SAFETY: [owner & open], the last call: `is_open` is true once, and whoever interrupts is kept out by the lock.
+            // SAFETY: [owner & open], the last call: `is_open` is true once, and the lock keeps interrupts out.
             unsafe { close(self.0.raw) };
         }
         *is_open = false;

@@ -152,7 +152,7 @@ impl PluginSensor {
             },
         };
         self.handle.call(CAPTURING, |raw, error| {
-            // SAFETY: [owner & started] by `&mut self` of whoever calls, with a frame, its buffer and an error that outlive the call.
+            // SAFETY: [owner & started] by `&mut self` of the caller, with a frame, its buffer and an error that outlive the call.
             unsafe { (self.capture)(raw, &raw mut taken.frame, timeout(deadline), error) }
         })?;
         Ok(taken)
@@ -207,7 +207,7 @@ struct Taken {
 impl Drop for Taken {
     fn drop(&mut self) {
         if let Some(release) = self.frame.release {
-            // SAFETY: [any], once: `release` is set by whoever lent, and nobody looks at the pixels any more.
+            // SAFETY: [any], once: `release` is set by the lender, and the pixels are no longer borrowed.
             unsafe { release(&raw mut self.frame) };
         }
     }

@@ -215,7 +215,7 @@ mod tests {
         })
     }
 
-    /// What xarm-python-sdk 1.18.4 sends for the same calls, without the header.
+    /// Frames that xarm-python-sdk 1.18.4 sends for the same calls, without the header.
     #[test]
     fn commands_are_those_of_the_public_client_for_both_layouts() {
         let recorded = [
