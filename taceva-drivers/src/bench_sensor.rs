@@ -81,7 +81,7 @@ mod tests {
         format: PixelFormat::Gray8,
     };
 
-    /// Frames at the times that are left.
+    /// Sensor with frames at the remaining times.
     struct Timed(Vec<u64>);
 
     impl Sensor for Timed {
@@ -95,7 +95,7 @@ mod tests {
         }
     }
 
-    /// A clock and nothing else.
+    /// Bench that is only a clock.
     struct Clock(Mutex<Duration>);
 
     impl SimulatedBench for Clock {
@@ -137,7 +137,7 @@ mod tests {
             stamp.expect("a frame").valid().as_millis()
         };
         assert_eq!([stamp_ms(), stamp_ms(), stamp_ms()], [7_000, 7_010, 7_010]);
-        // What others took of the time until the next frame is not taken twice.
+        // Time that other devices spent before the next frame is not counted twice.
         bench.rest(Duration::from_millis(20)).expect("it rests");
         assert_eq!(stamp_ms(), 7_040);
         bench.rest(Duration::from_secs(1)).expect("it rests");

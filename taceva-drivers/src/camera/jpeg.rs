@@ -141,7 +141,7 @@ mod tests {
 
     const DRIVER: DriverKey = DriverKey::fixed("test/camera");
 
-    /// A JPEG file of 24 by 16 pixels that are not all alike.
+    /// JPEG file of 24 by 16 pixels that differ.
     fn picture() -> Vec<u8> {
         let pixels: Vec<u8> = (0..24_u32 * 16 * 3)
             .map(|index| u8::try_from(index * 7 % 251).expect("below 251"))
@@ -161,7 +161,7 @@ mod tests {
         Ok(pixels)
     }
 
-    /// The file without its tables of codes, as many cameras send it.
+    /// Removes the Huffman tables, which many cameras omit.
     fn without_tables(file: &[u8]) -> Vec<u8> {
         let mut kept = BEGIN.to_vec();
         let mut at = 2;

@@ -90,7 +90,7 @@ mod tests {
         let left_s = |x, z| course.left(&at(x, z)).as_secs_f64();
         assert!((left_s(0.0, 0.0) - 1.0).abs() < 1e-9);
         assert!((left_s(1.5, -2.0) - 0.5).abs() < 1e-9);
-        // Beside the way the nearest place of it counts, and behind the end nothing is left.
+        // Off the path the nearest point counts, and past the end nothing is left.
         assert!((left_s(1.5 + 0.4, -2.0 + 0.3) - 0.5).abs() < 1e-9);
         assert!(left_s(6.0, -8.0) < 1e-12);
         assert!(Course::of(&at(0.0, 0.0), &at(0.0, 1.5), speed).is_none());

@@ -96,7 +96,7 @@ mod tests {
         assert!(copy(16, &mut calls).expect("read").device.close.is_some());
         assert!(copy(8, &mut calls).expect("read").device.close.is_none());
         assert!(copy(4, &mut calls).is_err());
-        // SAFETY: NULL and what is misaligned is refused unread.
+        // SAFETY: NULL and misaligned tables are rejected unread.
         assert!(unsafe { table::<abi::ForceCalls>(std::ptr::null()) }.is_err());
         let odd = std::ptr::from_ref(&calls).cast::<u8>().wrapping_add(1);
         // SAFETY: as above.

@@ -125,7 +125,7 @@ mod tests {
         }
     }
 
-    /// A library that is there wherever tests run: the one this program itself uses.
+    /// A library that exists wherever tests run: one that this program itself uses.
     fn some_library() -> PathBuf {
         let maps = std::fs::read_to_string("/proc/self/maps").expect("readable");
         let library = maps

@@ -120,7 +120,7 @@ mod tests {
 
     use super::*;
 
-    /// Pictures of 4 by 2 pixels whose rows are 12 bytes apart: 8 of pixels, 4 of nothing.
+    /// Images of 4 by 2 pixels with a row stride of 12 bytes: 8 of pixels, 4 of padding.
     fn frames() -> Frames {
         Frames::rows(GivenFormat {
             picture: PictureFormat {
@@ -150,7 +150,7 @@ mod tests {
         Ok(pixels)
     }
 
-    /// Grays 10 to 13 and 20 to 23, and what is none of them between the rows.
+    /// Grays 10 to 13 and 20 to 23, with other values between the rows.
     fn grays() -> Vec<u8> {
         let row = |first: u8| [first, 128, first + 1, 128, first + 2, 128, first + 3, 128];
         [&row(10)[..], &[255; 4], &row(20)[..]].concat()
@@ -182,7 +182,7 @@ mod tests {
                 "{message}"
             );
         }
-        // More than is needed is padding.
+        // Surplus bytes are padding.
         let long = [grays(), vec![0; 100]].concat();
         assert!(made(&mut frames(), &long, Crop::NONE).is_ok());
     }

@@ -96,7 +96,7 @@ mod tests {
             Heard::answer(Answer::Fault("ALARM 3".to_owned())),
             Heard::NOTHING,
             status(State::Alarm, [0.0; 3]),
-            // Places in another frame say nothing without its origin.
+            // Positions in another frame are useless without its origin.
             Heard::NOTHING,
         ];
         for piece in [1, 2, 7, text.len()] {

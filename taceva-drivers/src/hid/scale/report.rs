@@ -153,7 +153,7 @@ mod tests {
     fn reports_of_something_else_and_noise_are_passed_over() {
         assert_eq!(read(&[]), None);
         assert_eq!(read(&[1, 4, 2, 0, 124, 0]), None);
-        // Every report of up to seven bytes with each first four: never a panic, never a number that is none.
+        // All reports of up to seven bytes with each first four: never a panic, never NaN.
         for seed in 0_u64..200_000 {
             let mixed = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29) ^ seed;
             let bytes = mixed.to_le_bytes();

@@ -193,7 +193,7 @@ mod tests {
     use super::*;
     use crate::link::hexadecimal;
 
-    /// The frame in the manual's own example.
+    /// Frame of the example in the manual.
     const GOLDEN: &str = "AA55 001B C4C7 016AF4C0 EF7D33C0 4962C9C0 A25CC6BD A6198FBD AFDA693E 6E";
 
     fn frame(number: u16, values: [f32; 6]) -> Vec<u8> {
@@ -203,7 +203,7 @@ mod tests {
         [&head[..], &number.to_be_bytes()[..], &data[..], &[sum][..]].concat()
     }
 
-    /// The same frame with a check of four bytes.
+    /// The same frame with a checksum of four bytes.
     fn frame_crc32(number: u16, values: [f32; 6]) -> Vec<u8> {
         let mut frame = frame(number, values);
         frame.pop();
@@ -215,7 +215,7 @@ mod tests {
     #[test]
     fn frames_with_crc32_are_read_beside_those_with_a_sum_and_two_bytes_that_changed_places_are_noticed()
      {
-        // The check value of this CRC, as everybody publishes it.
+        // Published check value of this CRC.
         assert!(Check::Crc32.holds(b"123456789", &[0x26, 0x39, 0xf4, 0xcb]));
         let whole = [
             frame_crc32(8, [1.0; 6]),
@@ -307,7 +307,7 @@ mod tests {
         }
     }
 
-    /// Numbers whose bytes hold a whole head of a frame.
+    /// Values whose bytes contain a complete frame head.
     fn treacherous() -> [f32; 6] {
         let head = f32::from_le_bytes([0xaa, 0x55, 0x00, 0x1b]);
         [head, 0.5, head, -0.5, head, 0.25]
@@ -337,7 +337,7 @@ mod tests {
         messages.push(&stream);
         assert_eq!(numbers(&all(&mut messages)), [0, 1, 3, 4, 5]);
         assert_eq!(messages.lost(), 31);
-        // Bytes between two frames, and a frame that is cut off.
+        // Bytes between two frames, and a truncated frame.
         let torn = [
             frame(6, [0.0; 6]),
             b"noise".to_vec(),

@@ -123,7 +123,7 @@ impl Replies {
 mod tests {
     use super::*;
 
-    /// The answer to `get_position()` at (300, 0, 300, π, 0, 0), as the public client accepts it.
+    /// Answer to `get_position()` at (300, 0, 300, π, 0, 0), as the public client accepts it.
     const POSE: &str = "000a 0003 001a 29 00 00009643 00000000 00009643 db0f4940 00000000 00000000";
 
     fn bytes(hexadecimal: &str) -> Vec<u8> {

@@ -195,7 +195,7 @@ pub(super) fn numbers_of(pose: &Pose) -> [f32; 6] {
 mod tests {
     use super::*;
 
-    /// A report of `length` bytes with a pose of (300, 0, 300, π, 0, 0), laid out as the public client reads it.
+    /// Report of `length` bytes with a pose of (300, 0, 300, π, 0, 0), in the layout of the public client.
     fn report(length: usize, state_and_mode: u8) -> Vec<u8> {
         let mut bytes = vec![0; length];
         bytes[..4].copy_from_slice(&u32::try_from(length).expect("small").to_be_bytes());

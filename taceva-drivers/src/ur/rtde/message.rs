@@ -159,7 +159,7 @@ mod tests {
     use super::*;
     use crate::link::hexadecimal;
 
-    /// A state of an arm at (0.3, 0, 0.25) m.
+    /// State of an arm at (0.3, 0, 0.25) m.
     fn data() -> Vec<u8> {
         let mut says = vec![1];
         for number in [12.5, 0.3, 0.0, 0.25, 0.0, 3.125, 0.0] {

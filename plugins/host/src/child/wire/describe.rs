@@ -252,13 +252,13 @@ mod tests {
     use taceva_core::{Device, ForceTransducer, Lighting, Registry, Robot, Sensor};
     use taceva_sim as _;
 
-    /// Facts that cross field by field.
+    /// Facts that are encoded field by field.
     pub(super) trait Growing: Default + std::fmt::Debug {
-        /// The fields that cross, in their order.
+        /// Encoded fields, in order.
         const FIELDS: &'static [&'static str];
     }
 
-    /// The fields that the struct has, in the order of its declaration: `Debug` writes one a line, four spaces in.
+    /// Fields of the struct, in declaration order. `Debug` writes one per line, indented by four spaces.
     fn declared<T: Growing>() -> Vec<String> {
         let shown = format!("{:#?}", T::default());
         let fields = shown.lines().filter_map(|line| {
