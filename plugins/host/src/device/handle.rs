@@ -153,7 +153,7 @@ impl Handle {
 
     /// Calls a function from any thread; `None` once the device is closed or dead.
     pub(crate) fn call_beside<R>(&self, run: impl FnOnce(*mut c_void) -> R) -> Option<R> {
-        // If the read lock is taken, the device is being closed.
+        // If the lock is not available for reading, the device is being closed.
         let is_open = self.is_open.try_read().ok()?;
         (*is_open && !self.is_dead.load(Ordering::Acquire)).then(|| run(self.raw))
     }

@@ -20,7 +20,7 @@ use crate::search::MANIFEST;
 ///
 /// # Errors
 /// [`PackageError`] for the first invalid entry: a link, a folder, a path outside `folder`, a duplicate name, or a file that is too long or
-/// not expected. Also if a file is missing, truncated, or has another digest. Files written before the error remain.
+/// unexpected. Also if a file is missing, truncated, or has another digest. Files written before the error remain.
 pub fn unpack(archive: impl Read, folder: &Path) -> Result<(), PackageError> {
     let mut archive = Archive::new(archive);
     let mut promised: Option<Promised> = None;
