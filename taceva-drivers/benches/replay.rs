@@ -1,4 +1,4 @@
-//! What a replay costs beside reading and decoding its frames, one 640 × 480 frame an iteration.
+//! Cost of a replay compared with reading and decoding its frames, one 640 × 480 frame per iteration.
 
 use std::fs;
 use std::path::Path;
@@ -13,7 +13,7 @@ fn main() {
     divan::main();
 }
 
-/// A folder with one frame that a PNG or JPEG encoder cannot make trivial.
+/// Folder with one frame that a PNG or JPEG encoder cannot make trivial.
 fn folder(name: &str) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let picture = RgbImage::from_fn(640, 480, |x, y| {

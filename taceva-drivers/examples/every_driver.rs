@@ -1,5 +1,5 @@
-//! The smallest program that has every driver: lists them, and opens the sensor that its argument selects. `.ci/driver-sizes` builds it with each
-//! driver's feature left out, which says what that driver adds to a program.
+//! Minimal program with every driver: lists them, and opens the sensor that its argument selects. `.ci/driver-sizes` builds it without each
+//! driver's feature in turn, to measure the size that the driver adds.
 
 use taceva_core::Rig;
 use taceva_drivers::{Drivers, devices, open};

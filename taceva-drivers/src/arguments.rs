@@ -1,4 +1,4 @@
-//! What arguments of several drivers have in common.
+//! Arguments shared by several drivers.
 
 #[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
 pub(crate) mod force;
@@ -9,12 +9,12 @@ pub(crate) mod robot;
 
 use taceva_core::{ArgValue, Args};
 
-/// The number that an optional argument gives, if it was given.
+/// Value of an optional number argument; `None` if it is not given.
 pub(crate) fn optional_number(args: &Args, key: &str) -> Option<f64> {
     args.get(key).and_then(ArgValue::as_number)
 }
 
-/// A fact of a device that no protocol tells: from a data sheet or a measurement, and unknown where nobody says it.
+/// Argument for a device fact that no protocol reports. The value comes from a data sheet or a measurement; absent means unknown.
 #[cfg(any(
     feature = "gcode",
     feature = "hid",

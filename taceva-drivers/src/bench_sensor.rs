@@ -1,4 +1,4 @@
-//! A sensor with a clock of its own over a simulated bench.
+//! Sensor with its own clock, run over a simulated bench.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -8,19 +8,19 @@ use taceva_core::{
     Deadline, DriverError, FrameInfo, FrameMut, Interrupt, Lighting, Sensor, SimulatedBench, Stamp,
 };
 
-/// A sensor whose frames are stamped by the clock of a simulated bench that it is no part of.
+/// A sensor whose frames are stamped by the clock of a simulated bench to which it does not belong.
 ///
-/// Between two frames as much time passes on the bench as on the sensor's own clock, or more where the bench was busy with other devices meanwhile.
-/// The bench does not know what the sensor sees: nothing in its frames depends on the presses, unless the sensor is truly pressed.
+/// Between two frames, at least as much time passes on the bench as on the sensor's clock. More passes if other devices kept the bench
+/// busy. The bench does not simulate the sensor, so its frames depend on presses only if the sensor is really pressed.
 pub struct OnBench {
     sensor: Box<dyn Sensor>,
     bench: Arc<dyn SimulatedBench>,
-    /// The last frame, on the clock of the sensor and on that of the bench.
+    /// Times of the last frame, on the sensor's clock and on the bench's.
     last: Option<[Duration; 2]>,
 }
 
 impl OnBench {
-    /// `sensor` by the clock of `bench`.
+    /// Wraps `sensor` to use the clock of `bench`.
     pub fn new(sensor: Box<dyn Sensor>, bench: Arc<dyn SimulatedBench>) -> OnBench {
         OnBench {
             sensor,
@@ -81,7 +81,7 @@ mod tests {
         format: PixelFormat::Gray8,
     };
 
-    /// Frames at the times that are left.
+    /// Sensor with frames at the remaining times.
     struct Timed(Vec<u64>);
 
     impl Sensor for Timed {
@@ -95,7 +95,7 @@ mod tests {
         }
     }
 
-    /// A clock and nothing else.
+    /// Bench that is only a clock.
     struct Clock(Mutex<Duration>);
 
     impl SimulatedBench for Clock {
@@ -137,7 +137,7 @@ mod tests {
             stamp.expect("a frame").valid().as_millis()
         };
         assert_eq!([stamp_ms(), stamp_ms(), stamp_ms()], [7_000, 7_010, 7_010]);
-        // What others took of the time until the next frame is not taken twice.
+        // Time that other devices spent before the next frame is not counted twice.
         bench.rest(Duration::from_millis(20)).expect("it rests");
         assert_eq!(stamp_ms(), 7_040);
         bench.rest(Duration::from_secs(1)).expect("it rests");

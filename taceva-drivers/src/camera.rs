@@ -1,4 +1,4 @@
-//! Cameras by the standards that they speak.
+//! Camera drivers, by standard.
 
 mod crop;
 mod jpeg;
@@ -13,5 +13,5 @@ mod preset;
 ))]
 pub mod v4l2;
 
-/// What a camera does when a picture is no frame.
+/// Operation name of a failed capture, for errors.
 const CAPTURE: &str = "capture a frame";

@@ -1,11 +1,11 @@
-//! The clock that real devices are stamped by.
+//! Clock for the time stamps of real devices.
 
 use std::time::Duration;
 
-/// The time of the machine: what stamps of real devices count, whoever wrote their driver.
+/// Clock of the machine, which stamps readings of all real devices.
 ///
-/// It is `CLOCK_MONOTONIC`, as for plugins, so that two processes on one machine mean the same by it. Elsewhere than on Unix it counts from
-/// the first time that this process asked.
+/// `CLOCK_MONOTONIC`, as for plugins, so that processes on one machine share the clock. On other systems than Unix it counts from its first
+/// use in this process.
 ///
 /// ```
 /// use taceva_drivers::MonotonicClock;
@@ -16,22 +16,22 @@ use std::time::Duration;
 pub struct MonotonicClock;
 
 impl MonotonicClock {
-    /// The present; never goes back.
+    /// Current time; never goes back.
     #[cfg(unix)]
     pub fn now(self) -> Duration {
         use rustix::time::{ClockId, clock_gettime};
-        // A monotonic clock begins at 0, so neither number is ever negative.
+        // A monotonic clock begins at 0, so neither number is negative.
         Duration::try_from(clock_gettime(ClockId::Monotonic)).unwrap_or_default()
     }
 
-    /// The present; never goes back.
+    /// Current time; never goes back.
     #[cfg(not(unix))]
     pub fn now(self) -> Duration {
         static BEGAN: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
         BEGAN.get_or_init(std::time::Instant::now).elapsed()
     }
 
-    /// The present in s, as stamps write it.
+    /// Current time, s, as in stamps.
     pub fn now_s(self) -> f64 {
         self.now().as_secs_f64()
     }

@@ -1,4 +1,4 @@
-//! What there is: every driver, and every device that one of them sees. Data for a list; nothing is opened.
+//! List of all drivers and the devices they find, as data. Opens nothing.
 
 use serde::Serialize;
 use taceva_core::{
@@ -8,18 +8,18 @@ use taceva_core::{
 
 use crate::drivers::Drivers;
 
-/// The drivers of a program, the devices they see, and what kept one of them from looking.
+/// Drivers of a program, the devices they find, and failed searches.
 #[derive(Debug)]
 pub struct Devices {
-    /// Every driver: sensors, robots, force transducers, lightings, changers; by key within a kind.
+    /// All drivers: sensors, robots, force transducers, lightings, changers; by key within a kind.
     pub drivers: Vec<ListedDriver>,
-    /// Every device that is present, in the order of the drivers.
+    /// All devices found, in the order of the drivers.
     pub found: Vec<ListedDevice>,
-    /// Drivers that could not look.
+    /// Errors of drivers whose search failed.
     pub failed: Vec<DriverError>,
 }
 
-/// What `taceva devices` shows.
+/// Data of the command `taceva devices`.
 pub fn devices(drivers: &Drivers) -> Devices {
     let mut devices = Devices {
         drivers: Vec::new(),
@@ -46,14 +46,14 @@ impl Devices {
     }
 }
 
-/// A device that is present.
+/// A device that was found.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ListedDevice {
-    /// What opens it: a selector.
+    /// Selector that opens the device.
     pub selector: String,
-    /// What it calls itself.
+    /// Title of the device.
     pub title: String,
-    /// Whether it could be opened, and what would change that.
+    /// Access to the device, with the remedy if it is denied.
     pub access: String,
 }
 
@@ -68,16 +68,16 @@ impl ListedDevice {
     }
 }
 
-/// A driver and what is known about its device; what is not known is absent.
+/// A driver with the known facts of its device. Unknown facts are absent.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ListedDriver {
-    /// Its key.
+    /// Key of the driver.
     pub key: String,
-    /// Its title.
+    /// Title of the driver.
     pub title: String,
-    /// The kind of its device.
+    /// Kind of its device.
     pub kind: DriverKind,
-    /// Where its readings come from.
+    /// Source of its readings.
     pub source: DriverSource,
     /// Size and format of its frames.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -85,52 +85,52 @@ pub struct ListedDriver {
     /// Frames or readings a second.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rate_hz: Option<f64>,
-    /// Whether the gel is opaque.
+    /// True if the gel is opaque.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub opaque: Option<bool>,
-    /// Whether the gel has markers.
+    /// True if the gel has markers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub markers: Option<bool>,
-    /// How deep the gel may be pressed.
+    /// Maximum depth of a press into the gel, mm.
     #[serde(rename = "Pz_max_mm", skip_serializing_if = "Option::is_none")]
     pub depth_max_mm: Option<f64>,
-    /// How hard the gel may be pressed, or how much the transducer measures.
+    /// Maximum force on the gel, or measuring range of the transducer, N.
     #[serde(rename = "Fz_max_N", skip_serializing_if = "Option::is_none")]
     pub force_max_n: Option<f64>,
-    /// The components that a force transducer measures.
+    /// Components that a force transducer measures.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axes: Option<String>,
-    /// The greatest speed of a robot.
+    /// Speed limit of a robot, mm/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_max_mm_s: Option<f64>,
-    /// The scenes of the light that it can set.
+    /// Lighting scenes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub scenes: Vec<String>,
-    /// The names of what a changer holds.
+    /// Names of the items that a changer holds.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub holds: Vec<String>,
-    /// The arguments that it accepts.
+    /// Accepted arguments.
     pub arguments: Vec<ListedArgument>,
 }
 
-/// An argument of a driver.
+/// Argument of a driver.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ListedArgument {
-    /// Its key.
+    /// Key of the argument.
     pub key: String,
-    /// The values that it takes, in words.
+    /// Accepted values, in words.
     pub takes: String,
-    /// Whether it must be given.
+    /// True if the argument is required.
     pub required: bool,
-    /// What it is where it is not given.
+    /// Default value; `None` if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub default: Option<String>,
-    /// What it means.
+    /// Help text.
     pub help: String,
 }
 
 impl ListedDriver {
-    /// A driver as its descriptor describes it.
+    /// Lists a driver from its descriptor.
     pub fn of(descriptor: &Descriptor) -> ListedDriver {
         let mut listed = ListedDriver {
             key: descriptor.key().to_string(),
@@ -173,7 +173,7 @@ impl ListedDriver {
             }
             Facts::Lighting(facts) => listed.scenes.clone_from(&facts.scenes),
             Facts::Changer(facts) => listed.holds.clone_from(&facts.holds),
-            // A kind of a later version is listed by its name, title and arguments.
+            // A kind of a later version is listed with its key, title and arguments.
             _ => {}
         }
         listed

@@ -1,7 +1,7 @@
-//! What of this machine a rig could use, what stands in the way, and what to do about it. Data; nothing is opened.
+//! Diagnosis of the machine: usable devices, problems and remedies. Opens nothing.
 //!
-//! Only permissions are read. A device that may be opened can still be held by another program, and opening a serial port to
-//! find out would reset what hangs on it.
+//! Only permissions are read. A permitted device may still be in use by another program. Opening a serial port to find out would reset its
+//! device.
 
 mod diagnosis;
 mod machine;
@@ -21,7 +21,7 @@ pub use usb::UsbDevice;
 use crate::devices::{Devices, devices};
 use crate::drivers::Drivers;
 
-/// Looks at the drivers of the program and at `machine`; findings come in a fixed order.
+/// Examines the drivers of the program and `machine`. Findings come in a fixed order.
 pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Diagnosis> {
     let listed = devices(drivers);
     let keys: Vec<&str> = listed

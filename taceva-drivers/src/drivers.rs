@@ -1,4 +1,4 @@
-//! The drivers of a program, and opening one of them.
+//! Drivers of a program, and opening of devices.
 
 use taceva_core::{
     Changer, Device, ForceTransducer, Lighting, Registry, RegistryError, Rig, Robot, Sensor,
@@ -8,7 +8,7 @@ use crate::open_error::OpenError;
 use crate::selector::Selector;
 use crate::switches::Switches;
 
-/// The drivers of a program, a registry a kind.
+/// Drivers of a program, with one registry per kind.
 #[derive(Debug)]
 pub struct Drivers {
     /// Tactile sensors.
@@ -26,13 +26,13 @@ pub struct Drivers {
 }
 
 impl Drivers {
-    /// Every driver that is linked into the program.
+    /// All drivers linked into the program.
     ///
-    /// This crate's own are always among them. A program that wants those of another crate names that crate in its code,
-    /// `use taceva_sim as _;`: one that is only named in `Cargo.toml` is not linked.
+    /// Includes the drivers of this crate. For the drivers of another crate, a program must name that crate in its code, such as `use
+    /// taceva_sim as _;`. An entry in `Cargo.toml` alone does not link it.
     ///
     /// # Errors
-    /// [`RegistryError`] if two drivers have one key, or one contradicts itself.
+    /// [`RegistryError`] if two drivers share a key, or a descriptor is inconsistent.
     pub fn builtin() -> Result<Drivers, RegistryError> {
         Ok(Drivers {
             sensors: Registry::builtin()?,
@@ -44,10 +44,10 @@ impl Drivers {
         })
     }
 
-    /// These drivers and those of the plugins of `host`, which open in the way that the user decided. No library is opened for it.
+    /// Adds the drivers of the plugins of `host`, which run as the user's settings say. Opens no library.
     ///
     /// # Errors
-    /// [`RegistryError`] if a plugin claims a key that is taken.
+    /// [`RegistryError`] if a plugin's key is already taken.
     #[cfg(feature = "plugin")]
     pub fn with_plugins(
         mut self,
@@ -72,10 +72,10 @@ impl Drivers {
     }
 }
 
-/// Opens the device that `selector` asks for.
+/// Opens the device of `selector`.
 ///
 /// # Errors
-/// [`OpenError`]: no such driver, arguments that it does not take, or a device that does not open.
+/// [`OpenError`] for an unknown driver, invalid arguments, or a device that does not open.
 pub fn open<D: Device + ?Sized>(
     registry: &Registry<D>,
     selector: &Selector,

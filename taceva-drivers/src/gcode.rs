@@ -1,4 +1,4 @@
-//! Machines that take G-code over a serial line: mills and printers that carry an indenter.
+//! G-code machines on a serial port: mills and printers that carry an indenter.
 
 #[cfg(feature = "grbl")]
 pub mod grbl;

@@ -1,4 +1,4 @@
-//! Devices that speak HID: scales, and pedals that a person holds.
+//! HID devices: scales, and pedals that a person holds.
 
 mod listener;
 pub mod pedal;

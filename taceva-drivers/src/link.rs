@@ -1,5 +1,4 @@
-//! What drivers of devices have in common: connecting within a deadline, the errors of a link, the newest of what came, and the clock
-//! that stamps it.
+//! Shared parts of drivers: connections with a timeout, link errors, a mailbox for the newest reading, and the clock for stamps.
 
 #[cfg(feature = "tcp")]
 mod connect;
@@ -26,7 +25,7 @@ pub(crate) use mailbox::Mailbox;
 ))]
 pub(crate) use mailbox::Seen;
 
-/// The bytes that `text` writes in hexadecimal, white space between them.
+/// Parses hexadecimal bytes separated by white space.
 #[cfg(all(
     test,
     any(feature = "netft", feature = "sri", feature = "ur", feature = "xarm")
@@ -40,7 +39,7 @@ pub(crate) fn hexadecimal(text: &str) -> Vec<u8> {
     digits.chunks_exact(2).map(byte).collect()
 }
 
-/// The time of the clock that real devices are stamped by.
+/// Current time on the clock for stamps of real devices.
 pub(crate) fn monotonic() -> std::time::Duration {
     crate::clock::MonotonicClock.now()
 }

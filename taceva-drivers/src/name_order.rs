@@ -1,8 +1,8 @@
-//! The order of file names that people mean: `frame2` before `frame10`.
+//! Natural order of file names: `frame2` before `frame10`.
 
 use std::cmp::Ordering;
 
-/// Compares names part by part: runs of digits by their number, everything else byte by byte; names equal so far by their bytes.
+/// Compares names part by part: digits as numbers, other text byte by byte. Ties are compared by bytes.
 pub(crate) fn compare(first: &str, second: &str) -> Ordering {
     let (mut left, mut right) = (first, second);
     while !left.is_empty() && !right.is_empty() {
@@ -20,7 +20,7 @@ pub(crate) fn compare(first: &str, second: &str) -> Ordering {
     left.len().cmp(&right.len()).then_with(|| first.cmp(second))
 }
 
-/// A run of digits or a run without, and what follows.
+/// Splits off the leading run of digits or of other characters.
 fn split(text: &str) -> (&str, &str) {
     let digits = text.starts_with(|letter: char| letter.is_ascii_digit());
     let end = text
@@ -29,7 +29,7 @@ fn split(text: &str) -> (&str, &str) {
     text.split_at(end)
 }
 
-/// The digits without leading zeros, if these are digits: of two, the longer is the larger number.
+/// Digits without leading zeros; `None` for other text. Of two results, the longer is the larger number.
 fn number(part: &str) -> Option<&str> {
     part.starts_with(|letter: char| letter.is_ascii_digit())
         .then(|| part.trim_start_matches('0'))

@@ -1,29 +1,29 @@
-//! Why a device or a switch was not opened.
+//! Failure to open a device or a switch.
 
 use taceva_core::{ArgError, DriverError, ErrorKind, RegistryError};
 
-/// Why a device was not opened.
+/// Failure to open a device.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum OpenError {
-    /// No driver of that name.
+    /// Unknown driver.
     #[error(transparent)]
     Unknown(#[from] RegistryError),
-    /// An argument that the driver does not take.
+    /// Invalid arguments.
     #[error("{selector}: {source}")]
     Arguments {
-        /// What was asked for.
+        /// The selector.
         selector: String,
-        /// What is wrong with it.
+        /// Error in the arguments.
         source: ArgError,
     },
-    /// A device that did not open.
+    /// The device did not open.
     #[error(transparent)]
     Device(#[from] DriverError),
 }
 
 impl OpenError {
-    /// What kind of failure it was.
+    /// Kind of the failure.
     pub fn kind(&self) -> ErrorKind {
         match self {
             OpenError::Unknown(_) => ErrorKind::NotFound,

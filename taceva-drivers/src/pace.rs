@@ -1,29 +1,29 @@
-//! The clock of a device that stands for a real one: a replay, or a wrapper that fails on purpose.
+//! Clock of a device that stands in for a real one: a replay, or a wrapper that fails on purpose.
 
 use std::time::Duration;
 
 use crate::clock::MonotonicClock;
 
-/// Time that passes, and can be waited for.
+/// Clock that can be waited for.
 pub trait Pace: Send {
-    /// The present, in s since an arbitrary start; never goes back.
+    /// Current time, s since an arbitrary start; never goes back.
     fn now_s(&self) -> f64;
 
-    /// Returns once it is `time_s`, at once if that has passed.
+    /// Waits until `time_s`; returns at once if it has passed.
     fn wait_until(&mut self, time_s: f64);
 
-    /// Whether things happen while nobody waits, so that a caller may come too late for some.
+    /// True if time passes while no caller waits, so that a slow caller may miss frames.
     fn runs_by_itself(&self) -> bool;
 }
 
-/// Time that passes only while somebody waits: a recording is read as fast as it can be, and no frame is missed.
+/// Virtual time, which passes only during waits. A recording is read at full speed and no frame is missed.
 #[derive(Clone, Copy, Debug)]
 pub struct VirtualPace {
     now_s: f64,
 }
 
 impl VirtualPace {
-    /// Time that stands at `now_s`.
+    /// Creates virtual time that starts at `now_s`, s.
     pub const fn starting_at(now_s: f64) -> VirtualPace {
         VirtualPace { now_s }
     }
@@ -41,7 +41,7 @@ impl Pace for VirtualPace {
     }
 }
 
-/// The time of the machine, which all real devices are stamped by.
+/// Time of the machine, which stamps readings of all real devices.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RealPace;
 
@@ -50,7 +50,7 @@ impl Pace for RealPace {
         MonotonicClock.now_s()
     }
     fn wait_until(&mut self, time_s: f64) {
-        // A sleep may end early on some systems, never for long.
+        // A sleep may end early on some systems.
         while let Ok(left) = Duration::try_from_secs_f64(time_s - self.now_s()) {
             if left.is_zero() {
                 return;

@@ -1,4 +1,4 @@
-//! Whether a device file that is present could be opened; it is not.
+//! Access check of a device file, without opening it.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use rustix::fs::{Access as Wanted, access};
 use rustix::io::Errno;
 use taceva_core::Access;
 
-/// Whether this user may read and write the file of a device, which `group` owns on most systems.
+/// Access of this user to read and write a device file. The remedy names `group`, which owns the file on most systems.
 pub(crate) fn access_of(path: &Path, group: &str) -> Access {
     match access(path, Wanted::READ_OK | Wanted::WRITE_OK) {
         Err(Errno::ACCESS | Errno::PERM) => Access::Denied {

@@ -1,9 +1,9 @@
-//! Which driver, and its arguments: `sim/gelsight:seed=3;unit=2`.
+//! Selector of a driver with arguments: `sim/gelsight:seed=3;unit=2`.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// A driver and its arguments as a person writes them; neither is known to exist yet.
+/// A driver and its arguments, as the user writes them. Not checked for existence.
 ///
 /// ```
 /// use taceva_drivers::Selector;
@@ -19,17 +19,18 @@ pub struct Selector {
 }
 
 impl Selector {
-    /// The name of the driver.
+    /// Key of the driver.
     pub fn driver(&self) -> &str {
         &self.driver
     }
 
-    /// The arguments, as [`Args::parse`](taceva_core::Args::parse) reads them; empty if there are none.
+    /// Arguments, as [`Args::parse`](taceva_core::Args::parse) reads them; empty if there are none.
     pub fn arguments(&self) -> &str {
         &self.arguments
     }
 
-    /// The name of the simulated bench that its device is of, if it is of one: as [`Rig::bench`](taceva_core::Rig::bench) knows it.
+    /// Name of the simulated bench that the device would belong to, as [`Rig::bench`](taceva_core::Rig::bench) knows it. `None` if the
+    /// driver's key has no `/`.
     ///
     /// ```
     /// use taceva_drivers::Selector;
@@ -73,7 +74,7 @@ impl fmt::Display for Selector {
     }
 }
 
-/// Text that names no driver.
+/// Invalid selector.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{text:?} names no driver, expected `driver` or `driver:key=value;key=value`, such as `sim/gelsight:seed=3`"

@@ -1,3 +1,3 @@
-//! The sensors that are built in.
+//! Built-in sensors.
 
 pub(crate) mod replay;

@@ -1,4 +1,4 @@
-//! Where the frames of a recording come from.
+//! Sources of recorded frames.
 
 mod decode;
 mod error;
@@ -13,24 +13,24 @@ pub use folder::{FolderSource, Timing};
 
 use taceva_core::{FrameInfo, FrameMut};
 
-/// The frames of a recording, wherever they lie: a folder here, a dataset elsewhere.
+/// Source of a recording's frames: a folder here, a dataset elsewhere.
 pub trait FrameSource: Send {
     /// Size and format of every frame.
     fn info(&self) -> FrameInfo;
 
-    /// When each frame was true.
+    /// Time at which each frame was taken.
     ///
     /// # Shapes
-    /// A time a frame, at least one; finite and strictly increasing.
+    /// One time per frame, at least one; finite and strictly increasing.
     /// # Units
-    /// s, of the clock of the recording.
+    /// s, on the clock of the recording.
     fn times_s(&self) -> &[f64];
 
     /// Writes the frame at `position` into the caller's buffer.
     ///
     /// # Errors
-    /// [`SourceError`] if the frame is gone, damaged, or unlike the others; the other frames can still be read.
+    /// [`SourceError`] if the frame is missing, damaged, or differs in size or format. Other frames stay readable.
     /// # Panics
-    /// If there is no such frame, or `into` is no [`info`](FrameSource::info): mistakes of the caller's code.
+    /// If `position` is out of range, or `into` does not match [`info`](FrameSource::info): bugs of the caller.
     fn read(&mut self, position: usize, into: FrameMut<'_>) -> Result<(), SourceError>;
 }

@@ -1,4 +1,4 @@
-//! The enabling switches of a program.
+//! Enabling switches of a program.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,7 +9,7 @@ use taceva_core::{ArgSpec, Args, DriverError, DriverKey, EnablingSwitch, ErrorKi
 use crate::open_error::OpenError;
 use crate::selector::Selector;
 
-/// Opens a switch by its selector.
+/// Function that opens a switch by its selector.
 type Open = Box<dyn Fn(&Selector) -> Result<Arc<dyn EnablingSwitch>, OpenError> + Send + Sync>;
 
 /// A driver of enabling switches.
@@ -30,7 +30,7 @@ pub(crate) struct LinkedSwitch {
 
 inventory::collect!(LinkedSwitch);
 
-/// Enabling switches by the keys of their drivers. They are no devices of a recording: nothing is measured with one.
+/// Enabling switches by driver key. They are not devices of a recording, since they measure nothing.
 ///
 /// ```
 /// use taceva_drivers::Switches;
@@ -49,7 +49,7 @@ impl fmt::Debug for Switches {
 }
 
 impl Switches {
-    /// Those that are linked into the program.
+    /// All switches linked into the program.
     pub fn builtin() -> Switches {
         let mut switches = Switches::default();
         for linked in inventory::iter::<LinkedSwitch> {
@@ -58,7 +58,7 @@ impl Switches {
         switches
     }
 
-    /// Adds those that `open` opens, or exchanges them.
+    /// Adds or replaces the driver `key`, whose switches `open` opens.
     pub fn add(
         &mut self,
         key: DriverKey,
@@ -70,15 +70,15 @@ impl Switches {
             .insert(key.as_str().to_owned(), Entry { arguments, open });
     }
 
-    /// Looks whether `selector` names a switch with arguments that it takes; opens nothing.
+    /// Checks that `selector` names a switch with valid arguments. Opens nothing.
     ///
     /// # Errors
-    /// [`OpenError`] for another driver than one of a switch, and for arguments.
+    /// [`OpenError`] for an unknown switch driver or invalid arguments.
     pub fn check(&self, selector: &Selector) -> Result<(), OpenError> {
         self.entry(selector).map(drop)
     }
 
-    /// Opens the switch that `selector` asks for.
+    /// Opens the switch of `selector`.
     ///
     /// # Errors
     /// As [`check`](Switches::check), and for a switch that does not open.

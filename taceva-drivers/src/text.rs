@@ -1,6 +1,6 @@
-//! Foreign text in messages: it must not move a cursor or ring a bell.
+//! Foreign text in messages, escaped so that it does not control a terminal.
 
-/// `text` with its control characters written out.
+/// Escapes the control characters of `text`.
 pub(crate) fn shown(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for letter in text.chars() {

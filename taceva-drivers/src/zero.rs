@@ -1,4 +1,4 @@
-//! The zero and the range of a transducer whose zero this program takes off its readings.
+//! Zero offset and range of a transducer whose zero this program subtracts.
 
 use std::time::Duration;
 
@@ -6,27 +6,27 @@ use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Newton, NewtonMil
 
 use crate::link::monotonic;
 
-/// The zero and the range of one transducer.
+/// Zero offset and range of one transducer.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct HostZero {
-    /// The driver, which errors name.
+    /// Driver for errors.
     driver: DriverKey,
     zero: Wrench,
-    /// What it measures is clipped at this force, in N.
+    /// Measuring range, N; `None` if unknown.
     force_max_n: Option<f64>,
 }
 
-/// What a transducer does when a reading is no force.
+/// Operation name of a reading, for errors.
 pub(crate) const READ: &str = "read the force";
-/// What it does when a load cannot be called zero.
+/// Operation name of a tare, for errors.
 pub(crate) const ZERO: &str = "call the load zero";
-/// The time whose mean becomes zero.
+/// Averaging time of a zero.
 const MEAN_OVER: Duration = Duration::from_millis(250);
-/// The greatest part of the range that may be called zero: what is left must hold what comes.
+/// Maximum zero as a share of the range, so that the rest suffices for measurements.
 const ZERO_MAX: f64 = 0.5;
 
 impl HostZero {
-    /// No load is called zero yet.
+    /// Creates a zero offset of 0.
     pub(crate) fn new(driver: DriverKey, force_max_n: Option<f64>) -> HostZero {
         HostZero {
             driver,
@@ -35,10 +35,10 @@ impl HostZero {
         }
     }
 
-    /// Refuses a force that is beyond the range.
+    /// Fails for a force at or beyond the range.
     ///
     /// # Errors
-    /// `OutOfRange`, with a sentence that names the force and the range.
+    /// `OutOfRange`, with the force and the range.
     pub(crate) fn check(&self, wrench: &Wrench) -> Result<(), DriverError> {
         let Some(most) = self.force_max_n else {
             return Ok(());
@@ -53,26 +53,26 @@ impl HostZero {
         }
     }
 
-    /// `wrench` without what is called zero.
+    /// Subtracts the zero offset from `wrench`.
     ///
     /// # Errors
-    /// As [`check`](HostZero::check): nobody is given a force at or beyond the end of the range.
+    /// As [`check`](HostZero::check), for the result.
     pub(crate) fn taken_off(&self, wrench: &Wrench) -> Result<Wrench, DriverError> {
         let left = sum(wrench, &times(&self.zero, -1.0));
         self.check(&left)?;
         Ok(left)
     }
 
-    /// Forgets what is called zero, once the box itself has a new one.
+    /// Resets the zero offset after the box itself was zeroed.
     #[cfg(feature = "sri")]
     pub(crate) fn forget(&mut self) {
         self.zero = Wrench::default();
     }
 
-    /// Calls the mean of 0.25 s zero; `next` gives the readings.
+    /// Sets the zero offset to the mean over 0.25 s. `next` returns the readings.
     ///
     /// # Errors
-    /// Those of `next`, `Timeout` if the deadline is too near, `OutOfRange` for a load of more than half the range.
+    /// Errors of `next`; `Timeout` if the deadline is too near; `OutOfRange` for a load above half the range.
     pub(crate) fn take(
         &mut self,
         deadline: Deadline,

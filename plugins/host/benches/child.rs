@@ -1,5 +1,5 @@
-//! A frame of 640×480×3 through a child, beside the copy of as many bytes: `cargo bench -p taceva-host --bench child`. With
-//! `TACEVA_PYTHON=/path/to/venv/bin/python` through one in Python too.
+//! Capture of a 640×480×3 frame through a child, compared with a copy of the same size: `cargo bench -p taceva-host --bench child`. Set
+//! `TACEVA_PYTHON=/path/to/venv/bin/python` to include a Python child.
 
 #[path = "../tests/support/built_in.rs"]
 mod built_in;
@@ -68,7 +68,7 @@ impl Factory<dyn Sensor> for Cameras {
     }
 }
 
-/// Copies its one picture into every frame, or leaves the frame as it is: what is measured then is the way alone.
+/// Camera that copies one image into every frame, or leaves the frame unchanged to measure only the transport.
 struct Camera {
     picture: Option<Vec<u8>>,
 }
@@ -115,7 +115,7 @@ fn child_that_writes_each_frame(bencher: Bencher<'_, '_>) {
     capture_through_a_child(bencher, "writes=true");
 }
 
-/// A camera in Python that writes each frame.
+/// Python camera that writes each frame.
 const PACKAGE: &str = r#"
 import numpy as np
 import taceva.plugin as tp
@@ -142,7 +142,7 @@ source = "simulated"
 frame = { width = 640, height = 480, format = "rgb8" }
 "#;
 
-/// The interpreter of an environment in which `taceva` is installed; the user of a plugin must be able to read it.
+/// Interpreter of an environment with the package `taceva`, readable by the user of a plugin.
 fn interpreter() -> Option<PathBuf> {
     std::env::var_os("TACEVA_PYTHON").map(PathBuf::from)
 }

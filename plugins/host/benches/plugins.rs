@@ -1,4 +1,4 @@
-//! What a plugin costs in this process, beside a copy of as many bytes: `cargo bench -p taceva-host --bench plugins`.
+//! Cost of a plugin in this process, compared with a copy of the same size: `cargo bench -p taceva-host --bench plugins`.
 
 #[path = "../tests/plugins/fixture.rs"]
 #[expect(dead_code, reason = "the tests use more of it")]
@@ -20,7 +20,7 @@ fn main() {
 const BYTES: usize = 640 * 480 * 3;
 const LONG: Deadline = Deadline::after(Duration::from_secs(10));
 
-/// A sensor that lends its one picture as fast as it is asked; nothing where there is no compiler of C.
+/// Sensor that lends its image without waiting; `None` without a C compiler.
 fn camera() -> Option<PluginSensor> {
     let fixture = Fixture::built(&["WIDTH=640", "HEIGHT=480", "LEND", "FREE_RUNNING"])?;
     let fixture = fixture.with_manifest("width = 8, height = 6", "width = 640, height = 480");
@@ -30,14 +30,14 @@ fn camera() -> Option<PluginSensor> {
     Some(camera)
 }
 
-/// The bytes of a frame, copied within this process.
+/// Copy of a frame's bytes within this process.
 #[divan::bench]
 fn copy(bencher: Bencher<'_, '_>) {
     let (from, mut into) = (vec![7_u8; BYTES], vec![0_u8; BYTES]);
     bencher.bench_local(|| black_box(&mut into).copy_from_slice(black_box(&from)));
 }
 
-/// A frame, looked at where it lies in the plugin's memory.
+/// Frame read in the plugin's memory.
 #[divan::bench]
 fn borrowed(bencher: Bencher<'_, '_>) {
     if let Some(mut camera) = camera() {
@@ -49,7 +49,7 @@ fn borrowed(bencher: Bencher<'_, '_>) {
     }
 }
 
-/// A frame, copied out of the plugin's memory.
+/// Frame copied from the plugin's memory.
 #[divan::bench]
 fn copied(bencher: Bencher<'_, '_>) {
     if let Some(mut camera) = camera() {
@@ -62,7 +62,7 @@ fn copied(bencher: Bencher<'_, '_>) {
     }
 }
 
-/// 200 plugins of four drivers and an estimator each.
+/// 200 plugins with four drivers and an estimator each.
 fn many() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     for number in 0..200 {
@@ -76,7 +76,7 @@ fn many() -> TempDir {
     folder
 }
 
-/// 200 manifests, found and read; no library is opened.
+/// Search of 200 manifests. Opens no library.
 #[divan::bench]
 fn list_200_manifests(bencher: Bencher<'_, '_>) {
     let folder = many();

@@ -1,6 +1,6 @@
-//! A program that opens its own simulated bench in a process of its own: `cargo run -p taceva-host --example serve_bench`.
+//! A program that opens its own simulated bench in a child process: `cargo run -p taceva-host --example serve_bench`.
 //!
-//! Started again as a host child, it serves the drivers that are linked into it; a plugin's library would be loaded in the same place.
+//! As a host child, it serves its linked drivers. A plugin's library would be loaded at the same point.
 
 #[path = "../tests/support/built_in.rs"]
 mod built_in;

@@ -1,4 +1,4 @@
-//! Calls of functions of a library: statuses become errors, messages are kept, texts and tables are checked and copied.
+//! Calls of library functions: statuses become errors, messages are kept, and texts and tables are checked and copied.
 
 mod arguments;
 pub mod pending_call;
@@ -15,7 +15,7 @@ use std::fmt;
 use taceva_abi as abi;
 use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Fault, shown};
 
-/// A call that failed, in the plugin's words.
+/// A failed call, with the message of the plugin or of the host.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
     kind: ErrorKind,
@@ -24,7 +24,7 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// A failure that the host noticed.
+    /// Creates a failure that the host detected.
     pub(crate) fn new(kind: ErrorKind, message: impl Into<String>) -> Failure {
         Failure {
             kind,
@@ -33,15 +33,15 @@ impl Failure {
         }
     }
 
-    /// What kind of failure it was.
+    /// Kind of the failure.
     pub fn kind(&self) -> ErrorKind {
         self.kind
     }
 
-    /// The same, as the failure of `driver` while it was `doing`.
+    /// Converts the failure into an error of `driver` that occurred while it was `doing`.
     pub(crate) fn of(self, driver: &DriverKey, doing: &'static str) -> DriverError {
         let error = DriverError::new(self.kind, driver, doing);
-        // A plugin may say what it did in other words, or in these.
+        // The message may already begin with "cannot `doing`: ", which the error adds itself.
         let same = format!("cannot {doing}: ");
         let message = match self.message.strip_prefix(&same) {
             Some(reason) => reason.to_owned(),
@@ -49,13 +49,13 @@ impl Failure {
         };
         match self.fault {
             None => error.because(message),
-            // The fault stands in the message of the error already.
+            // The error's message already contains the fault.
             Some(fault) if message.is_empty() => error.with_fault(fault),
             Some(fault) => error.with_fault(fault).because(message),
         }
     }
 
-    /// Words of the plugin, or of the host.
+    /// Message of the plugin or of the host.
     pub fn message(self) -> String {
         self.message
     }
@@ -69,7 +69,7 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Makes a call with an empty error and reads how it ended.
+/// Calls `run` with an empty error and converts the status into a result.
 pub fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(), Failure> {
     let mut error = abi::Error::new();
     let status = run(&mut error);
@@ -89,7 +89,7 @@ pub fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(), Fail
     let mut message = match bytes.as_slice() {
         [] if fault.is_some() => String::new(),
         [] => kind.to_string(),
-        // The interface bounds its length.
+        // The interface limits the length of the message.
         bytes => shown(&*String::from_utf8_lossy(bytes)).to_string(),
     };
     if error.vendor_code != 0 {
@@ -102,7 +102,7 @@ pub fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(), Fail
     })
 }
 
-/// The fault of that number; one that is not listed is one after which nothing moves either.
+/// Converts a fault number. An unknown fault number counts as [`Fault::Servo`], since no motion follows it either.
 fn fault(number: abi::FaultNumber) -> Option<Fault> {
     match number {
         number if !number.is_fault() => None,
@@ -113,7 +113,7 @@ fn fault(number: abi::FaultNumber) -> Option<Fault> {
     }
 }
 
-/// The deadline in the interface's unit.
+/// Time left until `deadline`, ns.
 pub fn timeout(deadline: Deadline) -> u64 {
     u64::try_from(deadline.remaining().as_nanos()).unwrap_or(u64::MAX)
 }

@@ -1,19 +1,19 @@
-//! Plugins in a process of their own.
+//! Plugins in a separate process.
 //!
-//! [`Child::start`] runs this program again as a *host child*: a process that confines itself ([`Confinement`]), loads what it serves only
-//! then, and answers calls. What it opens comes out as the device traits of core. Whatever a plugin does to its process, the host learns
-//! as a typed error of the devices of that child ([`ChildError`]), and nothing else is affected.
+//! [`Child::start`] runs this program again as a *host child*. That process confines itself ([`Confinement`]), then loads a plugin and
+//! answers calls. The host wraps its devices in the device traits of core. A crash or misbehaviour of the plugin reaches the host as a
+//! typed error ([`ChildError`]) of that child's devices and affects nothing else.
 //!
-//! | what goes | how |
+//! | data | transport |
 //! |---|---|
-//! | orders: open, describe, discover, end | one pair of sockets a child |
-//! | calls of a device | one pair a device, served by a thread of its own: a call blocks its device alone |
-//! | interrupt, halt | a second pair a device, served by another thread: round the queue |
-//! | lines of the log | a socket a child, read by a thread of its own |
+//! | orders: open, describe, discover, end | one socket pair per child |
+//! | calls of a device | one socket pair per device, served by its own thread: a call blocks its device alone |
+//! | interrupt, halt | a second socket pair per device, served by another thread: bypasses the call queue |
+//! | log lines | one socket per child, read by its own thread |
 //! | frames | memory of a sealed size, written in place by the child, copied once by the host |
 //!
-//! Every length and number that a child sends is checked ([`wire`]), every call has a time after which the child is
-//! ended ([`Patience`]), and a child that breaks a rule is ended at once.
+//! The host checks every length and number that a child sends ([`wire`]). Every call has a timeout after which the child is killed
+//! ([`Patience`]). A child that breaks a rule is killed at once.
 
 mod arguments;
 mod array;

@@ -1,4 +1,4 @@
-//! What the user decides about plugins: a part of the user's settings, and words on the command line.
+//! User settings for plugins: the table `[plugins]` of the settings file, and command-line options.
 
 mod edit;
 
@@ -13,7 +13,7 @@ use crate::id::PluginId;
 use crate::manifest::{ManifestError, Need};
 use crate::search::{Place, Plugin};
 
-/// The part `[plugins]` of the user's settings.
+/// The table `[plugins]` of the user's settings.
 ///
 /// ```
 /// use taceva_host::PluginConfig;
@@ -35,13 +35,13 @@ pub struct PluginConfig {
     /// Plugins whose code may run in this process.
     #[serde(default)]
     pub trust_in_process: BTreeSet<PluginId>,
-    /// The folders of plugins that are used where another has the same id.
+    /// Plugin folders that take precedence over others with the same id.
     #[serde(default)]
     pub prefer: Vec<PathBuf>,
-    /// Interpreters of environments that are asked for plugins; the first of them runs those that lie elsewhere.
+    /// Python interpreters whose environments are searched for plugins. The first one runs plugins from other places.
     #[serde(default)]
     pub python: Vec<PathBuf>,
-    /// What plugins may reach outside their process, of what their manifests ask for.
+    /// Needs of each plugin that the user allows.
     #[serde(default)]
     pub allow: BTreeMap<PluginId, BTreeSet<Need>>,
     /// Plugins that the command line trusts.
@@ -57,14 +57,14 @@ struct Written {
 }
 
 impl PluginConfig {
-    /// The settings in the file at `path`; one that is not there decides nothing.
+    /// Reads the settings from the file at `path`. A missing file gives the default settings.
     ///
     /// # Errors
     /// [`ConfigError`] for a file that cannot be read, or with a mistake.
     pub fn read(path: &Path) -> Result<PluginConfig, ConfigError> {
         let text = match fs::read_to_string(path) {
             Ok(text) => text,
-            // A home that is no folder has no settings either.
+            // A home that is not a folder has no settings either.
             Err(error)
                 if matches!(
                     error.kind(),
@@ -86,7 +86,7 @@ impl PluginConfig {
         })
     }
 
-    /// The settings written as `text`.
+    /// Parses settings from `text`.
     ///
     /// # Errors
     /// [`ManifestError`] with the line.
@@ -98,7 +98,7 @@ impl PluginConfig {
         }
     }
 
-    /// How `plugin` is delivered.
+    /// Chooses where the code of `plugin` runs.
     pub fn delivery(&self, plugin: &Plugin) -> Delivery {
         match self.trust(plugin) {
             Some(_) if plugin.library().is_some() => Delivery::InProcess,
@@ -106,9 +106,9 @@ impl PluginConfig {
         }
     }
 
-    /// Who trusts `plugin` with this process, if anybody does.
+    /// Source of the trust that lets `plugin` run in this process; `None` if it is not trusted.
     ///
-    /// What the settings trust is not trusted beside a scene: whoever hands over a scene may put any plugin there, under any id.
+    /// Trust in the settings does not apply to plugins beside a scene, since the author of a scene can put any plugin there, under any id.
     pub fn trust(&self, plugin: &Plugin) -> Option<Trust> {
         let id = plugin.id();
         let settings = self.trust_in_process.contains(id) && plugin.place != Place::Project;
@@ -117,7 +117,7 @@ impl PluginConfig {
             .or(settings.then_some(Trust::Settings))
     }
 
-    /// What `plugin` may reach at most: what it asks for and the user allows.
+    /// Needs that `plugin` declares and the user allows.
     pub fn allowed(&self, plugin: &Plugin) -> BTreeSet<Need> {
         let Some(allowed) = self.allow.get(plugin.id()) else {
             return BTreeSet::new();
@@ -134,10 +134,10 @@ impl PluginConfig {
     }
 }
 
-/// Who lets the code of a plugin run in this process.
+/// Source of the trust that lets a plugin's code run in this process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trust {
-    /// Whoever typed the command.
+    /// The command line.
     CommandLine,
     /// The user's settings.
     Settings,
@@ -152,13 +152,13 @@ impl std::fmt::Display for Trust {
     }
 }
 
-/// Where the code of a plugin runs.
+/// Process in which a plugin's code runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Delivery {
-    /// In this process: the user trusts it.
+    /// This process, since the user trusts the plugin.
     InProcess,
-    /// In a confined child process.
+    /// A confined child process.
     Child,
 }
 
@@ -171,24 +171,24 @@ impl std::fmt::Display for Delivery {
     }
 }
 
-/// Settings that cannot be used.
+/// Failure to read the settings.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConfigError {
     /// The file cannot be read.
     #[error("cannot read {}: {source}", taceva_core::shown(path))]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
     /// The file has a mistake.
     #[error("{}, {source}", taceva_core::shown(path))]
     Text {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What and where.
+        /// The mistake and its position.
         source: ManifestError,
     },
 }

@@ -1,16 +1,16 @@
-//! In what two descriptions of one driver differ.
+//! Comparison of two descriptions of one driver.
 
 use std::fmt::Debug;
 
 use taceva_core::{ArgSpec, Args, Descriptor, Facts};
 
-/// Whether `args` set an argument of `descriptor` that can change its facts.
+/// True if `args` set an argument of `descriptor` that can change its facts.
 pub(crate) fn changes_facts(descriptor: &Descriptor, args: &Args) -> bool {
     let mut arguments = descriptor.arguments().iter();
     arguments.any(|argument| argument.changes_facts && argument.is_set_by(args))
 }
 
-/// As [`difference`], of what the library says of a driver with `args`: those can change facts where they are declared to.
+/// Like [`difference`], for a library's description with `args`. Facts are not compared if `args` may change them.
 pub(crate) fn difference_with(
     manifest: &Descriptor,
     library: &Descriptor,
@@ -28,7 +28,7 @@ pub(crate) fn difference_with(
         .or_else(rest)
 }
 
-/// The first thing that `manifest` and `library` disagree about: its name and what either says. Words for people may differ.
+/// First difference between `manifest` and `library`: its name and both values. Titles and help texts are not compared.
 pub(crate) fn difference(manifest: &Descriptor, library: &Descriptor) -> Option<[String; 3]> {
     let source = [manifest, library].map(Descriptor::source);
     differ("source", source)
@@ -36,7 +36,7 @@ pub(crate) fn difference(manifest: &Descriptor, library: &Descriptor) -> Option<
         .or_else(|| arguments([manifest, library].map(Descriptor::arguments)))
 }
 
-/// In what the arguments of two descriptions differ, beside their words for people.
+/// First difference between two lists of arguments, apart from help texts.
 pub(crate) fn arguments([manifest, library]: [&[ArgSpec]; 2]) -> Option<[String; 3]> {
     let number = [manifest.len(), library.len()];
     differ("the number of arguments", number).or_else(|| {

@@ -1,4 +1,4 @@
-//! Devices of a library that runs in this process, as the device traits of core.
+//! Devices of a library in this process, as device traits of core.
 
 mod bench;
 mod changer;

@@ -1,4 +1,4 @@
-//! Estimators of a library that runs in this process.
+//! Estimators of a library in this process.
 
 #![expect(
     unsafe_code,
@@ -100,7 +100,7 @@ pub(crate) fn load(
     Ok(Box::new(model))
 }
 
-/// The failure of an estimator that `library` does not have.
+/// Error for an estimator that `library` lacks.
 pub(crate) fn not_there(key: &DriverKey, library: &Library, doing: &'static str) -> ModelError {
     let why = format!(
         "the plugin `{}` has no estimator of that name",

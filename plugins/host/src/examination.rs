@@ -1,4 +1,4 @@
-//! Examination of a plugin: code of this program that a child runs beside the plugin instead of serving it.
+//! Examination of a plugin: a child runs code of this program on the plugin instead of serving it.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -16,37 +16,37 @@ use crate::host::code::ReadCode;
 use crate::library::Log;
 use crate::search::Plugin;
 
-/// A plugin whose code was read and can be run, ready to be examined in children.
+/// A plugin whose code was read, ready to be examined in children.
 pub struct Examination<'a> {
     host: &'a PluginHost,
     plugin: &'a Plugin,
     code: ReadCode,
 }
 
-/// One examination in a child of its own.
+/// One examination in a separate child.
 pub struct ExaminationOrder<'a> {
-    /// The key of the driver or estimator; empty for the plugin as a whole.
+    /// Key of the driver or estimator; empty for the plugin as a whole.
     pub driver: &'a str,
-    /// The arguments of the driver, `key=value;key=value`.
+    /// Arguments of the driver, `key=value;key=value`.
     pub arguments: &'a str,
-    /// The time after which the child is ended.
+    /// Timeout after which the child is killed.
     pub limit: Duration,
-    /// Receives lines of the log; those of the target [`CALL`](crate::bare::CALL) name the call that lasts.
+    /// Receives log lines. Those with the target [`CALL`](crate::bare::CALL) name the pending call.
     pub log: Log,
 }
 
-/// An examination that did not succeed.
+/// Failure of an examination.
 #[derive(Debug)]
 pub enum ExaminationError {
-    /// The child was not started.
+    /// The child could not be prepared.
     Unready(String),
-    /// The child refused to serve, or ended.
+    /// The child refused to serve or ended.
     Child {
-        /// The end of the child.
+        /// Error of the child.
         error: Box<ChildError>,
         /// Needs that the user does not allow.
         withheld: Withheld,
-        /// True if the withheld needs may be those that arguments name.
+        /// True if arguments may name the withheld needs.
         lacks_bound: bool,
     },
 }
@@ -67,7 +67,8 @@ impl PluginHost {
         })
     }
 
-    /// What an examination of `driver` may reach: what a device may that is opened with `arguments`; and these, with addresses for names of machines.
+    /// Needs granted to an examination of `driver`, as for a device opened with `arguments`. Also returns the arguments with host names
+    /// replaced by addresses.
     fn grant_of(
         &self,
         plugin: &Plugin,
@@ -81,7 +82,7 @@ impl PluginHost {
             Some((descriptor, args))
         });
         let Some((descriptor, args)) = args else {
-            // The check itself says which arguments it lacks.
+            // The check itself reports invalid arguments.
             return Ok((self.config().grant(plugin), arguments.to_owned()));
         };
         let (key, specs) = (descriptor.key(), descriptor.arguments());
@@ -100,7 +101,8 @@ impl PluginHost {
 }
 
 impl Examination<'_> {
-    /// Runs the [`Examiner`](crate::Examiner) of the child's program on what `encode` makes of the arguments; returns what the child printed.
+    /// Runs the [`Examiner`](crate::Examiner) of the child's program on the order that `encode` makes of the arguments. Returns the child's
+    /// output.
     ///
     /// # Errors
     /// [`ExaminationError`] if the child was not started, or if it did not end with a session.
@@ -119,7 +121,7 @@ impl Examination<'_> {
         let mut spec = spec.map_err(|error| unready(&error))?;
         spec.files
             .push(in_memory(&encode(arguments)).map_err(|error| unready(&error))?);
-        // An examination does what nobody should; a plugin that does not live through it may start again.
+        // An examination provokes crashes, which must not put the plugin into quarantine.
         spec.quarantine = None;
         spec.confinement.needs = grant.reached.iter().cloned().collect();
         if let Some(why) = no_port(&spec.confinement.needs) {
@@ -139,7 +141,7 @@ impl Examination<'_> {
     }
 }
 
-/// A file in memory that holds `bytes`.
+/// Creates an in-memory file that contains `bytes`.
 fn in_memory(bytes: &[u8]) -> io::Result<OwnedFd> {
     let mut file = File::from(memfd_create(c"taceva-order", MemfdFlags::CLOEXEC)?);
     file.write_all(bytes)?;

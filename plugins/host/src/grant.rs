@@ -1,4 +1,5 @@
-//! What a device may reach: what its manifest declares for its arguments, as far as the user allows it; and the line that allows the rest.
+//! Needs granted to a device: those that its manifest declares for its arguments and the user allows. Also the command that allows the
+//! rest.
 
 use std::collections::BTreeSet;
 use std::error::Error;
@@ -11,51 +12,51 @@ use crate::config::{Delivery, PluginConfig};
 use crate::manifest::{DeclaredNeed, Need};
 use crate::search::{Place, Plugin};
 
-/// Why a device is not opened whose arguments name what its plugin may not reach.
+/// Error message for a device whose arguments name a resource that the plugin may not reach.
 pub const NOT_ALLOWED: &str = "its user does not allow what its arguments name";
 
-/// What a session may reach.
+/// Needs granted to a session.
 #[derive(Clone, Debug)]
 pub(crate) struct Grant {
-    /// What it reaches.
+    /// Granted needs.
     pub(crate) reached: BTreeSet<Need>,
-    /// What it declares and may not reach.
+    /// Declared needs that are not allowed.
     pub(crate) withheld: Withheld,
-    /// Whether arguments decide a part of it.
+    /// True if some needs depend on arguments.
     pub(crate) is_bound: bool,
 }
 
 impl Grant {
-    /// Whether something is not allowed that may be what the arguments of the device name.
+    /// True if a withheld need may be one that the device's arguments name.
     pub(crate) fn lacks_bound(&self) -> bool {
         self.is_bound && !self.withheld.needs().is_empty()
     }
 }
 
-/// What a plugin declares, and its user does not allow.
+/// Needs that a plugin declares and its user does not allow.
 ///
-/// It is displayed as the command by which a person allows it.
+/// Displays as the command that allows them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Withheld {
     plugin: String,
-    /// The folder, of a plugin that nobody installed.
+    /// Folder of a plugin that is not installed.
     folder: Option<String>,
     needs: BTreeSet<Need>,
-    /// Whether the manifest asks for nothing at all, so that a confined process reaches nothing and no permission would help.
+    /// True if the manifest of a confined plugin declares no needs, so that no permission would help.
     asks_for_nothing: bool,
 }
 
-/// What mends a refusal where the manifest asks for nothing.
+/// Remedy for a denied access if the manifest declares no needs.
 const ASKS_FOR_NOTHING: &str =
     "the process of a plugin reaches only what `needs` in its plugin.toml names, which is nothing";
 
 impl Withheld {
-    /// What is not allowed; nothing where everything is.
+    /// Needs that are not allowed; empty if all are.
     pub fn needs(&self) -> &BTreeSet<Need> {
         &self.needs
     }
 
-    /// `why`, and the line that allows what is withheld, if a want of permission is what `why` says.
+    /// Appends the remedy to `why` if `why` is a permission error; `None` otherwise.
     pub fn explain(&self, why: &str) -> Option<String> {
         let is_refusal = [
             "permission denied",
@@ -74,7 +75,7 @@ impl Withheld {
         self.remedy().map(|remedy| format!("{why}; {remedy}"))
     }
 
-    /// What would mend a want of permission, if it is ours to mend.
+    /// Remedy for a permission error; `None` if no permission is withheld.
     fn remedy(&self) -> Option<String> {
         match (self.needs.is_empty(), self.asks_for_nothing) {
             (false, _) => Some(self.to_string()),
@@ -83,7 +84,7 @@ impl Withheld {
         }
     }
 
-    /// The same error, which ends with the line that allows what is withheld, if that is its reason.
+    /// Appends the remedy to `error` if it is a permission error.
     pub(crate) fn explained(&self, error: DriverError) -> DriverError {
         let why =
             Error::source(&error).map_or_else(|| error.kind().to_string(), ToString::to_string);
@@ -118,7 +119,7 @@ impl fmt::Display for Withheld {
     }
 }
 
-/// `text` as one word of a shell.
+/// Quotes `text` as one shell word.
 fn word(text: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "/:.,_-+@%".contains(letter);
     if text.chars().all(is_plain) {
@@ -129,7 +130,7 @@ fn word(text: &str) -> String {
 }
 
 impl PluginConfig {
-    /// What `plugin` may reach where no arguments are known, and what it may not.
+    /// Needs granted to `plugin` without known arguments.
     pub(crate) fn grant(&self, plugin: &Plugin) -> Grant {
         let mut grant = self.granted(
             plugin,
@@ -139,10 +140,10 @@ impl PluginConfig {
         grant
     }
 
-    /// What a device of `plugin` may reach that is opened with `args`.
+    /// Needs granted to a device of `plugin` that is opened with `args`.
     ///
     /// # Errors
-    /// [`DriverError`] of `driver` for an argument that names nothing a plugin may reach.
+    /// [`DriverError`] of `driver` for an argument that is not a valid need.
     pub(crate) fn grant_for(
         &self,
         plugin: &Plugin,
@@ -176,7 +177,7 @@ impl PluginConfig {
             reached.extend(given);
         }
         if self.delivery(plugin) == Delivery::InProcess {
-            // Nothing is kept from what is trusted.
+            // A trusted plugin has no restrictions.
             withheld.clear();
         }
         let is_confined = self.delivery(plugin) != Delivery::InProcess;
@@ -198,10 +199,10 @@ impl PluginConfig {
     }
 }
 
-/// `args` with addresses in the place of the names of machines that a need is bound to: a confined plugin can ask nobody for them.
+/// Replaces host names in `args` that a need is bound to by addresses, since a confined plugin cannot resolve names.
 ///
 /// # Errors
-/// [`DriverError`] of `driver` for a name that nobody knows.
+/// [`DriverError`] of `driver` for a name that cannot be resolved.
 pub(crate) fn resolved(
     plugin: &Plugin,
     driver: &DriverKey,
@@ -235,7 +236,7 @@ pub(crate) fn resolved(
             .map_err(|error| failed(error.to_string()))?
             .map(|address| address.ip())
             .collect();
-        // Devices of a laboratory that have both answer the older one.
+        // Prefer IPv4: laboratory devices with both kinds of address answer on it.
         addresses.sort_by_key(IpAddr::is_ipv6);
         let first = addresses
             .first()

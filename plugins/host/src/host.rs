@@ -1,4 +1,4 @@
-//! The plugins of a program, and the drivers that they are.
+//! Plugins of a program and their drivers.
 
 pub(crate) mod code;
 mod discovery;
@@ -34,21 +34,21 @@ use self::discovery::Looker;
 pub use self::driver::PluginDriver;
 pub use self::isolation::Keeping;
 
-/// Takes what plugins log: whose line it is, how much it matters, what it is about, and what it says.
+/// Callback for log lines of plugins: plugin, level, target and message.
 pub type PluginLog = Arc<dyn Fn(&PluginId, Level, &str, &str) + Send + Sync>;
 
-/// Where the code of plugins runs that are not trusted.
+/// Settings of the child processes of untrusted plugins.
 #[derive(Clone, Debug, Default)]
 pub struct Children {
-    /// The program whose `main` begins with `main_if_child`: this one, if none is named.
+    /// Program whose `main` begins with `main_if_child`; `None` for this program.
     pub program: Option<PathBuf>,
-    /// Where libraries that crashed are kept; without, they are started again.
+    /// Quarantine of crashed libraries. Without it, they start again.
     #[cfg(target_os = "linux")]
     pub quarantine: Option<Quarantine>,
 }
 
 impl Children {
-    /// This program, and the quarantine of the user whom the environment names.
+    /// Children of this program, with the quarantine of the current user.
     pub fn of_user() -> Children {
         Children {
             program: None,
@@ -58,13 +58,13 @@ impl Children {
     }
 }
 
-/// A session, and the digest of the library that answers in it.
+/// A session and the digest of its library.
 type Started = (Arc<dyn Session>, Sha256Digest);
 
-/// What was found to be enforced, by what children may reach and by the interpreter and the profile of those that have one.
+/// Isolation tried so far, by the child's needs and, for Python, by interpreter and profile.
 type Tried = BTreeMap<(BTreeSet<Need>, Option<(PathBuf, Profile)>), Keeping>;
 
-/// The plugins of a program: found, settled, and delivered as the user decided.
+/// Plugins of a program: found, configured, and run in the process that the user's settings choose.
 pub struct PluginHost {
     plugins: Plugins,
     config: PluginConfig,
@@ -74,21 +74,21 @@ pub struct PluginHost {
         expect(dead_code, reason = "children are for Linux")
     )]
     children: Children,
-    /// What is loaded in this process: once a plugin, however many rigs use it.
+    /// Libraries loaded in this process, one per plugin for all rigs.
     loaded: Mutex<BTreeMap<PluginId, (Arc<Library>, Sha256Digest)>>,
-    /// Where devices are looked for: one session a plugin.
+    /// Sessions for device discovery, one per plugin.
     lookers: Mutex<BTreeMap<PluginId, Looker>>,
-    /// What is enforced upon children, by what they may reach.
+    /// Isolation of children, by their needs.
     tried: Mutex<Tried>,
 }
 
 impl PluginHost {
-    /// A host of `plugins` whose children are this program, and whose quarantine is the user's.
+    /// Creates a host of `plugins` with children of this program and the user's quarantine.
     pub fn new(plugins: Plugins, config: PluginConfig, log: PluginLog) -> Arc<PluginHost> {
         PluginHost::with_children(plugins, config, log, Children::of_user())
     }
 
-    /// A host of `plugins` with children of its own.
+    /// Creates a host of `plugins` with the given children.
     pub fn with_children(
         plugins: Plugins,
         config: PluginConfig,
@@ -106,23 +106,23 @@ impl PluginHost {
         })
     }
 
-    /// What was found and refused.
+    /// Plugins that were found, and rejections.
     pub fn plugins(&self) -> &Plugins {
         &self.plugins
     }
 
-    /// What the user decided.
+    /// The user's settings.
     pub fn config(&self) -> &PluginConfig {
         &self.config
     }
 
-    /// What `plugin` needs whatever it is opened with, and its user does not allow.
+    /// Needs that `plugin` always has and its user does not allow.
     pub fn withheld(&self, plugin: &Plugin) -> Withheld {
         self.config.grant(plugin).withheld
     }
 
-    /// What a device of `driver` needs that is opened with `arguments`, `key=value;key=value`, and its user does not allow; `None` if no
-    /// plugin has that driver, or these are no arguments of it.
+    /// Needs of a device of `driver` with `arguments`, `key=value;key=value`, that the user does not allow. `None` if no plugin has the
+    /// driver, or the arguments are invalid.
     pub fn withheld_from(&self, driver: &str, arguments: &str) -> Option<Withheld> {
         let mut drivers = self.plugins.iter().flat_map(|plugin| {
             let drivers = plugin.manifest.drivers();
@@ -138,12 +138,12 @@ impl PluginHost {
         Some(grant.withheld)
     }
 
-    /// Where plugins run that are not trusted.
+    /// Settings of the child processes.
     pub(crate) fn children(&self) -> &Children {
         &self.children
     }
 
-    /// The drivers of kind `D` of every plugin, by key.
+    /// Drivers of kind `D` of every plugin, by key.
     pub fn drivers<D>(self: &Arc<PluginHost>) -> Vec<Box<dyn Factory<D>>>
     where
         D: taceva_core::Device + ?Sized,
@@ -167,7 +167,7 @@ impl PluginHost {
         drivers
     }
 
-    /// The estimators of every plugin, by key.
+    /// Estimators of every plugin, by key.
     pub fn estimators(&self) -> impl Iterator<Item = (&Plugin, &EstimatorInfo)> {
         self.plugins.iter().flat_map(|plugin| {
             let estimators = plugin.manifest.estimators();
@@ -175,10 +175,10 @@ impl PluginHost {
         })
     }
 
-    /// A new session of the plugin called `id`, delivered as the user decided; never otherwise.
+    /// Starts a session of the plugin `id`, in this process if it is a trusted library, otherwise in a child.
     ///
     /// # Errors
-    /// [`DriverError`] of `driver` if the plugin is not there, cannot be loaded, or is another than its manifest says.
+    /// [`DriverError`] of `driver` if the plugin is missing, cannot be loaded, or contradicts its manifest.
     pub fn session(
         &self,
         id: &PluginId,
@@ -191,7 +191,7 @@ impl PluginHost {
         self.start(plugin, driver).map(|(session, _)| session)
     }
 
-    /// A new session of `plugin` that reaches what `grant` gives.
+    /// Starts a session of `plugin` with the needs of `grant`.
     fn session_of(
         &self,
         plugin: &Plugin,
@@ -202,12 +202,12 @@ impl PluginHost {
         started.map(|(session, _)| session)
     }
 
-    /// A new session of `plugin`, and the digest of the library that answers in it.
+    /// Starts a session of `plugin`; also returns the digest of its library.
     fn start(&self, plugin: &Plugin, driver: &DriverKey) -> Result<Started, DriverError> {
         self.start_within(plugin, driver, &self.config.grant(plugin), None)
     }
 
-    /// The same, of a child that has so long to load and for each order.
+    /// Like [`start`](PluginHost::start), with `limit` as the child's timeout for loading and for each order.
     fn start_within(
         &self,
         plugin: &Plugin,
@@ -226,8 +226,8 @@ impl PluginHost {
         }
     }
 
-    /// Why the library of `plugin` is not started any more, if it crashed and nobody released it since. Only the libraries of plugins that
-    /// crashed are read for this.
+    /// Reason of the quarantine of `plugin`'s library; `None` if it is not in quarantine. Reads only libraries of plugins with a quarantine
+    /// entry.
     pub fn quarantined(&self, plugin: &Plugin) -> Option<String> {
         #[cfg(target_os = "linux")]
         {
@@ -248,7 +248,7 @@ impl PluginHost {
         }
     }
 
-    /// Lets the libraries of the plugin called `id`, or the one with that digest, start again; says how many were in quarantine.
+    /// Releases the libraries of plugin `id`, or the library with that digest, from quarantine. Returns their number.
     ///
     /// # Errors
     /// If the quarantine cannot be read or changed.
@@ -261,7 +261,7 @@ impl PluginHost {
         Ok(0)
     }
 
-    /// A session in a child that may reach what `grant` gives.
+    /// Starts a session in a child with the needs of `grant`.
     #[cfg(target_os = "linux")]
     fn child(
         &self,
@@ -273,7 +273,7 @@ impl PluginHost {
         const DOING: &str = "load the plugin";
         let code = plugin.read(driver)?;
         let mut spec = plugin.child(&code, driver, &self.children)?;
-        // What is trusted and is no library runs in a process of its own all the same.
+        // A trusted plugin that is not a library runs in a separate process too.
         spec.confinement.is_trusted = self.config.trust(plugin).is_some();
         spec.log = Some(self.log_of(plugin));
         if let Some(limit) = limit {
@@ -281,7 +281,7 @@ impl PluginHost {
         }
         let log = self.log_of(plugin);
         spec.ended = Some(Box::new(move |fate| {
-            // Of any other end somebody hears who asked for something.
+            // Callers get errors about any other end of the child.
             if fate.is_unheard() {
                 let why = format!("closed late: {fate}; what was recorded is not affected");
                 log(Level::Warn, "host", &why);
@@ -320,7 +320,7 @@ impl PluginHost {
         self.tried.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Where the lines of `plugin` go, however it is delivered.
+    /// Log callback for the lines of `plugin`.
     fn log_of(&self, plugin: &Plugin) -> Log {
         let (log, id) = (Arc::clone(&self.log), plugin.id().clone());
         Box::new(move |level, target, message| {
@@ -328,7 +328,7 @@ impl PluginHost {
         })
     }
 
-    /// The library of a trusted plugin, loaded when it is first needed.
+    /// Library of a trusted plugin, loaded on first use.
     fn library(
         &self,
         plugin: &Plugin,

@@ -1,4 +1,4 @@
-//! The name of a plugin, and of a driver in it.
+//! Names of plugins and of their drivers.
 
 use std::borrow::Borrow;
 use std::fmt;
@@ -7,8 +7,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use taceva_core::{DriverKey, DriverKeyError};
 
-/// The name of a plugin in reverse DNS, `org.example.digit`: at least two words joined by `.`, each of lower-case letters, digits and `-`,
-/// beginning with a letter.
+/// Name of a plugin in reverse DNS, `org.example.digit`: at least two words joined by `.`. Each word has lower-case letters, digits and
+/// `-`, and begins with a letter.
 ///
 /// ```
 /// use taceva_host::PluginId;
@@ -21,24 +21,24 @@ use taceva_core::{DriverKey, DriverKeyError};
 #[serde(try_from = "String", into = "String")]
 pub struct PluginId(String);
 
-/// Longest id, in bytes.
+/// Maximum length of an id, bytes.
 const LENGTH_MAX: usize = 96;
 
 impl PluginId {
-    /// The id as text.
+    /// Text of the id.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// The key of its driver `key`, by which people choose it.
+    /// Key of the plugin's driver `key`, as users write it.
     ///
     /// # Errors
-    /// [`DriverKeyError`] if `key` is no word of a driver key.
+    /// [`DriverKeyError`] if `key` is not a valid word of a driver key.
     pub fn driver(&self, key: &str) -> Result<DriverKey, DriverKeyError> {
         format!("{self}/{key}").parse()
     }
 
-    /// The key of the plugin as a whole, for errors that are of none of its drivers.
+    /// Key of the plugin as a whole, for errors of no particular driver.
     pub fn as_driver(&self) -> DriverKey {
         let key = self.0.parse();
         key.expect("every id is a word of a driver key")
@@ -95,7 +95,7 @@ impl fmt::Display for PluginId {
     }
 }
 
-/// Text that is no id of a plugin.
+/// Invalid plugin id.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{text:?} is no id of a plugin, expected lower-case words joined by `.` such as `org.example.digit`, at most {LENGTH_MAX} bytes"

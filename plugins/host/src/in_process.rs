@@ -1,4 +1,4 @@
-//! A plugin that runs in this process: for those that the user trusts, and within a confined child for all others.
+//! Plugin in this process: a trusted one in the host, any other in a confined child.
 
 use std::sync::Arc;
 
@@ -17,13 +17,13 @@ use crate::library::{Library, Place};
 use crate::offer::Offer;
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
-/// A session in this process: one rig of a loaded library.
+/// Session in this process: one rig of a loaded library.
 pub struct InProcess {
     rig: Arc<RigHandle>,
 }
 
 impl InProcess {
-    /// A session of `library`, with a rig of its own.
+    /// Opens a session of `library` with its own rig.
     ///
     /// # Errors
     /// [`DriverError`] if the plugin cannot open a rig.
@@ -32,7 +32,7 @@ impl InProcess {
         Ok(InProcess { rig })
     }
 
-    /// Opens a sensor, as a type that can also lend its frames.
+    /// Opens a sensor as a type that can lend its frames.
     ///
     /// # Errors
     /// As [`Session::sensor`].
@@ -44,7 +44,7 @@ impl InProcess {
         self.open_device(driver, args)
     }
 
-    /// Opens a device of the kind `D`, as the library describes it with these arguments.
+    /// Opens a device of kind `D`. The library describes it with these arguments.
     fn open_device<D: PluginDevice>(
         &self,
         driver: &DriverKey,

@@ -60,7 +60,7 @@ pub use search::{
 pub use session::{FitRequest, Saved, SavedRegressor, Session};
 pub use wire_version::WIRE;
 
-/// Loaded libraries and their bare tables, for a program that examines a plugin.
+/// Loaded libraries and their function tables, for programs that examine plugins.
 #[cfg(target_os = "linux")]
 pub mod bare {
     pub use crate::call::pending_call::{self, UnderWay};

@@ -1,4 +1,4 @@
-//! A library that is loaded: looked at as data first, then initialised, then compared with its manifest. It stays for good.
+//! Loaded library: read as data, initialised, compared with its manifest. Never unloaded.
 
 #![expect(
     unsafe_code,
@@ -41,7 +41,7 @@ use crate::call::{call, table};
 use crate::id::PluginId;
 use crate::manifest::Manifest;
 
-/// Its code stays mapped for good: threads and thread-locals of a plugin outlive our knowledge.
+/// Flag that keeps the library's code mapped: its threads and thread-locals may outlive every handle.
 const RTLD_NODELETE: i32 = if cfg!(target_os = "linux") {
     0x1000
 } else {
@@ -50,12 +50,12 @@ const RTLD_NODELETE: i32 = if cfg!(target_os = "linux") {
 
 static LOADED: AtomicU64 = AtomicU64::new(0);
 
-/// How many libraries this process has handed to the system's loader so far.
+/// Number of libraries that this process has passed to the system's loader.
 pub fn libraries_loaded() -> u64 {
     LOADED.load(Ordering::Relaxed)
 }
 
-/// A plugin's library, loaded and initialised, that says what its manifest says.
+/// A plugin's library, loaded, initialised and consistent with its manifest.
 pub struct Library {
     id: PluginId,
     path: PathBuf,
@@ -69,12 +69,12 @@ unsafe impl Send for Library {}
 unsafe impl Sync for Library {}
 
 impl Library {
-    /// Loads `image`, compares it with `manifest` and initialises it. What the plugin logs goes to `log`.
+    /// Loads `image`, compares it with `manifest` and initialises it. `log` receives the plugin's log lines.
     ///
-    /// Its constructors run before anything can be checked: only what is trusted is loaded here, anything else in a confined child.
+    /// Constructors of the library run before any check. Load only trusted libraries here, others in a confined child.
     ///
     /// # Errors
-    /// [`LoadError`]: not loadable, no plugin, of another version, or another plugin than the manifest says.
+    /// [`LoadError`] if the file is not loadable, not a plugin, of another version, or contradicts the manifest.
     pub fn load(image: &Image, manifest: &Manifest, log: Log) -> Result<Arc<Library>, LoadError> {
         Library::begin(image, Some(manifest), log)
     }
@@ -89,7 +89,7 @@ impl Library {
         Library::of_symbol(symbol, image.path(), manifest, log)
     }
 
-    /// The library whose table lies at `symbol`, compared and initialised.
+    /// Compares and initialises the library with the table at `symbol`.
     fn of_symbol(
         symbol: *const abi::Plugin,
         path: &std::path::Path,
@@ -112,17 +112,17 @@ impl Library {
             plugin,
             entries: BTreeMap::new(),
         };
-        // From here on a failure drops `library`, which takes back what `init` did.
+        // From here on a failure drops `library`, which reverts `init`.
         library.entries = entry::entries(&library, manifest).map_err(failed)?;
         Ok(Arc::new(library))
     }
 
-    /// The plugin it is.
+    /// Id of the plugin.
     pub fn id(&self) -> &PluginId {
         &self.id
     }
 
-    /// The entry of `key`, if it is of `place`.
+    /// Entry `key` of the factory `place`.
     pub(crate) fn entry(
         &self,
         key: &DriverKey,
@@ -136,7 +136,7 @@ impl Library {
         })
     }
 
-    /// The entry of the driver `key`, whatever its kind.
+    /// Entry of the driver `key` of any kind.
     pub(crate) fn driver(
         &self,
         key: &DriverKey,
@@ -150,17 +150,17 @@ impl Library {
         })
     }
 
-    /// The entry of `key`, whatever it is.
+    /// Entry `key` of any factory.
     pub fn any(&self, key: &DriverKey) -> Option<&Entry> {
         self.entries.get(key)
     }
 
-    /// The table that it exports.
+    /// Exported table.
     pub fn plugin(&self) -> &abi::Plugin {
         &self.plugin
     }
 
-    /// The factory of a kind, NULL where the plugin has none.
+    /// Factory of a kind; NULL if the plugin has none.
     fn factory(&self, id: &str) -> Result<*const c_void, LoadProblem> {
         let factory = self
             .plugin
@@ -208,36 +208,36 @@ impl std::fmt::Debug for Library {
     }
 }
 
-/// Hands the image to the system's loader and finds the one symbol.
+/// Loads the image with the system's loader and finds the exported symbol.
 fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
     let memory = image.try_clone().map_err(LoadProblem::File)?;
     let name = format!("/proc/self/fd/{}", memory.as_raw_fd());
     let message = |error: libloading::Error| {
-        // The loader names the file by its number, which tells nobody anything.
+        // The loader's message contains a meaningless descriptor number.
         let words = std::error::Error::source(&error).map(ToString::to_string);
         let words = words.unwrap_or_else(|| error.to_string());
         crate::text::shown(&words.replace(&name, "the library"))
     };
     LOADED.fetch_add(1, Ordering::Relaxed);
-    // SAFETY: its constructors are foreign code; whoever calls has decided that they may run in this process.
+    // SAFETY: its constructors are foreign code; the caller has decided that they may run in this process.
     let loaded = unsafe { Loaded::open(Some(&name), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) };
     let loaded = match loaded {
         Ok(loaded) => loaded,
         Err(error) => return Err(refused(&File::from(memory), message(error))),
     };
-    // The loader knows the library by the name of this descriptor, which therefore is never used for another.
+    // Never close the descriptor: the loader identifies the library by its path.
     let _ = memory.into_raw_fd();
     let name_of_symbol = abi::ENTRY_SYMBOL.to_bytes_with_nul();
     // SAFETY: only the address is taken; what lies there is checked before it is used.
     let symbol = unsafe { loaded.get::<*const abi::Plugin>(name_of_symbol) };
     let symbol = symbol.map_err(|error| LoadProblem::Symbol(message(error)))?;
     let address = *symbol;
-    // Never unloaded, whatever becomes of this handle.
+    // Never unloaded.
     std::mem::forget(loaded);
     Ok(address)
 }
 
-/// Why the loader refused `library`, to whose maker `$ORIGIN` meant the folder that it lay in.
+/// Converts the loader's error, with a hint if the run path of `library` uses `$ORIGIN`.
 fn refused(library: &File, message: String) -> LoadProblem {
     let run_path = elf::run_path(library);
     match run_path.filter(|path| path.contains("$ORIGIN") || path.contains("${ORIGIN}")) {
@@ -249,10 +249,10 @@ fn refused(library: &File, message: String) -> LoadProblem {
     }
 }
 
-/// The exported symbol, read as data: no code of the plugin runs.
+/// Reads the exported symbol as data, without running code of the plugin.
 fn read(symbol: *const abi::Plugin, mapped: Option<&Mapped>) -> Result<abi::Plugin, LoadProblem> {
     let what = "`taceva_plugin_v1`";
-    // A confined child may not look at its own map; there a bad address costs the child alone.
+    // A confined child may not read its memory map. There, a bad address crashes only the child.
     let is_readable = |length: usize| {
         !symbol.is_null()
             && symbol.is_aligned()
@@ -288,7 +288,7 @@ fn read(symbol: *const abi::Plugin, mapped: Option<&Mapped>) -> Result<abi::Plug
     Ok(unsafe { copy.assume_init() })
 }
 
-/// The plugin that the library says it is, which is the one that the manifest is of.
+/// Id of the library's plugin, checked against the manifest.
 fn identity(
     plugin: &abi::Plugin,
     manifest: Option<&Manifest>,
@@ -316,7 +316,7 @@ fn identity(
     Ok(manifest.id.clone())
 }
 
-/// A text of the exported symbol.
+/// Reads a text of the exported symbol.
 fn text(
     what: &'static str,
     said: abi::Text,

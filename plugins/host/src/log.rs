@@ -1,19 +1,19 @@
-//! What plugins log, on its way to whoever listens: 100 lines at once, and 20 a second after that.
+//! Rate limit for log lines of plugins: a burst of 100, then 20 per second.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::library::{Level, Log};
 
-/// Lines that pass at once.
+/// Burst size, lines.
 const BURST: u32 = 100;
-/// Then one passes each time after so long.
+/// Interval between lines after the burst.
 const EVERY: Duration = Duration::from_millis(50);
 
-/// What a line is about that says how many others there were.
+/// Target of the line that reports dropped lines.
 const TARGET: &str = "log";
 
-/// A log that gets 100 lines at once and 20 a second from then on; of the others it gets the count.
+/// Rate-limited log: passes a burst of 100 lines, then 20 per second, and counts the rest.
 pub(crate) struct Limited {
     log: Log,
     state: Mutex<State>,
@@ -21,7 +21,7 @@ pub(crate) struct Limited {
 
 #[derive(Default)]
 struct State {
-    /// When all lines that passed would have passed, had they come one at a time.
+    /// Time at which all passed lines would have passed, one per [`EVERY`].
     due: Option<Instant>,
     left_out: u64,
 }
@@ -34,12 +34,12 @@ impl Limited {
         }
     }
 
-    /// Passes a line on, if it is not one too many.
+    /// Passes a line on, or counts it if the limit is exceeded.
     pub(crate) fn tell(&self, level: Level, target: &str, message: &str) {
         self.tell_at(Instant::now(), level, target, message);
     }
 
-    /// Counts lines that were lost on their way here.
+    /// Adds lines that were dropped before this log.
     pub(crate) fn lose(&self, count: u64) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.left_out = state.left_out.saturating_add(count);

@@ -1,4 +1,4 @@
-//! The manifest of a plugin: everything that listing and planning need, as data. No code of the plugin runs for it.
+//! Manifest of a plugin: all data for listing and planning. Reading it runs no code of the plugin.
 
 mod argument;
 mod error;
@@ -32,14 +32,14 @@ pub use self::usb_id::UsbId;
 use crate::id::PluginId;
 use crate::text::shown;
 
-/// The version of the format that is read here.
+/// Supported manifest version.
 const VERSION: u32 = 1;
-/// A manifest is at most this long, in bytes.
+/// Maximum length of a manifest, bytes.
 pub(crate) const BYTES_MAX: usize = 1 << 20;
-/// No plugin provides more.
+/// Maximum number of drivers and estimators of a plugin.
 const PROVIDES_MAX: usize = 256;
 
-/// What a `plugin.toml` says.
+/// Content of a `plugin.toml`.
 ///
 /// ```
 /// use taceva_host::Manifest;
@@ -80,38 +80,38 @@ const PROVIDES_MAX: usize = 256;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Manifest {
-    /// The name of the plugin.
+    /// Id of the plugin.
     pub id: PluginId,
-    /// What people call it.
+    /// Display name.
     pub name: String,
-    /// Its version, as its library says it too.
+    /// Version, which the library must state too.
     pub version: String,
-    /// Its licence.
+    /// Licence.
     pub license: String,
-    /// The interface it was written for.
+    /// Interface version of the plugin.
     pub abi: AbiVersion,
-    /// What it must reach outside itself.
+    /// Resources outside the plugin that it needs.
     pub needs: BTreeSet<DeclaredNeed>,
-    /// Its drivers and estimators, in the order of the manifest.
+    /// Drivers and estimators, in the order of the manifest.
     pub provides: Vec<Provided>,
     libraries: BTreeMap<String, LibraryFile>,
     module: Option<PythonModule>,
 }
 
-/// A version of the C interface.
+/// Version of the C interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AbiVersion {
-    /// Equal on both sides, or the plugin cannot be used.
+    /// Major version. Plugin and host must have the same.
     pub major: u32,
-    /// May differ either way.
+    /// Minor version. Plugin and host may differ.
     pub minor: u32,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
-    /// Checked before the rest, as [`Versioned`].
+    /// Checked first, by [`Versioned`].
     #[serde(rename = "manifest_version")]
     _version: u32,
     id: Spanned<String>,
@@ -133,13 +133,13 @@ struct WrittenLibrary {
     sha256: Option<Spanned<String>>,
 }
 
-/// What every version of the format says first.
+/// Version key, which every format version has.
 #[derive(Deserialize)]
 struct Versioned {
     manifest_version: Spanned<u32>,
 }
 
-/// A value that cannot be meant, at these bytes.
+/// Invalid value with its byte range.
 #[derive(Debug)]
 struct Refused {
     span: Range<usize>,
@@ -156,16 +156,16 @@ impl Refused {
 }
 
 impl Manifest {
-    /// The manifest written as `text`; every key is known, or it is refused.
+    /// Parses a manifest. Unknown keys are rejected.
     ///
     /// # Errors
-    /// [`ManifestError`], for the first thing that is wrong, with its line.
+    /// [`ManifestError`] for the first mistake, with its line.
     pub fn parse(text: &str) -> Result<Manifest, ManifestError> {
         if text.len() > BYTES_MAX {
             let problem = format!("{} bytes, expected at most {BYTES_MAX}", text.len());
             return Err(ManifestError::whole(problem));
         }
-        // The version first: what a newer one may say is not known here.
+        // Check the version first, since a newer manifest may have unknown keys.
         if let Ok(Versioned { manifest_version }) = toml::from_str(text) {
             let version = *manifest_version.get_ref();
             if version != VERSION {
@@ -178,22 +178,22 @@ impl Manifest {
         meant(written).map_err(|refused| ManifestError::at(text, &refused.span, refused.problem))
     }
 
-    /// The library for `platform`, as [`platform`] writes it.
+    /// Library for `platform`, as [`platform`] writes it; `None` if there is none.
     pub fn library(&self, platform: &str) -> Option<&LibraryFile> {
         self.libraries.get(platform)
     }
 
-    /// The platforms it has a library for.
+    /// Platforms that have a library.
     pub fn platforms(&self) -> impl Iterator<Item = &str> {
         self.libraries.keys().map(String::as_str)
     }
 
-    /// The module that it is, if it is one of Python and no library.
+    /// Python module of the plugin; `None` for a library.
     pub fn module(&self) -> Option<&PythonModule> {
         self.module.as_ref()
     }
 
-    /// Its drivers.
+    /// Drivers of the plugin.
     pub fn drivers(&self) -> impl Iterator<Item = &Descriptor> {
         self.provides.iter().filter_map(|provided| match provided {
             Provided::Driver { descriptor, .. } => Some(&**descriptor),
@@ -201,7 +201,7 @@ impl Manifest {
         })
     }
 
-    /// Its estimators.
+    /// Estimators of the plugin.
     pub fn estimators(&self) -> impl Iterator<Item = &EstimatorInfo> {
         self.provides.iter().filter_map(|provided| match provided {
             Provided::Driver { .. } => None,
@@ -211,7 +211,7 @@ impl Manifest {
 }
 
 impl Provided {
-    /// What a library says of one of its drivers or estimators: a `[[provides]]` table without that header.
+    /// Parses a library's description of a driver or estimator: a `[[provides]]` table without that header.
     ///
     /// # Errors
     /// As [`Manifest::parse`].
@@ -227,7 +227,7 @@ impl Provided {
             .map_err(|refused| ManifestError::at(text, &refused.span, refused.problem))
     }
 
-    /// The key by which people choose it.
+    /// Key by which users choose the driver or estimator.
     pub fn key(&self) -> &DriverKey {
         match self {
             Provided::Driver { descriptor, .. } => descriptor.key(),
@@ -274,7 +274,7 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
         name,
         version,
         license,
-        // A module is given its tables by the package that runs it, which is of the interface that it was built with.
+        // The package that runs a module builds its tables, with the interface version of that package.
         abi: written.abi.unwrap_or(AbiVersion {
             major: ABI_MAJOR,
             minor: ABI_MINOR,
@@ -286,7 +286,7 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
     })
 }
 
-/// Refuses a need of arguments that no driver has, all of one.
+/// Rejects a need whose arguments no single driver declares.
 fn check_arguments(
     written: &Spanned<String>,
     needs: &BTreeSet<DeclaredNeed>,
@@ -312,10 +312,10 @@ fn check_arguments(
     Err(Refused::at(written, problem))
 }
 
-/// What a plugin is made of: libraries, or a module.
+/// Code of a plugin: libraries by platform, or a module.
 type Code = (BTreeMap<String, LibraryFile>, Option<PythonModule>);
 
-/// One of `[library]` and `[program]`.
+/// Reads either `[library]` or `[program]`.
 fn code(written: &Written) -> Result<Code, Refused> {
     match (&written.library, &written.program) {
         (Some(library), None) if written.abi.is_some() => Ok((libraries(library)?, None)),
@@ -368,7 +368,7 @@ fn libraries(
     Ok(libraries)
 }
 
-/// Text for people: one line, not empty, not endless.
+/// Checks a display text: one line of 1 to 200 bytes.
 fn plain_text(key: &str, written: &Spanned<String>) -> Result<String, Refused> {
     let text = written.get_ref();
     let is_plain = !text.trim().is_empty() && text.len() <= 200 && !text.contains(char::is_control);

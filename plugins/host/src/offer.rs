@@ -1,8 +1,8 @@
-//! What a library offers and needs, as it says so itself: what a manifest is written from.
+//! Offer of a library, from which a manifest is written.
 
 mod edit;
 
-/// What a library says that a manifest says too. Nothing of it was checked by anybody but by whoever reads the manifest that is made of it.
+/// Library's own statement of the manifest's contents. Unchecked until the resulting manifest is parsed.
 ///
 /// ```
 /// use taceva_host::{LibraryFile, Offer};
@@ -20,12 +20,12 @@ mod edit;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Offer {
-    /// The id of the plugin.
+    /// Id of the plugin.
     pub id: String,
-    /// Its version.
+    /// Version of the plugin.
     pub version: String,
-    /// What it must reach outside itself; empty where it does not say.
+    /// Needs of the plugin; empty if it states none.
     pub needs: Vec<String>,
-    /// A `[[provides]]` table for each driver and estimator, without that header and with `[[args]]` for `[[provides.args]]`.
+    /// A `[[provides]]` table for each driver and estimator, without that header, and with `[[args]]` for `[[provides.args]]`.
     pub provides: Vec<String>,
 }

@@ -1,7 +1,7 @@
-//! A plugin as one file: a tar archive of its manifest, the digests of everything else, its libraries and its licences, in that order.
+//! Plugin package: a tar archive of the manifest, the digests of all other files, the libraries and the licences, in that order.
 //!
-//! The manifest decides what belongs in it. Whatever else is in an archive is refused, so that nothing can be put beside a plugin by
-//! whoever hands it on, and nothing outside the folder of the plugin is ever written.
+//! The manifest determines the contents. Any other entry is rejected, so that nobody can add files to a package. Nothing is written outside
+//! the plugin's folder.
 
 mod read;
 mod write;
@@ -14,36 +14,36 @@ pub use self::write::pack;
 use crate::manifest::{Manifest, ManifestError};
 use crate::search::{MANIFEST, Plugin};
 
-/// The digests of all files but the manifest, as `sha256sum --check` reads them.
+/// File of the digests of all files but the manifest, in the format of `sha256sum --check`.
 const DIGESTS: &str = "SHA256SUMS";
-/// How the name of a licence begins.
+/// Prefixes of licence file names.
 const LICENCES: [&str; 4] = ["LICENSE", "LICENCE", "COPYING", "NOTICE"];
-/// No licence is longer, in bytes.
+/// Maximum length of a licence, bytes.
 const LICENCE_MAX: u64 = 1 << 20;
-/// No plugin has more licences.
+/// Maximum number of licences.
 const LICENCES_MAX: usize = 32;
 
-/// Why a plugin could not be packed or unpacked.
+/// Failure to pack or unpack a plugin.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PackageError {
     /// A file cannot be read or written.
     #[error("{}: {source}", taceva_core::shown(path))]
     File {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
-    /// The archive cannot be read or written, or is none.
+    /// The archive cannot be read or written, or is not a tar archive.
     #[error("the archive: {0}")]
     Archive(io::Error),
-    /// A part of the archive is not what belongs in it.
+    /// An entry of the archive is invalid.
     #[error("`{}` in the archive: {problem}", crate::text::shown(.name))]
     Entry {
-        /// Its name.
+        /// Name of the entry.
         name: String,
-        /// What is wrong, and what is expected.
+        /// The fault and the expected value.
         problem: String,
     },
     /// The manifest in the archive has a mistake.
@@ -68,10 +68,10 @@ impl PackageError {
 }
 
 impl Plugin {
-    /// What belongs to it, relative to its folder: the manifest, its library for this machine, and its licences.
+    /// Files of the plugin, relative to its folder: manifest, library for this machine, and licences.
     ///
     /// # Errors
-    /// If its folder cannot be read.
+    /// If the folder cannot be read.
     pub fn files(&self) -> io::Result<Vec<PathBuf>> {
         let library = self.library().map(|library| PathBuf::from(&library.path));
         let mut files = vec![PathBuf::from(MANIFEST)];
@@ -81,7 +81,7 @@ impl Plugin {
     }
 }
 
-/// The licences in `folder`, by name.
+/// Licence files in `folder`, sorted by name.
 fn licences(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut licences = Vec::new();
     for entry in std::fs::read_dir(folder)? {
@@ -99,7 +99,7 @@ fn is_licence(name: &str) -> bool {
     !name.contains('/') && LICENCES.iter().any(|word| name.starts_with(word))
 }
 
-/// The paths of all libraries that `manifest` names.
+/// Paths of all libraries in `manifest`.
 fn libraries(manifest: &Manifest) -> impl Iterator<Item = &str> {
     let platforms = manifest.platforms();
     platforms.filter_map(|platform| Some(manifest.library(platform)?.path.as_str()))

@@ -1,4 +1,4 @@
-//! Plugins in Python: interpreters, what is asked of them, and the process that one becomes.
+//! Python plugins: interpreters, queries of their environments, and plugin processes.
 
 mod digest;
 mod error;

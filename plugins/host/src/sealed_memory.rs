@@ -1,4 +1,4 @@
-//! Memory of a file's kind that nobody can write to any more.
+//! In-memory files sealed against changes.
 
 use std::os::fd::AsFd;
 use std::thread::sleep;
@@ -7,20 +7,20 @@ use std::time::{Duration, Instant};
 use rustix::fs::{SealFlags, fcntl_add_seals};
 use rustix::io::Errno;
 
-/// What keeps bytes and size as they are, this rule included.
+/// Seals that fix contents and size, including the seal on the seals.
 const ALL: SealFlags = SealFlags::WRITE
     .union(SealFlags::GROW)
     .union(SealFlags::SHRINK)
     .union(SealFlags::SEAL);
-/// The kernel seals nothing while it uses a page itself: a page that it moves, or that a pipe still carries. It waits for .15 s, then says
-/// that the memory is busy. On a machine that is short of memory that happens; it is asked again for so long.
+/// Retry period for sealing. The kernel fails with `EBUSY` after 0.15 s while it uses a page itself, moving it or carrying it in a pipe.
+/// This happens when memory is short.
 const PATIENCE: Duration = Duration::from_secs(5);
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// Seals `memory` against every change, asking again while the kernel uses a page of it.
+/// Seals `memory` against every change, retrying while the kernel uses a page of it.
 ///
 /// # Errors
-/// What the kernel says; `EBUSY` after five seconds, or where a writable mapping of it exists.
+/// Error of the kernel; `EBUSY` after five seconds or if a writable mapping exists.
 pub(crate) fn seal_all(memory: impl AsFd) -> Result<(), Errno> {
     let start = Instant::now();
     loop {

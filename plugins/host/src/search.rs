@@ -1,4 +1,4 @@
-//! Finding plugins by their manifests. No library is opened, and nothing that is found is lost: what is not used is kept with its reason.
+//! Search for plugins by their manifests. Opens no library. Every rejected plugin is kept with its reason.
 
 mod environment;
 mod place;
@@ -21,38 +21,38 @@ use crate::manifest::{self, LibraryFile, Manifest, PythonModule};
 use crate::python::Interpreter;
 use crate::wire_version::WIRE;
 
-/// The name of every manifest.
+/// File name of manifests.
 pub(crate) const MANIFEST: &str = "plugin.toml";
 
-/// A plugin that was found: its manifest, and where it lies.
+/// A plugin that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plugin {
-    /// What it says of itself.
+    /// Manifest of the plugin.
     pub manifest: Manifest,
-    /// The manifest as it was read.
+    /// Text of the manifest.
     pub text: String,
-    /// The folder of the manifest, without links.
+    /// Folder of the manifest, with links resolved.
     pub folder: PathBuf,
-    /// Who named the folder that it was found in.
+    /// Place where the plugin was found.
     pub place: Place,
-    /// What runs.
+    /// Code of the plugin.
     pub code: Code,
-    /// The interpreter in whose environment it was found, or the first that is known, where it is a module of Python.
+    /// For a Python module: the interpreter of its environment, or the first known one. `None` for a library.
     pub interpreter: Option<Interpreter>,
 }
 
-/// What of a plugin runs.
+/// Code of a plugin.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Code {
-    /// Its library for this platform.
+    /// Library for this platform.
     Library(LibraryFile),
-    /// A module of Python, in the folder of the manifest.
+    /// Python module in the folder of the manifest.
     Python(PythonModule),
 }
 
 impl Plugin {
-    /// Its library, if it is one.
+    /// Library of the plugin; `None` for a Python module.
     pub fn library(&self) -> Option<&LibraryFile> {
         match &self.code {
             Code::Library(library) => Some(library),
@@ -60,7 +60,7 @@ impl Plugin {
         }
     }
 
-    /// Its module, if it is one of Python.
+    /// Python module of the plugin; `None` for a library.
     pub fn module(&self) -> Option<&PythonModule> {
         match &self.code {
             Code::Library(_) => None,
@@ -68,30 +68,30 @@ impl Plugin {
         }
     }
 
-    /// Its id.
+    /// Id of the plugin.
     pub fn id(&self) -> &PluginId {
         &self.manifest.id
     }
 }
 
-/// What a search found.
+/// Result of a search.
 #[derive(Debug, Default)]
 pub struct Plugins {
     found: BTreeMap<PluginId, Plugin>,
-    /// What is not used, in the order in which it was found.
+    /// Rejected plugins and folders, in the order in which they were found.
     pub rejections: Vec<Rejection>,
     path: SearchPath,
 }
 
 impl Plugins {
-    /// Looks through `path`. Of plugins with one id none is used, unless the folder of one of them is in `prefer`, or somebody named the
-    /// folder of one of them for this command ([`Place::Given`]).
+    /// Searches `path`. Plugins with the same id are all rejected, unless the folder of one is in `prefer` or only one was named for this
+    /// command ([`Place::Given`]).
     pub fn search(path: SearchPath, prefer: &[PathBuf]) -> Plugins {
         Plugins::search_with(path, prefer, &[])
     }
 
-    /// The same, and asks each of `interpreters` what lies in its environment. The first that answers runs what is written in Python and
-    /// lies elsewhere.
+    /// Like [`search`](Plugins::search), and also searches the environments of `interpreters`. The first that answers runs Python plugins
+    /// from other places.
     pub fn search_with(path: SearchPath, prefer: &[PathBuf], interpreters: &[PathBuf]) -> Plugins {
         let mut searching = Searching::default();
         for interpreter in interpreters {
@@ -111,25 +111,25 @@ impl Plugins {
         plugins
     }
 
-    /// The plugins, by id.
+    /// Plugins, sorted by id.
     pub fn iter(&self) -> impl Iterator<Item = &Plugin> {
         self.found.values()
     }
 
-    /// How many there are.
+    /// Number of plugins.
     pub fn len(&self) -> usize {
         self.found.len()
     }
 
-    /// Whether there is none.
+    /// True if there are no plugins.
     pub fn is_empty(&self) -> bool {
         self.found.is_empty()
     }
 
-    /// The plugin called `id`.
+    /// Returns the plugin `id`.
     ///
     /// # Errors
-    /// [`NotFound`] with the nearest id, where it was looked for and what was refused there.
+    /// [`NotFound`] with the nearest id, the searched folders and the rejections.
     pub fn get(&self, id: &str) -> Result<&Plugin, NotFound> {
         self.found.get(id).ok_or_else(|| {
             let known: Vec<&str> = self.found.keys().map(PluginId::as_str).collect();
@@ -182,7 +182,7 @@ impl Plugins {
     }
 }
 
-/// A plugin that was not found.
+/// Error for an unknown plugin id.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no plugin is called {id:?}, {help}{trail}")]
 pub struct NotFound {
@@ -208,14 +208,14 @@ impl Searching {
                     self.manifest(place, &manifest, None);
                 }
             }
-            // Only who types a folder expects it to be there.
+            // Only a folder from the command line must exist.
             Err(Reason::Unreadable(error))
                 if error.kind() == io::ErrorKind::NotFound && place != Place::Given => {}
             Err(reason) => self.rejections.push(reason.of(folder, place)),
         }
     }
 
-    /// The manifest in `folder`, or those in the folders below it, by name.
+    /// Manifest in `folder`, or else the manifests in its subfolders, sorted by path.
     fn manifests(&mut self, folder: &Path) -> Result<Vec<PathBuf>, Reason> {
         if !folder.is_absolute() {
             return Err(Reason::Relative);
@@ -231,7 +231,7 @@ impl Searching {
         let mut manifests = Vec::new();
         for entry in fs::read_dir(&folder).map_err(Reason::Unreadable)? {
             let entry = entry.map_err(Reason::Unreadable)?;
-            // An installation that is under way, or was cut off, is none yet.
+            // Hidden folders are unfinished installations.
             if entry.file_name().as_encoded_bytes().starts_with(b".") {
                 continue;
             }
@@ -244,7 +244,8 @@ impl Searching {
         Ok(manifests)
     }
 
-    /// Reads a manifest, of a package in the environment of an interpreter or of another; says which plugin it found.
+    /// Reads a manifest, in the environment of the interpreter `within` or elsewhere. Returns the plugin's id; `None` if it was rejected or
+    /// seen before.
     fn manifest(
         &mut self,
         place: Place,
@@ -301,7 +302,7 @@ impl Searching {
         })
     }
 
-    /// What of it runs, looked at from outside.
+    /// Code of the plugin, checked without opening it.
     fn code(&mut self, manifest: &Manifest, folder: &Path) -> Result<Code, Reason> {
         if let Some(module) = manifest.module() {
             if module.wire != WIRE {
@@ -319,7 +320,7 @@ impl Searching {
         Ok(Code::Library(library))
     }
 
-    /// Looks at the library from outside; it is not opened.
+    /// Checks the library file without opening it.
     fn library(&mut self, library: &Path) -> Result<(), Reason> {
         let refused = |problem: String| Reason::Library {
             library: library.to_owned(),
@@ -338,7 +339,7 @@ impl Searching {
 }
 
 fn read(path: &Path) -> Result<String, Reason> {
-    // Asked before opening: opening a pipe would wait for whoever writes into it.
+    // Checked before opening, since opening a pipe would block.
     if !fs::metadata(path).map_err(Reason::Unreadable)?.is_file() {
         return Err(Reason::NotAFile);
     }

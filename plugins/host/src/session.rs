@@ -1,4 +1,4 @@
-//! A plugin that was delivered, in process or in a child: the one place where the two ways meet.
+//! Session of a plugin, with one interface for plugins in this process and in a child.
 
 use std::sync::Arc;
 
@@ -9,26 +9,26 @@ use taceva_core::{
 };
 pub use taceva_core::{FitRequest, Saved, SavedRegressor};
 
-/// A loaded plugin and the devices that are opened in it together: one session a plugin and rig.
+/// A loaded plugin and its open devices: one session per plugin and rig.
 ///
-/// Drivers and estimators are named by their whole keys. Devices keep what they need alive: a session may be dropped before them.
+/// Drivers and estimators are named by their full keys. Devices keep their resources alive, so the session may be dropped first.
 pub trait Session: Send + Sync {
-    /// What the library offers and needs, as a manifest would say it.
+    /// Offers and needs of the library, as in a manifest.
     ///
     /// # Errors
-    /// [`DriverError`] where what answers is no library, or says what no manifest can.
+    /// [`DriverError`] if the session has no library, or its statements do not fit a manifest.
     fn offer(&self) -> Result<Offer, DriverError>;
 
-    /// What the library says of `driver` when it is opened with `args`; no device is touched.
+    /// Library's description of `driver` with `args`. Touches no device.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `NotFound` for a driver that it does not have, `InvalidArgument` for arguments that contradict each other.
+    /// [`DriverError`] of kind `NotFound` for an unknown driver, `InvalidArgument` for contradictory arguments.
     fn describe(&self, driver: &DriverKey, args: &Args) -> Result<Descriptor, DriverError>;
 
-    /// The devices of `driver` that are present.
+    /// Lists the connected devices of `driver`.
     ///
     /// # Errors
-    /// [`DriverError`] if looking itself fails.
+    /// [`DriverError`] if the search itself fails.
     fn discover(&self, driver: &DriverKey) -> Result<Vec<Found>, DriverError>;
 
     /// Opens a sensor.
@@ -65,23 +65,23 @@ pub trait Session: Send + Sync {
     /// As [`Factory::open`](taceva_core::Factory::open).
     fn changer(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Changer>, DriverError>;
 
-    /// The simulated bench that devices were opened in with `rig=name`, where the plugin is one.
+    /// Simulated bench of the devices that were opened with `rig=name`; `None` if the plugin has no such bench.
     fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>>;
 
     /// Fits `estimator`.
     ///
     /// # Errors
-    /// As [`Estimator::fit`](taceva_core::Estimator::fit); `NotFound` for an estimator that it does not have.
+    /// As [`Estimator::fit`](taceva_core::Estimator::fit); `NotFound` for an unknown estimator.
     fn fit(
         &self,
         estimator: &DriverKey,
         request: &FitRequest<'_>,
     ) -> Result<Box<dyn SavedRegressor>, ModelError>;
 
-    /// Loads what [`SavedRegressor::save`] gave.
+    /// Loads a model that [`SavedRegressor::save`] saved.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `Protocol` for bytes that are no model of `estimator`.
+    /// [`ModelError`] of kind `Protocol` if the bytes are not a model of `estimator`.
     fn load(
         &self,
         estimator: &DriverKey,

@@ -1,18 +1,18 @@
-//! Devices on USB that a manifest names, found without opening any and without running code of a plugin.
+//! USB devices of manifests, listed without opening them or running code of a plugin.
 
 use nusb::{DeviceInfo, MaybeFuture as _};
 
 use crate::manifest::UsbId;
 
-/// A device that is plugged in.
+/// A connected USB device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct UsbDevice {
     pub(crate) id: UsbId,
-    /// What it calls itself, where it does.
+    /// Product name of the device; `None` if it has none.
     pub(crate) product: Option<String>,
 }
 
-/// What is plugged in, by bus and port; nothing on a system that lists no devices.
+/// Connected USB devices, sorted by bus and port. Empty if the system cannot list devices.
 pub(crate) fn plugged_in() -> Vec<UsbDevice> {
     let Ok(listed) = nusb::list_devices().wait() else {
         return Vec::new();
@@ -27,7 +27,7 @@ fn place(device: &DeviceInfo) -> (&str, &[u8]) {
 }
 
 impl UsbDevice {
-    /// What the system has read of a device already; it is not opened.
+    /// Reads the system's record of a device, without opening it.
     fn of(device: &DeviceInfo) -> UsbDevice {
         UsbDevice {
             id: UsbId {
@@ -46,7 +46,7 @@ mod tests {
     use super::*;
     use std::fs;
 
-    /// Devices, not hubs of the machine nor interfaces, have a port in their name: `1-2`, not `usb1` nor `1-2:1.0`.
+    /// Names of devices contain a port, such as `1-2`, unlike root hubs (`usb1`) and interfaces (`1-2:1.0`).
     #[test]
     fn as_many_devices_are_listed_as_the_kernel_has() {
         let listed = fs::read_dir("/sys/bus/usb/devices").into_iter().flatten();

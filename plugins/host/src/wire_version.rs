@@ -1,5 +1,5 @@
-//! The version of what a host and the process of a plugin say to each other.
+//! Version of the messages between a host and a plugin's process.
 
-/// It grows by one with every change of a message, of which the bytes in `tests/wire/` tell: a host and a child of different builds refuse
-/// each other by it, and neither guesses what the other means.
+/// Wire version. Increased by one with every change of a message; `tests/wire/` holds the golden bytes. A host and a child with different
+/// versions reject each other.
 pub const WIRE: u32 = 1;

@@ -1,15 +1,15 @@
-//! Arguments for the range and the signal of a force transducer, which its protocol does not state.
+//! Arguments for the range and the signal of a force transducer, which its protocol does not report.
 
 use taceva_core::{ArgSpec, Args, ForceFacts, Newton};
 
 use super::{fact, optional_number};
 
-/// The argument that says how much a transducer measures, in N.
+/// Key of the measuring range, N.
 pub(crate) const FORCE_MAX: &str = "force_max_n";
 const RESOLUTION: &str = "resolution_n";
 const NOISE: &str = "noise_n";
 
-/// Facts that no protocol of a transducer tells.
+/// Arguments for facts that no transducer protocol reports.
 pub(crate) fn force_facts() -> [ArgSpec; 3] {
     [
         fact(
@@ -30,7 +30,7 @@ pub(crate) fn force_facts() -> [ArgSpec; 3] {
     ]
 }
 
-/// Adds the facts that arguments of [`force_facts`] give.
+/// Sets the facts from the arguments of [`force_facts`].
 pub(crate) fn add_facts_of_force(args: &Args, facts: &mut ForceFacts) {
     let force = |key| optional_number(args, key).map(Newton);
     facts.force_max = force(FORCE_MAX);

@@ -1,16 +1,16 @@
-//! Where a device is on a network.
+//! Network port arguments.
 
 use taceva_core::{ArgSpec, ArgValue, Args};
 
-/// A port of a network, `usual` where nobody says otherwise.
+/// Argument for a network port with default `usual`.
 pub(crate) fn port(key: &str, usual: i64, help: &str) -> ArgSpec {
     ArgSpec::whole(key, 1, 65_535)
         .default(ArgValue::Whole(usual))
         .help(help)
 }
 
-/// The port that an argument of [`port`] gives.
+/// Port number from an argument of [`port`].
 pub(crate) fn port_of(args: &Args, key: &str) -> u16 {
-    // Its range was checked.
+    // The range was checked before.
     u16::try_from(args.whole(key)).unwrap_or(0)
 }

@@ -1,10 +1,10 @@
-//! Arguments for how fast a robot may move, how it stops and how well it repeats, which its protocol does not state.
+//! Arguments for the speed limit, stopping and repeatability of a robot, which its protocol does not report.
 
 use taceva_core::{ArgSpec, ArgValue, Args, Millimetre, RobotFacts, Speed, SpeedError};
 
 use super::{fact, optional_number};
 
-/// The greatest speed that may be asked of a robot, at least `least` and `usual` where nobody says otherwise, in mm/s.
+/// Argument for the speed limit of a robot, mm/s: at least `least`, `usual` by default.
 pub(crate) fn speed_limit(least: f64, usual: f64) -> ArgSpec {
     ArgSpec::number(SPEED_MAX, least, SPEED_LIMIT_MM_S)
         .default(ArgValue::Number(usual))
@@ -12,15 +12,15 @@ pub(crate) fn speed_limit(least: f64, usual: f64) -> ArgSpec {
         .changes_facts()
 }
 
-/// The speed that an argument of [`speed_limit`] gives.
+/// Speed limit from an argument of [`speed_limit`].
 ///
 /// # Errors
-/// [`SpeedError`] where it is none, which its range rules out.
+/// [`SpeedError`] for an invalid speed, which the range of the argument rules out.
 pub(crate) fn speed_max(args: &Args) -> Result<Speed, SpeedError> {
     Speed::try_new(args.number(SPEED_MAX))
 }
 
-/// Facts that no protocol of a robot tells.
+/// Arguments for facts that no robot protocol reports.
 pub(crate) fn robot_facts() -> [ArgSpec; 2] {
     [
         fact(
@@ -36,7 +36,7 @@ pub(crate) fn robot_facts() -> [ArgSpec; 2] {
     ]
 }
 
-/// How fast a robot slows down, where its driver does not ask it for that.
+/// Argument for the deceleration, mm/s², of robots whose driver does not set it.
 #[cfg(any(feature = "gcode", feature = "xarm"))]
 pub(crate) fn deceleration() -> ArgSpec {
     fact(
@@ -46,9 +46,9 @@ pub(crate) fn deceleration() -> ArgSpec {
     )
 }
 
-/// The facts that arguments of [`speed_limit`], [`robot_facts`] and `deceleration_mm_s2` give.
+/// Robot facts from the arguments of [`speed_limit`], [`robot_facts`] and `deceleration_mm_s2`.
 pub(crate) fn facts_of_robot(args: &Args) -> RobotFacts {
-    // No robot of a rig moves in the frame of a sensor.
+    // Every robot of a rig reports poses in its base frame.
     let mut facts = RobotFacts::default().with_base_frame(true);
     facts.speed_max = speed_max(args).ok();
     facts.deceleration_mm_s2 = optional_number(args, DECELERATION);
@@ -58,7 +58,7 @@ pub(crate) fn facts_of_robot(args: &Args) -> RobotFacts {
 }
 
 const SPEED_MAX: &str = "speed_max_mm_s";
-/// The greatest speed that a robot may be asked for, in mm/s: that of industrial arms at reduced speed beside people.
+/// Maximum of the speed limit, mm/s: the reduced speed of industrial arms beside people.
 const SPEED_LIMIT_MM_S: f64 = 250.0;
 const DECELERATION: &str = "deceleration_mm_s2";
 const STOP: &str = "stop_ms";

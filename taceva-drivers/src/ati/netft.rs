@@ -1,4 +1,4 @@
-//! `ati/netft`: transducers of six axes behind a Net F/T box, by its raw data transfer over UDP.
+//! `ati/netft`: six-axis transducers behind a Net F/T box, by its raw data transfer over UDP.
 
 mod calibration;
 mod factory;

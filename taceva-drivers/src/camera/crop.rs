@@ -1,20 +1,20 @@
-//! What is cut off a picture at its sides.
+//! Crop of an image at its sides.
 
 use taceva_core::FrameInfo;
 
-/// The part of a picture that is kept.
+/// Symmetric crop of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Crop {
-    /// Pixels that are cut off at the left, and at the right; rows above, and below.
+    /// Columns cut off on the left and on the right, and rows cut off above and below.
     pub(super) left: u32,
     pub(super) top: u32,
 }
 
 impl Crop {
-    /// Nothing is cut off.
+    /// No crop.
     pub(super) const NONE: Crop = Crop { left: 0, top: 0 };
 
-    /// A border of `share` of the width and of the height at each side, in whole pixels.
+    /// Crop of `share` of the width and height at each side, rounded down to whole pixels.
     pub(super) fn border(width: u32, height: u32, share: f64) -> Crop {
         #[expect(
             clippy::cast_possible_truncation,
@@ -28,7 +28,7 @@ impl Crop {
         }
     }
 
-    /// What is left of a picture.
+    /// Size of the cropped image.
     pub(super) fn of(self, whole: FrameInfo) -> FrameInfo {
         FrameInfo {
             width: whole.width.saturating_sub(2 * self.left),
@@ -37,7 +37,7 @@ impl Crop {
         }
     }
 
-    /// Copies what is left of `pixels`, a picture of `whole`, into `into`.
+    /// Crops `pixels`, an image of `whole`, into `into`.
     pub(super) fn copy(self, whole: FrameInfo, pixels: &[u8], into: &mut [u8]) {
         let bytes = whole.format.samples() * whole.format.bytes_per_sample();
         let size = |pixels: u32| usize::try_from(pixels).unwrap_or(usize::MAX);

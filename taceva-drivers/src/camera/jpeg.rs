@@ -1,4 +1,4 @@
-//! Pictures that a camera sends as files, JPEG or PNG.
+//! Images that a camera sends as JPEG or PNG files.
 
 use std::borrow::Cow;
 
@@ -8,20 +8,20 @@ use super::CAPTURE;
 use super::crop::Crop;
 use crate::source::{Mismatch, decode, frame_info};
 
-/// A picture without what some cameras put behind its end: zeros, and ends of lines.
+/// Strips trailing zeros and line ends, which some cameras append.
 pub(super) fn whole(picture: &[u8]) -> &[u8] {
     let padding = |byte: &&u8| matches!(**byte, 0 | b'\r' | b'\n');
     let behind = picture.iter().rev().take_while(padding).count();
     &picture[..picture.len() - behind]
 }
 
-/// What makes a decoder take the usual tables of codes (ITU-T T.81, K.3): the segment by which pictures of an AVI file say that they leave them out.
+/// AVI1 segment, which makes a decoder use the standard Huffman tables (ITU-T T.81, K.3).
 const USUAL_TABLES: [u8; 9] = [0xff, 0xe0, 0x00, 0x07, b'A', b'V', b'I', b'1', 0x00];
 const BEGIN: [u8; 2] = [0xff, 0xd8];
 const TABLES_OF_CODES: u8 = 0xc4;
 const SCAN: u8 = 0xda;
 
-/// A JPEG file with word of its tables of codes: many cameras send none and mean the usual ones, and do not say that either.
+/// Adds the AVI1 segment to a JPEG file without Huffman tables. Many cameras omit the tables without marking it.
 fn completed(picture: &[u8]) -> Cow<'_, [u8]> {
     if has_tables(picture) != Some(false) {
         return Cow::Borrowed(picture);
@@ -30,7 +30,7 @@ fn completed(picture: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned([&BEGIN[..], &USUAL_TABLES, behind].concat())
 }
 
-/// Whether a JPEG file has a table of codes before its pixels; `None` for a file that is none.
+/// True if a JPEG file has a Huffman table before its scan; `None` if it is not JPEG.
 fn has_tables(picture: &[u8]) -> Option<bool> {
     let mut rest = picture.strip_prefix(&BEGIN)?;
     loop {
@@ -40,28 +40,28 @@ fn has_tables(picture: &[u8]) -> Option<bool> {
         match marker {
             TABLES_OF_CODES => return Some(true),
             SCAN => return Some(false),
-            // A length counts itself, and not its marker.
+            // The length includes itself but not the marker.
             _ => rest = rest.get(2 + usize::from(u16::from_be_bytes([high, low]))..)?,
         }
     }
 }
 
-/// How a driver makes frames of the pictures of its camera.
+/// Converter of camera images to frames.
 #[derive(Clone, Debug)]
 pub(super) struct Pictures {
     driver: DriverKey,
-    /// Of the first picture, to which all others are alike.
+    /// Format of the first image; all others must have the same.
     sent: FrameInfo,
     crop: Crop,
-    /// Room for a whole picture, where a part of it is kept.
+    /// Buffer for a whole image if it is cropped; empty otherwise.
     room: Vec<u8>,
 }
 
 impl Pictures {
-    /// Pictures like `first`.
+    /// Creates a converter for images like `first`.
     ///
     /// # Errors
-    /// `Protocol` if it is none.
+    /// `Protocol` if `first` is not an image.
     pub(super) fn like(
         first: &[u8],
         crop: Crop,
@@ -82,26 +82,26 @@ impl Pictures {
         })
     }
 
-    /// Of the pictures that the camera sends.
+    /// Format of the images that the camera sends.
     pub(super) fn sent(&self) -> FrameInfo {
         self.sent
     }
 
-    /// Of the frames that are made of them.
+    /// Format of the frames.
     pub(super) fn info(&self) -> FrameInfo {
         self.crop.of(self.sent)
     }
 
-    /// The file that stands for a frame by itself: none where a part of the picture is kept, or its tables of codes are left out.
+    /// The unmodified file, if it decodes to the frame. `None` if the image is cropped or lacks Huffman tables.
     pub(super) fn as_sent<'a>(&self, picture: &'a [u8]) -> Option<&'a [u8]> {
         let is_frame = self.room.is_empty() && has_tables(picture) != Some(false);
         is_frame.then(|| whole(picture))
     }
 
-    /// Writes a picture into a frame of [`info`](Pictures::info); `losses` says what went wrong before.
+    /// Decodes an image into a frame of [`info`](Pictures::info). `losses` describes earlier losses for the error.
     ///
     /// # Errors
-    /// `Protocol` for one that is damaged or of another size.
+    /// `Protocol` for an image that is damaged or has another size.
     pub(super) fn decode(
         &mut self,
         picture: &[u8],
@@ -141,7 +141,7 @@ mod tests {
 
     const DRIVER: DriverKey = DriverKey::fixed("test/camera");
 
-    /// A JPEG file of 24 by 16 pixels that are not all alike.
+    /// JPEG file of 24 by 16 pixels that differ.
     fn picture() -> Vec<u8> {
         let pixels: Vec<u8> = (0..24_u32 * 16 * 3)
             .map(|index| u8::try_from(index * 7 % 251).expect("below 251"))
@@ -161,7 +161,7 @@ mod tests {
         Ok(pixels)
     }
 
-    /// The file without its tables of codes, as many cameras send it.
+    /// Removes the Huffman tables, which many cameras omit.
     fn without_tables(file: &[u8]) -> Vec<u8> {
         let mut kept = BEGIN.to_vec();
         let mut at = 2;

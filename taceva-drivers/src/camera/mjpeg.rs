@@ -1,4 +1,4 @@
-//! `camera/mjpeg`: cameras that stream pictures over HTTP, one after the other in one answer (`multipart/x-mixed-replace`).
+//! `camera/mjpeg`: cameras that stream images over HTTP in one response (`multipart/x-mixed-replace`).
 
 mod body;
 mod camera;

@@ -1,4 +1,4 @@
-//! What is known of the camera in a sensor that people can buy, by name.
+//! Presets of the cameras in commercial sensors, by name.
 
 use std::sync::LazyLock;
 
@@ -7,25 +7,25 @@ use taceva_core::{ArgSpec, DriverKey};
 
 use super::crop::Crop;
 
-/// The camera of one sensor; each number has its source in the file of the preset.
+/// Preset of one sensor's camera. The preset's file cites the source of each number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Preset {
-    /// The name by which it is chosen: that of its file.
+    /// Name of the preset, which is that of its file.
     #[serde(skip)]
     pub(super) name: &'static str,
     pub(super) title: String,
-    /// The key of the driver that reads it.
+    /// Key of the driver for this camera.
     driver: String,
-    /// How the kernel's name of the camera begins, where it is one of this machine.
+    /// Prefix of the camera's kernel name; `None` for a network camera.
     pub(super) card: Option<String>,
-    /// How its pictures are sent, where it is one way.
+    /// Pixel format, if the camera has only one.
     pub(super) pixels: Option<String>,
-    /// Of the pictures that the camera sends.
+    /// Size of the camera's images.
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) rate_hz: f64,
-    /// The shares of width and height that are cut off at each side.
+    /// Share of width and height that is cropped at each side.
     border: f64,
 }
 
@@ -44,18 +44,18 @@ static PRESETS: LazyLock<Vec<Preset>> = LazyLock::new(|| {
 });
 
 impl Preset {
-    /// The presets of `driver`.
+    /// Presets of `driver`.
     pub(super) fn of(driver: &DriverKey) -> impl Iterator<Item = &'static Preset> {
         let driver = driver.to_string();
         PRESETS.iter().filter(move |preset| preset.driver == driver)
     }
 
-    /// The preset of `driver` that is called `name`.
+    /// Preset `name` of `driver`; `None` if there is none.
     pub(super) fn named(driver: &DriverKey, name: &str) -> Option<&'static Preset> {
         Preset::of(driver).find(|preset| preset.name == name)
     }
 
-    /// The argument that chooses one.
+    /// Argument that selects a preset.
     pub(super) fn argument(driver: &DriverKey) -> ArgSpec {
         let titles: Vec<&str> = Preset::of(driver)
             .map(|preset| preset.title.as_str())
@@ -69,7 +69,7 @@ impl Preset {
             .changes_facts()
     }
 
-    /// What is cut off its pictures, where the camera sends them in this size.
+    /// Crop of the camera's images at this size.
     pub(super) fn crop(&self, width: u32, height: u32) -> Crop {
         Crop::border(width, height, self.border)
     }

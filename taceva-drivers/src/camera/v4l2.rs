@@ -1,4 +1,4 @@
-//! `camera/v4l2`: cameras of this machine, by the kernel's own interface.
+//! `camera/v4l2`: local cameras, by the kernel's own interface.
 
 mod camera;
 mod error;
@@ -27,7 +27,7 @@ taceva_core::inventory::submit! {
     }
 }
 
-/// Further files of a camera give no pictures; an old system does not count them.
+/// True for the first device file of a camera. Further files give no images. An old system does not number them.
 fn is_first_file(machine: &Machine, name: &str) -> bool {
     let index = machine.text(&format!("sys/class/video4linux/{name}/index"));
     index.is_none_or(|index| index == "0")

@@ -1,31 +1,31 @@
-//! A diagnosis: one thing that was checked.
+//! Diagnosis: the result of one check.
 
 use serde::Serialize;
 
-/// What is there, or missing, or in the way.
+/// Result of one check.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnosis {
-    /// A name that stays the same from version to version.
+    /// Code of the check, stable across versions.
     pub code: &'static str,
-    /// Whether it can be used.
+    /// State of the subject.
     pub state: State,
-    /// What it is about: `/dev/video0`.
+    /// Subject of the check, such as `/dev/video0`.
     pub subject: String,
-    /// What was seen, with control characters written out.
+    /// Observation, with control characters escaped.
     pub detail: String,
-    /// What to do, where something can be done.
+    /// Remedy; `None` if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remedy: Option<String>,
 }
 
-/// Whether a thing is there and can be used.
+/// State of a subject.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum State {
-    /// There, and usable.
+    /// Present and usable.
     Good,
-    /// Not there, which is fine unless it is needed.
+    /// Absent, which matters only if it is needed.
     Absent,
-    /// There, and not usable.
+    /// Present but not usable.
     Problem,
 }

@@ -1,4 +1,4 @@
-//! The machine that is looked at: a tree of files laid out as Linux lays them out, and what is plugged into its USB.
+//! Examined machine: a tree of files in the layout of Linux, and its USB devices.
 
 use std::fs;
 use std::io::Read;
@@ -8,19 +8,19 @@ use super::usb::{UsbDevice, plugged_in};
 use super::user::User;
 use crate::name_order;
 
-/// Longest file that is read of a machine: its table of groups.
+/// Maximum length of a file that is read, bytes. The longest is the group table.
 const TEXT_BYTES: u64 = 1 << 20;
 
-/// A machine, as its files and the list of its USB devices describe it.
+/// A machine, described by its files and its list of USB devices.
 #[derive(Clone, Debug)]
 pub struct Machine {
     root: PathBuf,
-    /// Or why they cannot be listed.
+    /// USB devices, or the reason why they cannot be listed.
     pub(super) usb: Result<Vec<UsbDevice>, String>,
 }
 
 impl Machine {
-    /// This machine.
+    /// Creates the description of this machine.
     pub fn this() -> Machine {
         Machine {
             root: PathBuf::from("/"),
@@ -28,7 +28,7 @@ impl Machine {
         }
     }
 
-    /// The machine whose root folder is `root`, with nothing on its USB; for a mounted image, and for tests.
+    /// Describes the machine with root folder `root` and no USB devices, such as a mounted image or a test.
     pub fn at(root: impl Into<PathBuf>) -> Machine {
         Machine {
             root: root.into(),
@@ -36,7 +36,7 @@ impl Machine {
         }
     }
 
-    /// The same machine with `devices` on its USB.
+    /// Replaces the USB devices.
     pub fn with_usb(self, devices: Vec<UsbDevice>) -> Machine {
         Machine {
             usb: Ok(devices),
@@ -44,7 +44,7 @@ impl Machine {
         }
     }
 
-    /// Who runs the program, if the machine says so.
+    /// User who runs the program; `None` if the machine does not tell.
     pub(super) fn user(&self) -> Option<User> {
         let status = self.text("proc/self/status")?;
         let passwords = self.text("etc/passwd").unwrap_or_default();
@@ -52,7 +52,7 @@ impl Machine {
         User::parse(&status, &passwords, &groups)
     }
 
-    /// The names in a folder, in their order; none if there is no such folder.
+    /// Names in a folder, sorted; empty if there is no such folder.
     pub(super) fn names(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(folder)).into_iter().flatten();
         let mut names: Vec<String> = entries
@@ -62,7 +62,7 @@ impl Machine {
         names
     }
 
-    /// The text of a small file without the white space around it, if it can be read.
+    /// Trimmed text of a small file; `None` if it cannot be read.
     pub(crate) fn text(&self, path: &str) -> Option<String> {
         let mut bytes = Vec::new();
         let file = fs::File::open(self.path(path)).ok()?;
@@ -70,7 +70,7 @@ impl Machine {
         Some(String::from_utf8_lossy(&bytes).trim().to_owned())
     }
 
-    /// Where `path`, which has no leading `/`, lies.
+    /// Full path of `path`, which has no leading `/`.
     pub(crate) fn path(&self, path: &str) -> PathBuf {
         self.root.join(Path::new(path))
     }

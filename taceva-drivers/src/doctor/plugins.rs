@@ -1,4 +1,4 @@
-//! How each plugin would be kept from the rest of the machine.
+//! Diagnosis of the isolation of plugins.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use taceva_host::{Keeping, PluginHost};
 
 use super::{Diagnosis, State};
 
-/// How each plugin of `host` would run, by id: found out by confining a process that loads nothing. No code of a plugin runs.
+/// Isolation in which each plugin of `host` would run, by id. Found by confining a process that loads nothing; no code of a plugin runs.
 pub fn examine_plugins(host: &Arc<PluginHost>) -> Vec<Diagnosis> {
     let findings = host.plugins().iter().map(|plugin| {
         let id = plugin.id();

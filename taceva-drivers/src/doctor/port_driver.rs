@@ -1,4 +1,4 @@
-//! Drivers that open a device file, each stated in the folder of its driver.
+//! Drivers that open a device file, each declared in the folder of its driver.
 
 use taceva_core::{DriverKey, inventory};
 
@@ -23,7 +23,7 @@ pub(crate) struct PortDriver {
     pub(crate) key: DriverKey,
     /// Argument of its selector that names the file.
     pub(crate) argument: &'static str,
-    /// Tells whether the driver reads the file of that name below `/dev`, as far as the system says.
+    /// True if the driver reads the file of that name below `/dev`, as far as the system says.
     pub(crate) reads: fn(&Machine, &str) -> bool,
 }
 

@@ -1,4 +1,4 @@
-//! Cameras, serial ports and HID devices: present, and permitted or not.
+//! Diagnosis of cameras, serial ports and HID devices: presence and permissions.
 
 use std::fs;
 
@@ -8,12 +8,12 @@ use super::port_driver::{PortClass, drivers_of};
 use super::user::User;
 use crate::text::shown;
 
-/// A kind of device file.
+/// Kind of device file.
 pub(super) struct PortKind {
-    /// The code of a good one; others add `-denied` and `-absent`.
+    /// Codes for usable, denied and absent files.
     codes: [&'static str; 3],
     prefixes: &'static [&'static str],
-    /// Where the system keeps its name: the folder of its class and the file in the folder of the device.
+    /// Source of the device's name: the folder of its class and the file in the device's folder.
     name: Option<(&'static str, &'static str)>,
     noun: &'static str,
     if_absent: &'static str,
@@ -47,7 +47,7 @@ pub(super) const KINDS: &[PortKind] = &[
     },
 ];
 
-/// Looks at the device files of `kind`; `keys` are those of the drivers that there are.
+/// Examines the device files of `kind`. `keys` are those of the available drivers.
 pub(super) fn examine(
     machine: &Machine,
     user: Option<&User>,
@@ -103,7 +103,7 @@ impl PortKind {
             .name
             .and_then(|(class, file)| machine.text(&format!("{class}/{name}/{file}")))
             .unwrap_or_default();
-        // A file of several lines names the device in one of them.
+        // A file with several lines names the device in one of them.
         let title = text
             .lines()
             .find_map(|line| line.strip_prefix("HID_NAME="))
@@ -111,7 +111,7 @@ impl PortKind {
         shown(title.unwrap_or(self.noun))
     }
 
-    /// The selectors that open it, in words; empty where no driver reads it.
+    /// Selectors that open the file, in words; empty if no driver reads it.
     fn opened(&self, machine: &Machine, name: &str, keys: &[&str]) -> String {
         let selectors: Vec<String> = drivers_of(self.class)
             .into_iter()

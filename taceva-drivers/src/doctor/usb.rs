@@ -1,4 +1,4 @@
-//! Known sensors and gauges on the USB, whether or not the kernel has a driver for them.
+//! Diagnosis of known USB sensors and gauges, with or without a kernel driver.
 
 use nusb::{DeviceInfo, MaybeFuture as _};
 
@@ -7,12 +7,12 @@ use super::machine::Machine;
 use crate::name_order;
 use crate::text::shown;
 
-/// A device that is known by its numbers.
+/// A device known by its vendor and product id.
 struct Known {
     vendor: u16,
     product: u16,
     title: &'static str,
-    /// The start of the name of the device file that it should have.
+    /// Prefix of the device file that it should have.
     file: &'static str,
     remedy: &'static str,
 }
@@ -51,22 +51,22 @@ const KNOWN: &[Known] = &[
     },
 ];
 
-/// A device on the USB, as it describes itself to the system.
+/// USB device, as it describes itself to the system.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct UsbDevice {
-    /// Where it is plugged in: the bus and the numbers of the ports to it, `1-2.4`.
+    /// Bus and port numbers, such as `1-2.4`.
     pub port: String,
-    /// The number of its vendor.
+    /// Vendor id.
     pub vendor: u16,
-    /// The number that its vendor gave it.
+    /// Product id.
     pub product: u16,
-    /// Its serial number, if it has one.
+    /// Serial number; `None` if it has none.
     pub serial: Option<String>,
 }
 
 impl UsbDevice {
-    /// The device at `port` with the numbers of its vendor and of itself.
+    /// Describes the device at `port` with its vendor and product id.
     pub fn new(port: impl Into<String>, vendor: u16, product: u16) -> UsbDevice {
         UsbDevice {
             port: port.into(),
@@ -76,7 +76,7 @@ impl UsbDevice {
         }
     }
 
-    /// The same device with a serial number.
+    /// Sets the serial number.
     pub fn with_serial(self, serial: impl Into<String>) -> UsbDevice {
         UsbDevice {
             serial: Some(serial.into()),
@@ -84,11 +84,11 @@ impl UsbDevice {
         }
     }
 
-    /// What the system has read of a device already; it is not opened.
+    /// Reads the system's record of a device, without opening it.
     fn of(device: &DeviceInfo) -> UsbDevice {
         let ports: Vec<String> = device.port_chain().iter().map(u8::to_string).collect();
         let bus = device.bus_id();
-        // The system pads the numbers of buses with zeros where it lists them, and not where it names them.
+        // The system pads bus numbers with zeros in lists but not in names.
         let bus = bus.trim_start_matches('0');
         UsbDevice {
             port: format!("{bus}-{}", ports.join(".")),
@@ -99,7 +99,7 @@ impl UsbDevice {
     }
 }
 
-/// What is plugged into this machine in the order of the ports, or why that is unknown.
+/// Connected USB devices, sorted by port, or the reason why they cannot be listed.
 pub(super) fn plugged_in() -> Result<Vec<UsbDevice>, String> {
     let listed = nusb::list_devices().wait();
     let listed = listed.map_err(|error| error.to_string())?;
@@ -118,7 +118,7 @@ pub(super) fn examine(machine: &Machine) -> Vec<Diagnosis> {
         let known = KNOWN
             .iter()
             .find(|known| (known.vendor, known.product) == (device.vendor, device.product))?;
-        // Other systems keep devices elsewhere than in files.
+        // Other systems than Linux have no device files here.
         let has_file =
             !cfg!(target_os = "linux") || files.iter().any(|name| name.starts_with(known.file));
         Some(known.finding(device, has_file))
@@ -126,7 +126,7 @@ pub(super) fn examine(machine: &Machine) -> Vec<Diagnosis> {
     findings.collect()
 }
 
-/// A system without USB, such as a container, or one that does not list it.
+/// Diagnosis for a system without USB, such as a container, or without a device list.
 fn unknown(why: &str) -> Diagnosis {
     Diagnosis {
         code: "usb-unknown",

@@ -1,4 +1,4 @@
-//! Who runs the program, and what that permits.
+//! User who runs the program, and the user's permissions.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::Metadata;
@@ -9,12 +9,12 @@ pub(super) struct User {
     id: u32,
     groups: BTreeSet<u32>,
     group_names: BTreeMap<u32, String>,
-    /// Groups that list the user, whether or not this session has them.
+    /// Groups that list the user, even if this session lacks them.
     entitled: BTreeSet<u32>,
 }
 
 impl User {
-    /// The user as Linux describes it: the status of the process, `/etc/passwd` and `/etc/group`.
+    /// Parses the status of the process, `/etc/passwd` and `/etc/group`, as on Linux.
     pub(super) fn parse(status: &str, passwords: &str, groups: &str) -> Option<User> {
         let numbers = |label: &str| -> Option<Vec<u32>> {
             let line = status.lines().find_map(|line| line.strip_prefix(label))?;
@@ -22,7 +22,7 @@ impl User {
                 .map(|number| number.parse().ok())
                 .collect()
         };
-        // Real, effective, saved and file-system id; the last is the one that opens files.
+        // Real, effective, saved and file-system id; the last one applies to opening files.
         let id = *numbers("Uid:")?.last()?;
         let mut own_groups: BTreeSet<u32> = numbers("Groups:")?.into_iter().collect();
         own_groups.insert(*numbers("Gid:")?.last()?);
@@ -51,13 +51,13 @@ impl User {
         Some(user)
     }
 
-    /// What to do so that the user may read and write the device `path`; `None` if nothing.
+    /// Remedy that lets the user read and write the device `path`; `None` if the user may already.
     pub(super) fn remedy(&self, path: &str, metadata: &Metadata) -> Option<String> {
         let owned = Ownership::of(metadata)?;
         const READ_WRITE: u32 = 0o6;
         let permits = |shift: u32| (owned.mode >> shift) & READ_WRITE == READ_WRITE;
         let is_member = self.groups.contains(&owned.group);
-        // The first class that a user belongs to decides, as in the kernel.
+        // The first matching class decides, as in the kernel.
         let permitted = match () {
             () if self.id == 0 => true,
             () if self.id == owned.owner => permits(6),
@@ -88,7 +88,7 @@ impl User {
     }
 }
 
-/// Who owns a file, and what they may do.
+/// Owner, group and mode of a file.
 struct Ownership {
     owner: u32,
     group: u32,

@@ -1,4 +1,4 @@
-//! How a machine on a serial line is reached and within which limits it moves: what is the same in every dialect.
+//! Options and limits of a machine on a serial port, common to all dialects.
 
 use taceva_core::{
     ArgSpec, ArgValue, Args, DriverError, DriverKey, ErrorKind, Point, Pose, Rotation, Speed,
@@ -7,7 +7,7 @@ use taceva_core::{
 
 use crate::arguments::robot::{deceleration, robot_facts, speed_limit, speed_max};
 
-/// What a machine is opened with.
+/// Options for opening a machine.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SerialOptions {
     pub(super) port: String,
@@ -15,13 +15,13 @@ pub(super) struct SerialOptions {
     pub(super) speed_max: Speed,
 }
 
-/// What a machine does when it moves.
+/// Operation name of a move, for errors.
 pub(super) const MOVE: &str = "move the machine";
-/// Seconds in a minute, by which machines count speed.
+/// Seconds per minute; machines use mm/min.
 const SECONDS: f64 = 60.0;
 
 impl SerialOptions {
-    /// The arguments of a machine.
+    /// Arguments of a machine.
     pub(super) fn arguments() -> Vec<ArgSpec> {
         let mut arguments = vec![
             ArgSpec::path("port")
@@ -36,10 +36,10 @@ impl SerialOptions {
         arguments
     }
 
-    /// What `args` ask for.
+    /// Reads the options from `args`.
     ///
     /// # Errors
-    /// [`SpeedError`] for a speed that is none, which its range rules out.
+    /// [`SpeedError`] for an invalid speed, which the range of the argument rules out.
     pub(super) fn of(args: &Args) -> Result<SerialOptions, SpeedError> {
         Ok(SerialOptions {
             port: args.text("port").to_owned(),
@@ -48,7 +48,7 @@ impl SerialOptions {
         })
     }
 
-    /// Refuses a motion that a machine of three axes does not make.
+    /// Rejects a motion that a machine with three axes cannot make.
     ///
     /// # Errors
     /// `InvalidArgument` and `OutOfRange`, as [`Robot::move_to`](taceva_core::Robot::move_to).
@@ -75,14 +75,14 @@ impl SerialOptions {
     }
 }
 
-/// The words of a straight motion to `target`: in mm, at mm a minute.
+/// G-code words of a straight motion to `target`, in mm and mm/min.
 pub(super) fn straight(target: &Point, speed: Speed) -> String {
     let Point { x, y, z } = target;
     let feed = speed.mm_per_s() * SECONDS;
     format!("G1 X{:.4} Y{:.4} Z{:.4} F{feed:.3}", x.0, y.0, z.0)
 }
 
-/// How far a machine is from `target`, in mm.
+/// Distance from `target`, mm.
 pub(super) fn short_mm(place_mm: [f64; 3], target: &Point) -> f64 {
     let target = [target.x.0, target.y.0, target.z.0];
     let sides = place_mm.iter().zip(target).map(|(at, to)| at - to);

@@ -1,4 +1,4 @@
-//! The line to a machine: bytes and commands out, lines in, with a thread of its own that reads. What a line says is a matter of the dialect.
+//! Serial link to a machine: writes bytes and commands; a separate thread reads lines. Each dialect parses its lines.
 
 use std::fs::File;
 use std::io::{self, Read, Write};
@@ -15,7 +15,7 @@ use super::port::{open_line, release_line};
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
 
-/// What a line of a machine says: one thing, the other, both, or nothing that matters.
+/// Content of a machine's line: an answer, a status, both, or neither.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Heard<S> {
     pub(super) answer: Option<Answer>,
@@ -23,14 +23,14 @@ pub(super) struct Heard<S> {
 }
 
 impl<S> Heard<S> {
-    /// Nothing that matters.
+    /// A line without relevant content.
     #[cfg(test)]
     pub(super) const NOTHING: Heard<S> = Heard {
         answer: None,
         status: None,
     };
 
-    /// An answer alone.
+    /// Creates a line with only an answer.
     #[cfg(any(test, feature = "grbl"))]
     pub(super) fn answer(answer: Answer) -> Heard<S> {
         Heard {
@@ -40,28 +40,28 @@ impl<S> Heard<S> {
     }
 }
 
-/// What a machine says of a command.
+/// Answer of a machine to a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(
     not(feature = "marlin"),
     expect(dead_code, reason = "GRBL says less than others")
 )]
 pub(super) enum Answer {
-    /// It was taken.
+    /// The command was accepted.
     Ok,
-    /// It was refused, and why.
+    /// The command was rejected, for this reason.
     Refused(String),
-    /// The machine stopped and has to be looked at, and why.
+    /// The machine stopped for this reason and needs inspection.
     Fault(String),
-    /// It works on it.
+    /// The command is being executed.
     Busy,
-    /// A number that it was asked to repeat.
+    /// Number that the machine was asked to echo.
     Mark(u32),
-    /// What it can do, as it says of itself.
+    /// Capability and its presence.
     Can(String, bool),
 }
 
-/// Why a command had no effect.
+/// Failure of a command.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum CommandError {
     #[error("no answer to `{command}` within {patience:?}")]
@@ -75,7 +75,7 @@ pub(super) enum CommandError {
 }
 
 impl CommandError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             CommandError::Silent { .. } => ErrorKind::Timeout,
@@ -84,20 +84,20 @@ impl CommandError {
         }
     }
 
-    /// The error of `driver` while it was `doing` something.
+    /// Converts the failure into an error of `driver` that occurred while it was `doing`.
     pub(super) fn met(self, driver: &DriverKey, doing: &'static str) -> DriverError {
         DriverError::new(self.kind(), driver, doing).because(self)
     }
 }
 
-/// The half of the line that writes, which several may hold.
+/// Shared writing half of the link.
 #[derive(Clone, Debug)]
 pub(super) struct Writer {
     file: Arc<Mutex<File>>,
 }
 
 impl Writer {
-    /// Sends bytes, none of another between them.
+    /// Sends bytes without interleaving.
     pub(super) fn send(&self, bytes: &[u8]) -> io::Result<()> {
         self.file().write_all(bytes)
     }
@@ -107,7 +107,7 @@ impl Writer {
     }
 }
 
-/// A machine that is connected.
+/// Link to a connected machine.
 #[derive(Debug)]
 pub(super) struct SerialLink<S> {
     writer: Writer,
@@ -118,10 +118,10 @@ pub(super) struct SerialLink<S> {
 }
 
 impl<S: Clone + Send + 'static> SerialLink<S> {
-    /// Opens the line at `path`, whose lines `read` understands.
+    /// Opens the serial port at `path`. `read` parses its lines.
     ///
     /// # Errors
-    /// Those of [`open_line`], and `Internal` where no thread can be had.
+    /// As [`open_line`]; `Internal` if no thread can be started.
     pub(super) fn open(
         driver: &DriverKey,
         path: &str,
@@ -166,13 +166,13 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         &self.writer
     }
 
-    /// What the machine says of where it is.
+    /// Mailbox of the machine's status reports.
     pub(super) fn statuses(&self) -> &Mailbox<S> {
         &self.statuses
     }
 
-    /// Sends a command, whose answer is [`answer`](SerialLink::answer); answers to earlier commands that came are thrown away, but for a fault, which a
-    /// machine may say once.
+    /// Sends a command; [`answer`](SerialLink::answer) receives its answer. Discards answers to earlier commands, but returns a fault,
+    /// which a machine may report only once.
     pub(super) fn send(&mut self, command: &str) -> Result<(), CommandError> {
         while let Ok(answer) = self.answers.try_recv() {
             if let Answer::Fault(why) = answer {
@@ -183,18 +183,18 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         sent.map_err(|error| CommandError::Broken(error.to_string()))
     }
 
-    /// Throws away what came, faults too: of a machine whose state says that they are over.
+    /// Discards received answers including faults, for a machine whose state shows that they are over.
     #[cfg(feature = "grbl")]
     pub(super) fn forget(&mut self) {
         while self.answers.try_recv().is_ok() {}
     }
 
-    /// The next answer, waited for as long as `patience`; `None` if none came.
+    /// Waits up to `patience` for the next answer; `None` if none arrives.
     pub(super) fn answer(&mut self, patience: Duration) -> Option<Answer> {
         self.answers.recv_timeout(patience).ok()
     }
 
-    /// Sends a command and waits until it is taken; `other` is handed the answers that are none to it.
+    /// Sends a command and waits until it is accepted. Passes unrelated answers to `other`.
     pub(super) fn command(
         &mut self,
         command: &str,
@@ -228,12 +228,12 @@ impl<S> Drop for SerialLink<S> {
         if let Some(reader) = self.reader.take() {
             let _ = reader.join();
         }
-        // Whoever can still stop the machine has the line too, and does not keep it from others.
+        // Stop handles keep the port open, so release the lock for other programs.
         release_line(&self.writer.file());
     }
 }
 
-/// Hands over what comes until it is over, or nothing can come any more.
+/// Posts statuses and sends answers until `is_over` is set or the port fails.
 fn read<S: Clone>(
     mut file: File,
     understand: fn(&str) -> Heard<S>,
@@ -244,7 +244,7 @@ fn read<S: Clone>(
     let mut lines = Lines::default();
     let mut bytes = [0; 1024];
     while !is_over.load(Ordering::Acquire) {
-        // Nothing within a tenth of a second is no end: a line has none.
+        // A read of 0 bytes is a timeout of 0.1 s: a serial port has no end.
         let count = match file.read(&mut bytes) {
             Ok(count) => count,
             Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
@@ -260,7 +260,7 @@ fn read<S: Clone>(
             }
             said.extend(answer);
         });
-        // First: whoever waits for an answer finds the status there.
+        // Post the status first, so that it is available once the answer arrives.
         if let Some(status) = newest {
             posting.post_last(came, status, at);
         }
@@ -271,19 +271,19 @@ fn read<S: Clone>(
     Ok(())
 }
 
-/// A longer line is none.
+/// Maximum length of a line, bytes. Longer lines are dropped.
 const LINE_MAX: usize = 256;
 
-/// Cuts what comes, in pieces of any size, into lines.
+/// Splits bytes that arrive in pieces of any size into lines.
 #[derive(Debug, Default)]
 pub(super) struct Lines {
     waiting: Vec<u8>,
-    /// Whether the present line is too long, and passed over.
+    /// True if the current line is too long and is dropped.
     is_endless: bool,
 }
 
 impl Lines {
-    /// Takes bytes, and hands over the lines that end in them, without white space around them.
+    /// Appends bytes and passes each completed line, trimmed, to `take`.
     pub(super) fn push(&mut self, bytes: &[u8], mut take: impl FnMut(&str)) {
         for byte in bytes {
             match byte {
@@ -300,7 +300,7 @@ impl Lines {
     }
 }
 
-/// What a dialect makes of `text` that comes in pieces of so many bytes.
+/// Parses `text` in pieces of `piece` bytes.
 #[cfg(test)]
 pub(super) fn understood<S>(
     text: &[u8],

@@ -1,4 +1,4 @@
-//! `gcode/marlin`: printers with Marlin 2 on a serial line.
+//! `gcode/marlin`: printers with Marlin 2 on a serial port.
 
 mod factory;
 mod line;

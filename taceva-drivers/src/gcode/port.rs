@@ -1,4 +1,4 @@
-//! A serial line, as a file: raw, at a speed, held alone.
+//! Serial port as a file: raw, with a baud rate, locked.
 
 use std::fs::File;
 use std::io;
@@ -14,7 +14,7 @@ use thiserror::Error;
 
 use crate::text::shown;
 
-/// Why a serial line was not opened.
+/// Failure to open a serial port.
 #[derive(Debug, Error)]
 pub(super) enum PortError {
     #[error("cannot open {}: {source}", shown(.path))]
@@ -30,7 +30,7 @@ pub(super) enum PortError {
 }
 
 impl PortError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             PortError::Open { source, .. } => match source.kind() {
@@ -44,16 +44,16 @@ impl PortError {
     }
 }
 
-/// Opens the line at `path` with eight bits, no parity and no flow control, and locks it: nobody but root can open it after that, and no program that
-/// asks for the lock, as this one does, has it meanwhile.
+/// Opens the serial port at `path` with eight bits, no parity and no flow control, and locks it. Afterwards only root can open it, and no
+/// program that requests the lock gets it.
 ///
-/// A read of it returns after at most a tenth of a second, with nothing if nothing came.
+/// A read times out after 0.1 s with 0 bytes.
 pub(super) fn open_line(path: &str, baud: u32) -> Result<File, PortError> {
     let refused = |source: Errno| PortError::Open {
         path: path.to_owned(),
         source: source.into(),
     };
-    // Without waiting for a carrier, which no machine gives; after that reads and writes wait.
+    // Do not wait for a carrier, which no machine provides. Later reads and writes block.
     let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::NONBLOCK | OFlags::CLOEXEC;
     let line = open(path, flags, Mode::empty()).map_err(refused)?;
     if !isatty(&line) {
@@ -63,7 +63,7 @@ pub(super) fn open_line(path: &str, baud: u32) -> Result<File, PortError> {
     }
     flock(&line, FlockOperation::NonBlockingLockExclusive).map_err(|source| PortError::Open {
         path: path.to_owned(),
-        // That it would have to wait is how the system says it.
+        // The system reports a held lock as `EWOULDBLOCK`.
         source: match source {
             Errno::WOULDBLOCK => Errno::BUSY.into(),
             other => other.into(),
@@ -90,9 +90,9 @@ pub(super) fn open_line(path: &str, baud: u32) -> Result<File, PortError> {
     Ok(File::from(line))
 }
 
-/// Lets others have the line, however many here still have it open.
+/// Releases the lock, even while handles here keep the port open.
 pub(super) fn release_line(line: &File) {
-    // A line that is gone is nobody's.
+    // A lost port has no lock.
     let _ = flock(line, FlockOperation::Unlock);
 }
 

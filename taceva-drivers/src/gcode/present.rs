@@ -1,4 +1,4 @@
-//! The serial lines of this machine, by the names that stay the same when a device is plugged in anew.
+//! Serial ports of this machine, by names that survive replugging.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use taceva_core::{DriverKey, Found};
 use crate::present::access_of;
 use crate::text::shown;
 
-/// Every adapter of a serial line that is plugged in, as `driver` would open it. Which dialect its machine speaks is known once it is opened.
+/// Lists all connected serial adapters as devices of `driver`. The dialect of a machine is unknown until it is opened.
 pub(super) fn adapters(driver: &DriverKey) -> Vec<Found> {
     adapters_in(Path::new("/"), driver)
 }
@@ -18,7 +18,7 @@ fn adapters_in(root: &Path, driver: &DriverKey) -> Vec<Found> {
     let entries = fs::read_dir(folder).into_iter().flatten();
     let mut names: Vec<String> = entries
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        // A name with a separator of arguments would be cut there.
+        // A `;` would end the argument.
         .filter(|name| !name.contains(';'))
         .collect();
     names.sort();

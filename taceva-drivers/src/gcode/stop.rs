@@ -1,4 +1,4 @@
-//! The means to stop a machine from any thread.
+//! Halt of a machine from any thread.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -6,20 +6,20 @@ use taceva_core::{DriverError, DriverKey, ErrorKind, Halt};
 
 use super::link::Writer;
 
-/// A latch on this side, and what makes the machine stand.
+/// Halt handle: a latch in the driver, and the bytes that stop the machine.
 #[derive(Debug)]
 pub(super) struct Stop {
     driver: DriverKey,
     is_halted: AtomicBool,
-    /// Set once the robot is dropped: there is nothing left to stop.
+    /// Set once the robot is dropped, when there is nothing left to stop.
     is_gone: AtomicBool,
     writer: Writer,
-    /// What the machine takes at once, whatever else it does.
+    /// Command that the machine executes at once in any state.
     bytes: &'static [u8],
 }
 
 impl Stop {
-    /// The stop of the machine behind `writer`, which stands when it is sent `bytes`.
+    /// Creates the stop of the machine behind `writer`, which stops on `bytes`.
     pub(super) fn new(driver: DriverKey, writer: Writer, bytes: &'static [u8]) -> Stop {
         Stop {
             driver,
@@ -34,17 +34,17 @@ impl Stop {
         self.is_halted.load(Ordering::Acquire)
     }
 
-    /// Ends the latch; what is done to the machine is its driver's.
+    /// Releases the latch. The driver handles the machine.
     pub(super) fn release(&self) {
         self.is_halted.store(false, Ordering::Release);
     }
 
-    /// Says that the robot is gone.
+    /// Records that the robot was dropped.
     pub(super) fn retire(&self) {
         self.is_gone.store(true, Ordering::Release);
     }
 
-    /// The error of a motion that was halted.
+    /// Error of a halted motion.
     pub(super) fn halted(&self) -> DriverError {
         DriverError::new(ErrorKind::Interrupted, &self.driver, super::limits::MOVE)
             .because("it was halted")

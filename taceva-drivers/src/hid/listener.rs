@@ -1,4 +1,4 @@
-//! A thread that takes the reports of a HID device as they come.
+//! Thread that reads the reports of a HID device.
 
 use std::io;
 use std::sync::Arc;
@@ -11,20 +11,20 @@ use taceva_core::ErrorKind;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
 
-/// Listens to a device until it is dropped.
+/// Reader of a device's reports, which runs until it is dropped.
 #[derive(Debug)]
 pub(super) struct Listener {
     is_over: Arc<AtomicBool>,
     reader: Option<JoinHandle<()>>,
 }
 
-/// How often the thread that reads looks whether it is over, in ms.
+/// Interval at which the thread checks for its end, ms.
 const LOOK_MS: i32 = 50;
-/// No report of a HID device of full speed is longer; high speed allows more, which neither scales nor pedals send.
+/// Maximum length of a report, bytes. Full-speed devices stay below it; scales and pedals do not use high speed.
 const REPORT_MAX: usize = 1024;
 
 impl Listener {
-    /// Posts to `posting` what `read` makes of each report; a report of which it makes nothing is passed over.
+    /// Parses each report with `read` and posts the result to `posting`. A report without a result is skipped.
     pub(super) fn start<T: Clone + Send + 'static>(
         device: HidDevice,
         posting: &Arc<Mailbox<T>>,

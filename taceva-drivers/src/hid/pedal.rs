@@ -1,4 +1,4 @@
-//! `hid/pedal`: pedals, buttons and hand switches on the USB that a person holds while a robot may move.
+//! `hid/pedal`: USB pedals, buttons and hand switches that a person holds while a robot may move.
 
 mod report;
 mod switch;

@@ -1,4 +1,4 @@
-//! `hid/scale`: scales on the USB that speak the usage page of weighing devices.
+//! `hid/scale`: USB scales with the HID usage page of weighing devices.
 
 mod factory;
 mod report;
@@ -22,7 +22,7 @@ taceva_core::inventory::submit! {
     }
 }
 
-/// Beginning of the description of a scale's reports: usage page 0x8D, usage 0x20.
+/// First bytes of a scale's report descriptor: usage page 0x8D, usage 0x20.
 const SCALE: &[u8] = &[0x05, 0x8d, 0x09, 0x20];
 
 fn is_scale(machine: &Machine, name: &str) -> bool {

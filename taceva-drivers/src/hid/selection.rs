@@ -1,4 +1,4 @@
-//! Which of the HID devices of this machine is meant, and opening it.
+//! Selection and opening of a HID device.
 
 use std::ffi::CString;
 use std::fmt;
@@ -12,17 +12,17 @@ use thiserror::Error;
 use crate::present::access_of;
 use crate::text::shown;
 
-/// What tells one HID device from others; what is absent is not asked for.
+/// Criteria for a HID device. Absent criteria match any device.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Selection {
-    /// Its file: `/dev/hidraw0`.
+    /// Device file, such as `/dev/hidraw0`.
     pub(super) device: Option<String>,
-    /// The numbers of its vendor and of itself.
+    /// Vendor and product id.
     pub(super) numbers: Option<[u16; 2]>,
     pub(super) serial: Option<String>,
 }
 
-/// Why no HID device was opened.
+/// Failure to open a HID device.
 #[derive(Debug, Error)]
 pub(super) enum HidOpenError {
     #[error("`usb` is `{}`, expected two numbers of four hexadecimal digits: `0922:8003`", shown(.0))]
@@ -42,7 +42,7 @@ pub(super) enum HidOpenError {
 }
 
 impl HidOpenError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             HidOpenError::Numbers(_)
@@ -60,7 +60,7 @@ impl HidOpenError {
     }
 }
 
-/// A HID device that is present.
+/// A connected HID device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Present {
     path: String,
@@ -82,14 +82,14 @@ impl fmt::Display for Present {
 }
 
 impl Present {
-    /// Every HID device of this machine, in the order of their files.
+    /// Lists all HID devices of this machine, sorted by device file.
     pub(super) fn all() -> Result<Vec<Present>, HidOpenError> {
         let api = HidApi::new().map_err(HidOpenError::List)?;
         let mut all: Vec<Present> = Vec::new();
         for info in api.device_list() {
             let path = info.path().to_string_lossy().into_owned();
             let usage = (info.usage_page(), info.usage());
-            // A device comes once for each of its collections.
+            // The list has one entry per collection of a device.
             match all.iter_mut().find(|present| present.path == path) {
                 Some(present) => present.usages.push(usage),
                 None => all.push(Present::of(info, path, usage)),
@@ -109,12 +109,12 @@ impl Present {
         }
     }
 
-    /// Whether one of its collections has this usage.
+    /// True if one of the device's collections has this usage.
     pub(super) fn has_usage(&self, usage: (u16, u16)) -> bool {
         self.usages.contains(&usage)
     }
 
-    /// The device as `driver` found it, with what selects it.
+    /// Describes the device for `driver`, with the arguments that select it.
     pub(super) fn found(&self, driver: DriverKey) -> Found {
         let [vendor, product] = self.numbers;
         let usual = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
@@ -127,7 +127,7 @@ impl Present {
             false => self.title.clone(),
         };
         let access = match access_of(Path::new(&self.path), "plugdev") {
-            // No group owns HID devices of its own accord.
+            // By default no group owns HID devices.
             Access::Denied { .. } => Access::Denied {
                 remedy: format!(
                     "permit it by a udev rule: KERNEL==\"hidraw*\", ATTRS{{idVendor}}==\"{vendor:04x}\", TAG+=\"uaccess\""
@@ -142,7 +142,7 @@ impl Present {
 }
 
 impl Selection {
-    /// The arguments that select a device.
+    /// Arguments that select a device.
     pub(super) fn arguments() -> [ArgSpec; 3] {
         [
             ArgSpec::text("usb")
@@ -157,7 +157,7 @@ impl Selection {
         ]
     }
 
-    /// What `args` select.
+    /// Reads the criteria from `args`.
     pub(super) fn of(args: &Args) -> Result<Selection, HidOpenError> {
         let text = |key| args.get(key).and_then(|value| value.as_text());
         Ok(Selection {
@@ -167,8 +167,8 @@ impl Selection {
         })
     }
 
-    /// Opens the one device that fits, of those with `usage` where nothing else is said of it. Where no usage is asked for it must be named: any
-    /// mouse would fit.
+    /// Opens the only matching device. `usage` restricts the search unless vendor and product are given. Without a usage, a criterion is
+    /// required, since any mouse would match.
     pub(super) fn open(&self, usage: Option<(u16, u16)>) -> Result<HidDevice, HidOpenError> {
         if let Some(path) = &self.device {
             return open(path);
@@ -246,7 +246,7 @@ fn numbers(text: &str) -> Result<[u16; 2], HidOpenError> {
 }
 
 fn open(path: &str) -> Result<HidDevice, HidOpenError> {
-    // What the library says of a file that does not open is a sentence; the kind of the error is asked of the system.
+    // The library gives only a sentence for a file that does not open. Open it again to get the system's error kind.
     let refused = |source| HidOpenError::Refused {
         path: path.to_owned(),
         source,

@@ -1,4 +1,4 @@
-//! Connecting within a deadline.
+//! TCP connections with a timeout.
 
 use std::io;
 use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
@@ -6,13 +6,13 @@ use std::time::Duration;
 
 use super::LinkError;
 
-/// How long a connection may take to be made: devices of a laboratory answer in milliseconds.
+/// Timeout per address. Laboratory devices answer in milliseconds.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// A connection to `port` of `host`, without the delay by which small messages wait for more.
+/// Connects to `port` of `host`, with `TCP_NODELAY`, so that small messages are not delayed.
 ///
 /// # Errors
-/// [`LinkError`]: no such host, nobody listens, or no answer within 2 s an address.
+/// [`LinkError`] if the host is unknown, the connection is refused, or no answer arrives within 2 s per address.
 pub(crate) fn connect(host: &str, port: u16) -> Result<(TcpStream, SocketAddr), LinkError> {
     let unresolved = |source| LinkError::Resolve {
         host: host.to_owned(),

@@ -1,19 +1,19 @@
-//! A straight way that an arm is sent along by velocities which expire.
+//! Straight path that an arm follows by expiring velocities.
 
 use std::time::Duration;
 
 use taceva_core::{Pose, Speed};
 
-/// From one velocity to the next: three in a row may be lost.
+/// Interval between velocities. Three in a row may be lost.
 pub(crate) const RENEWED: Duration = Duration::from_millis(50);
-/// So long before its end the way is left to a straight line, which alone ends where it should.
+/// Remaining time at which a straight line takes over, since only a line ends exactly at the target.
 pub(crate) const LINE: Duration = Duration::from_millis(100);
-/// A way that takes no longer is a line from its beginning: to change from one motion to the other takes time too.
+/// Maximum duration of a path that is a line from its start, since the change of motion takes time too.
 const WORTH: Duration = Duration::from_millis(300);
-/// Turned by less than this, in degrees, a tool counts as turned as it was asked to be.
+/// Tolerance of the tool's rotation, degrees.
 const TURNED_DEG: f64 = 0.01;
 
-/// A straight way without turning, in mm and mm/s of the base frame.
+/// Straight path without rotation, in the base frame.
 #[derive(Debug)]
 pub(crate) struct Course {
     to_mm: [f64; 3],
@@ -22,7 +22,7 @@ pub(crate) struct Course {
 }
 
 impl Course {
-    /// From where the arm was seen to `target`; `None` of a way that is short or on which the tool turns.
+    /// Creates the path from the observed pose to `target`. `None` if the path is short or the tool rotates.
     pub(crate) fn of(from: &Pose, target: &Pose, speed: Speed) -> Option<Course> {
         let turns = [
             (from.rotation.x.0, target.rotation.x.0),
@@ -35,7 +35,7 @@ impl Course {
         let way_mm = [0, 1, 2].map(|axis| to_mm[axis] - from_mm[axis]);
         let (length_mm, speed_mm_s) = (length(way_mm), speed.mm_per_s());
         let is_short = length_mm <= speed_mm_s * WORTH.as_secs_f64();
-        // A pose that is no number has no length.
+        // A pose with NaN has no length.
         if turns.into_iter().any(is_turned) || is_short || !length_mm.is_finite() {
             return None;
         }
@@ -47,7 +47,7 @@ impl Course {
         })
     }
 
-    /// How long the way takes that is left from where the arm was seen; none behind the end.
+    /// Remaining duration from the observed pose; zero past the end.
     pub(crate) fn left(&self, seen: &Pose) -> Duration {
         let at_mm = place(seen);
         let along = |axis: usize| (self.to_mm[axis] - at_mm[axis]) * self.velocity_mm_s[axis];
@@ -55,7 +55,7 @@ impl Course {
         Duration::try_from_secs_f64(left_s.max(0.0)).unwrap_or_default()
     }
 
-    /// The velocity of the tip, in mm/s.
+    /// Velocity of the tip, mm/s.
     pub(crate) fn velocity_mm_s(&self) -> [f64; 3] {
         self.velocity_mm_s
     }
@@ -90,7 +90,7 @@ mod tests {
         let left_s = |x, z| course.left(&at(x, z)).as_secs_f64();
         assert!((left_s(0.0, 0.0) - 1.0).abs() < 1e-9);
         assert!((left_s(1.5, -2.0) - 0.5).abs() < 1e-9);
-        // Beside the way the nearest place of it counts, and behind the end nothing is left.
+        // Off the path the nearest point counts, and past the end nothing is left.
         assert!((left_s(1.5 + 0.4, -2.0 + 0.3) - 0.5).abs() < 1e-9);
         assert!(left_s(6.0, -8.0) < 1e-12);
         assert!(Course::of(&at(0.0, 0.0), &at(0.0, 1.5), speed).is_none());

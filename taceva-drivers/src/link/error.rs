@@ -1,4 +1,4 @@
-//! Why a link to a device could not be made, or is of no use any more.
+//! Failures of links to devices.
 
 use std::io;
 use std::net::SocketAddr;
@@ -8,32 +8,32 @@ use taceva_core::ErrorKind;
 use super::mailbox::Ending;
 use crate::text::shown;
 
-/// A link that failed.
+/// Failure of a link.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum LinkError {
-    /// A name that leads nowhere.
+    /// The host name cannot be resolved.
     #[error("`{}` has no address: {source}; expected a name or a number such as `192.168.1.10`", shown(.host))]
     Resolve { host: String, source: io::Error },
-    /// Nobody listens, or nobody answers.
+    /// The connection was refused or timed out.
     #[error("{address} does not accept a connection: {source}")]
     Connect {
         address: SocketAddr,
         source: io::Error,
     },
-    /// It broke.
+    /// The connection broke.
     #[error("the connection to {address} broke: {source}")]
     Broken {
         address: SocketAddr,
         source: io::Error,
     },
-    /// The other side closed it, which datagrams do not tell.
+    /// The other side closed the connection. Does not occur with datagrams.
     #[cfg(any(feature = "mjpeg", feature = "sri", feature = "ur", feature = "xarm"))]
     #[error("{address} closed the connection")]
     Closed { address: SocketAddr },
 }
 
 impl LinkError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(crate) fn kind(&self) -> ErrorKind {
         match self {
             LinkError::Resolve { .. } => ErrorKind::NotFound,

@@ -1,11 +1,11 @@
-//! Where a thread that reads from a device leaves the newest thing it read, for whoever waits for the next.
+//! Mailbox with the newest reading of a device, from its reader thread to waiting callers.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use taceva_core::{DriverError, DriverKey, ErrorKind, Interrupt};
 
-/// The newest of what came, and why nothing comes any more. Older things are not kept: who comes late gets what is true now.
+/// Newest item of a reader thread, and the reason for its end. Older items are dropped, so that late callers get the current one.
 #[derive(Debug)]
 pub(crate) struct Mailbox<T> {
     inside: Mutex<Inside<T>>,
@@ -17,12 +17,12 @@ struct Inside<T> {
     newest: Option<Seen<T>>,
     posted: u64,
     ended: Option<Ending>,
-    /// Whether somebody waits, and whether he is to stop that.
+    /// True while a caller waits, and true if that caller is to be interrupted.
     is_waiting: bool,
     is_interrupted: bool,
 }
 
-/// Something that came, its number since the link was made, and when it came on the monotonic clock.
+/// Received item with its number since the start, and its arrival time on the monotonic clock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen<T> {
     pub(crate) what: T,
@@ -30,26 +30,26 @@ pub(crate) struct Seen<T> {
     pub(crate) at: Duration,
 }
 
-/// Why nothing comes any more.
+/// Reason for the end of a reader thread.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Ending {
     pub(crate) kind: ErrorKind,
     pub(crate) why: String,
 }
 
-/// Why there is nothing newer.
+/// Cause for the absence of a newer item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum NoNews {
-    /// Nothing came in time.
+    /// The timeout expired.
     Silent,
-    /// Somebody said not to wait.
+    /// The wait was interrupted.
     Interrupted,
-    /// Nothing will come.
+    /// The reader thread has ended.
     Ended(Ending),
 }
 
 impl NoNews {
-    /// The error of `driver` that waited while it was `doing` something; `silence` says what did not come, and for how long.
+    /// Converts the cause into an error of `driver` that waited while it was `doing`. `silence` describes a timeout.
     pub(crate) fn while_waiting(
         self,
         driver: &DriverKey,
@@ -81,7 +81,7 @@ impl<T> Default for Mailbox<T> {
 }
 
 impl<T: Clone> Mailbox<T> {
-    /// Leaves the last of `count` things that came at once, `at`: the others are old already, and two of one time are no order.
+    /// Posts the last of `count` items that arrived together at time `at`. The earlier ones are outdated.
     pub(crate) fn post_last(&self, count: u64, what: T, at: Duration) {
         let mut inside = self.inside();
         inside.posted += count;
@@ -91,33 +91,33 @@ impl<T: Clone> Mailbox<T> {
         self.changed.notify_all();
     }
 
-    /// Says that nothing comes any more; the first reason stays.
+    /// Ends the mailbox; the first reason is kept.
     pub(crate) fn end(&self, ending: Ending) {
         self.inside().ended.get_or_insert(ending);
         self.changed.notify_all();
     }
 
-    /// Whether nothing comes any more.
+    /// True once the mailbox has ended.
     #[cfg(any(feature = "camera", feature = "netft"))]
     pub(crate) fn has_ended(&self) -> bool {
         self.inside().ended.is_some()
     }
 
-    /// Takes things again, from a link that was made anew; what came before is not given any more.
+    /// Reopens the mailbox for a new link and drops the last item.
     #[cfg(any(feature = "camera", feature = "netft"))]
     pub(crate) fn begin_again(&self) {
         let mut inside = self.inside();
         (inside.ended, inside.newest) = (None, None);
     }
 
-    /// The newest, if something has come and more still may.
+    /// Newest item; `None` before the first one and after the end.
     #[cfg(any(feature = "netft", feature = "sri", feature = "ur", feature = "xarm"))]
     pub(crate) fn newest(&self) -> Option<Seen<T>> {
         let inside = self.inside();
         inside.newest.clone().filter(|_| inside.ended.is_none())
     }
 
-    /// How many came so far.
+    /// Number of items received so far.
     #[cfg(any(
         feature = "camera",
         feature = "gcode",
@@ -129,10 +129,10 @@ impl<T: Clone> Mailbox<T> {
         self.inside().posted
     }
 
-    /// The newest behind the one numbered `after`, waited for as long as `patience`.
+    /// Waits up to `patience` for an item newer than number `after`.
     ///
     /// # Errors
-    /// [`NoNews`]: none came, or none will.
+    /// [`NoNews`] on a timeout, an interrupt, or the end.
     pub(crate) fn next(&self, after: u64, patience: Duration) -> Result<Seen<T>, NoNews> {
         let began = Instant::now();
         let mut inside = self.inside();

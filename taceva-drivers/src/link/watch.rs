@@ -1,4 +1,4 @@
-//! Looking at a robot while it moves, by what it reports over a connection of its own.
+//! Observation of a moving robot through its reports on a separate connection.
 
 use std::sync::Arc;
 
@@ -6,17 +6,17 @@ use taceva_core::{Deadline, DriverError, DriverKey, Pose, RobotWatch, Stamp};
 
 use super::Mailbox;
 
-/// The pose of the newest report that a robot sends by itself.
+/// Watch that returns the pose of the newest report of a robot.
 #[derive(Debug)]
 pub(crate) struct ReportedPose<T> {
-    /// Whose reports they are, which errors name.
+    /// Driver of the robot, for errors.
     pub(crate) driver: DriverKey,
     pub(crate) reports: Arc<Mailbox<T>>,
-    /// The pose that a report holds, or why it says nothing of where the tip is.
+    /// Function that extracts the pose of a report, or the reason why it has none.
     pub(crate) pose: fn(&T) -> Result<Pose, DriverError>,
 }
 
-/// What a watch does.
+/// Operation name of a watch, for errors.
 pub(crate) const LOOK: &str = "look where the arm is while it moves";
 
 impl<T: Clone + Send> RobotWatch for ReportedPose<T> {

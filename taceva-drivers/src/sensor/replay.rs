@@ -1,4 +1,4 @@
-//! A recording as a live sensor.
+//! Replay of a recording as a live sensor.
 
 mod factory;
 mod timeline;
@@ -13,32 +13,31 @@ use crate::pace::Pace;
 use crate::source::FrameSource;
 use timeline::Timeline;
 
-/// A sensor whose frames were taken at another time.
+/// A sensor that replays recorded frames.
 ///
-/// In virtual time every frame comes, as fast as it is asked for, stamped with the time of the recording. In real time a frame
-/// comes when it would have come, stamped in the time of the rig, and a caller that is too slow for some misses them.
-/// A frame that cannot be read is an error, and the one after it comes next.
+/// In virtual time every frame is delivered on request, stamped with the time of the recording. In real time a frame is delivered when it
+/// is due, stamped in the time of the rig; a slow caller misses frames. An unreadable frame is an error, and the next frame follows.
 pub struct Replay {
     source: Box<dyn FrameSource>,
     pace: Box<dyn Pace>,
     driver: DriverKey,
     timeline: Timeline,
-    /// How many frames have come or were missed.
+    /// Number of frames delivered or missed.
     passed: usize,
     running: bool,
 }
 
-/// How a recording is replayed.
+/// Options of a replay.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReplayOptions {
-    /// The name that errors call it by.
+    /// Driver key for errors.
     pub driver: DriverKey,
-    /// Whether it begins again after its last frame, rather than end.
+    /// True to restart after the last frame instead of ending.
     pub repeat: bool,
 }
 
 impl Replay {
-    /// A sensor that gives the frames of `source` in the time of `pace`.
+    /// Creates a sensor that delivers the frames of `source` at the times of `pace`.
     pub fn new(
         source: Box<dyn FrameSource>,
         pace: Box<dyn Pace>,
@@ -93,7 +92,7 @@ impl Sensor for Replay {
         }
         let now_s = self.pace.now_s();
         if self.pace.runs_by_itself() {
-            // Whoever comes late finds the newest frame, and has missed those before it.
+            // A late caller gets the newest frame and misses earlier ones.
             self.passed = self.passed.max(self.timeline.newest(now_s));
         }
         let Some(due_s) = self.timeline.time_s(self.passed) else {
@@ -113,7 +112,7 @@ impl Sensor for Replay {
             .map_err(|fault| self.refused(fault.kind(), fault))?;
         Ok(Stamp {
             valid_s: due_s,
-            // Nothing is known of the latency of a recording; in real time it is that of reading the file.
+            // The latency of a recording is unknown. In real time it is that of reading the file.
             received_s: self
                 .pace
                 .runs_by_itself()

@@ -1,4 +1,4 @@
-//! PNG and JPEG files to pixels in the caller's buffer.
+//! Decoding of PNG and JPEG files into the caller's buffer.
 
 use std::io::Cursor;
 
@@ -9,13 +9,13 @@ use taceva_core::{FrameInfo, FrameMut, PixelFormat, contained};
 
 use super::limits;
 
-/// Size and format of the image in `bytes`; nothing is decoded.
+/// Reads size and format of the image in `bytes`, without decoding it.
 pub(crate) fn info(bytes: &[u8]) -> Result<FrameInfo, String> {
     let decoder = opened(bytes)?;
     frame_info(decoder.as_ref())
 }
 
-/// Writes the pixels of the image into `into`, if it has that size and format.
+/// Decodes the image into `into`, which must have its size and format.
 pub(crate) fn decode(bytes: &[u8], into: &mut FrameMut<'_>) -> Result<(), Mismatch> {
     let decoder = opened(bytes).map_err(Mismatch::Damaged)?;
     let found = frame_info(decoder.as_ref()).map_err(Mismatch::Damaged)?;
@@ -26,26 +26,26 @@ pub(crate) fn decode(bytes: &[u8], into: &mut FrameMut<'_>) -> Result<(), Mismat
     contained(|| decoder.read_image_boxed(pixels))
         .and_then(|read| read.map_err(|error| error.to_string()))
         .map_err(Mismatch::Damaged)?;
-    // The decoder writes 16-bit numbers in the order of the machine; frames hold them little-endian.
+    // The decoder writes 16-bit samples in native byte order; frames are little-endian.
     if cfg!(target_endian = "big") && found.format.bytes_per_sample() == 2 {
         pixels.chunks_exact_mut(2).for_each(<[u8]>::reverse);
     }
     Ok(())
 }
 
-/// Why an image was not written into a frame.
+/// Failure to decode an image into a frame.
 #[derive(Debug)]
 pub(crate) enum Mismatch {
-    /// It is of another size or format.
+    /// The image has another size or format.
     Size(FrameInfo),
-    /// It cannot be decoded.
+    /// The image cannot be decoded.
     Damaged(String),
 }
 
 const PNG: (&[u8], &[u8]) = (b"\x89PNG\r\n\x1a\n", b"IEND\xaeB`\x82");
 const JPEG: (&[u8], &[u8]) = (b"\xff\xd8\xff", b"\xff\xd9");
 
-/// A decoder for `bytes`, which must end as their format ends: a JPEG decoder would fill what is cut off with gray.
+/// Opens a decoder for `bytes`, which must end with the end marker of their format: a JPEG decoder would fill a truncated image with gray.
 fn opened(bytes: &[u8]) -> Result<Box<dyn ImageDecoder + '_>, String> {
     let begins = |(signature, _): (&[u8], &[u8])| bytes.starts_with(signature);
     let (_, end) = match (begins(PNG), begins(JPEG)) {

@@ -1,4 +1,4 @@
-//! Why frames could not be read.
+//! Errors of reading recorded frames.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,72 +7,72 @@ use taceva_core::{ErrorKind, FrameInfo};
 
 use crate::text;
 
-/// A recording, or one frame of it, that cannot be replayed.
+/// A recording or a frame that cannot be replayed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SourceError {
-    /// The operating system refused.
+    /// The operating system reported an error.
     #[error("cannot {doing} {}: {source}", shown(path))]
     Io {
-        /// What was being done.
+        /// Operation that failed.
         doing: &'static str,
-        /// On which file or folder.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: io::Error,
     },
-    /// A folder that holds nothing to replay.
+    /// The folder contains no frame.
     #[error(
         "{} holds no frame, expected files that end in .png, .jpg or .jpeg",
         shown(folder)
     )]
     Empty {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
     },
-    /// More than is accepted.
+    /// The folder contains too many frames.
     #[error("{} holds more than {most} frames", shown(folder))]
     TooMany {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
-        /// How many are accepted.
+        /// Maximum number of frames.
         most: usize,
     },
-    /// A frame that is damaged, too large, or of a kind that cameras do not send.
+    /// The frame is damaged, too large, or in a format that cameras do not send.
     #[error("{}: {problem}", shown(path))]
     Frame {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong and what would be accepted.
+        /// The fault and the expected value.
         problem: String,
     },
-    /// A frame that is unlike the first one.
+    /// The frame differs in size or format from the first one.
     #[error(
         "{}: a frame of {found}, expected {expected} as the first one is",
         shown(path)
     )]
     Size {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Size and format of the first frame.
         expected: FrameInfo,
-        /// Size and format of this one.
+        /// Size and format of this frame.
         found: FrameInfo,
     },
-    /// A table of times that does not fit its folder.
+    /// The table of times does not match its folder.
     #[error("{}{}: {problem}", shown(path), at(*line))]
     Times {
-        /// The table.
+        /// Path of the table.
         path: PathBuf,
-        /// The line, counted from 1, where one is to blame.
+        /// Line of the fault, counted from 1; `None` if it has none.
         line: Option<u64>,
-        /// What is wrong and what would be accepted.
+        /// The fault and the expected value.
         problem: String,
     },
 }
 
 impl SourceError {
-    /// What kind of failure it was.
+    /// Kind of the failure.
     pub fn kind(&self) -> ErrorKind {
         match self {
             SourceError::Io { source, .. } => match source.kind() {

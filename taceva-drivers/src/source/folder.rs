@@ -1,4 +1,4 @@
-//! A folder of pictures as a recording.
+//! A folder of images as a recording.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -13,18 +13,18 @@ use super::error::SourceError;
 use super::{FrameSource, limits, times};
 use crate::name_order;
 
-/// When the frames of a folder were true.
+/// Times of the frames in a folder.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Timing {
-    /// At a steady rate from 0 s on, in the order of their names: numbers in names count as numbers.
+    /// Constant rate from 0 s, in natural order of the file names.
     Rate(Hertz),
-    /// As a CSV table with the columns `file` and `t_s` says; it names every frame of the folder once.
+    /// CSV table with the columns `file` and `t_s`, which names every frame of the folder once.
     Table(PathBuf),
 }
 
-/// The PNG and JPEG files of one folder, each read when it is asked for.
+/// PNG and JPEG files of one folder, each read on request.
 ///
-/// Other files are ignored; links are not followed.
+/// Other files are ignored. Links to images are rejected.
 #[derive(Debug)]
 pub struct FolderSource {
     files: Vec<PathBuf>,
@@ -34,10 +34,10 @@ pub struct FolderSource {
 }
 
 impl FolderSource {
-    /// The frames in `folder`. Only the head of the first is read.
+    /// Opens the frames in `folder`. Only the first file is read.
     ///
     /// # Errors
-    /// [`SourceError`] if the folder is missing, holds no frame, its first frame is damaged, or the table does not fit.
+    /// [`SourceError`] if the folder is missing or empty, its first frame is damaged, or the table does not match.
     pub fn open(folder: &Path, timing: &Timing) -> Result<FolderSource, SourceError> {
         let names = names_in(folder)?;
         let (names, times_s) = match timing {
@@ -87,7 +87,7 @@ impl FrameSource for FolderSource {
     }
 }
 
-/// The names of the pictures in `folder`, in order; at least one.
+/// Names of the images in `folder`, sorted; at least one.
 fn names_in(folder: &Path) -> Result<Vec<String>, SourceError> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(SourceError::io("read the folder", folder))? {
@@ -168,7 +168,7 @@ fn timed(names: Vec<String>, table: &Path) -> Result<(Vec<String>, Vec<f64>), So
     Ok(rows.into_iter().map(|row| (row.name, row.time_s)).unzip())
 }
 
-/// The bytes of a file, into a buffer that is kept from frame to frame.
+/// Reads a file into a reused buffer.
 fn read_into(buffer: &mut Vec<u8>, path: &Path) -> Result<(), SourceError> {
     buffer.clear();
     let file = File::open(path).map_err(SourceError::io("open", path))?;

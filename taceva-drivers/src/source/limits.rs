@@ -1,12 +1,12 @@
-//! How much foreign input is accepted; what is larger is refused before anything is allocated for it.
+//! Limits of foreign input, checked before allocation.
 
-/// An image file.
+/// Maximum size of an image file, bytes.
 pub(super) const IMAGE_BYTES: u64 = 256 << 20;
-/// Pixels along one side of an image.
+/// Maximum side of an image, pixels.
 pub(super) const IMAGE_SIDE: u32 = 16_384;
-/// A decoded image.
+/// Maximum size of a decoded image, bytes.
 pub(super) const DECODED_BYTES: u64 = 256 << 20;
-/// A table of times.
+/// Maximum size of a table of times, bytes.
 pub(super) const TABLE_BYTES: u64 = 64 << 20;
-/// Frames of a folder.
+/// Maximum number of frames in a folder.
 pub(super) const FRAMES: usize = 1 << 20;

@@ -1,4 +1,4 @@
-//! A table that says when each frame was true.
+//! Table with the time of each frame.
 
 use std::fs::File;
 use std::io::Read;
@@ -8,7 +8,7 @@ use taceva_core::shown;
 use super::error::SourceError;
 use super::limits;
 
-/// A row: the name of a frame and its time.
+/// Row of the table: frame name, time and line number.
 #[derive(Debug)]
 pub(super) struct TimedName {
     pub(super) name: String,
@@ -16,7 +16,7 @@ pub(super) struct TimedName {
     pub(super) line: u64,
 }
 
-/// Reads a CSV table with a column `file` and a column `t_s`; times must be finite and strictly increasing.
+/// Reads a CSV table with the columns `file` and `t_s`. Times must be finite and strictly increasing.
 pub(super) fn read(path: &Path) -> Result<Vec<TimedName>, SourceError> {
     let fault = |line: Option<u64>, problem: String| SourceError::Times {
         path: path.to_owned(),

@@ -1,4 +1,4 @@
-//! `ur/rtde`: arms of Universal Robots, seen by their real-time data exchange and moved by lines of script.
+//! `ur/rtde`: arms of Universal Robots, observed by their real-time data exchange and moved by script programs.
 
 mod arm;
 mod expiring;

@@ -1,4 +1,4 @@
-//! The suites pass what keeps the contract, and each check fails for the device that breaks it.
+//! The suites pass a correct device, and each check fails for a device that violates it.
 
 use crate::support::folder;
 use crate::toy::{FULL_SCALE, Flaw, KEY, ToyFactory, open};
@@ -86,7 +86,7 @@ fn a_device_of_each_kind_without_a_flaw_passes_every_check() {
     }
 }
 
-/// Asserts that each flaw fails its check, and that each check of the suite has a flaw that fails it.
+/// Asserts that each flaw fails its check, and that each check has a flaw that fails it.
 fn each_flaw_fails_its_check(suite: fn(Flaw) -> Report, flaws: &[(Flaw, &str)]) {
     for (flaw, check) in flaws {
         let report = suite(*flaw);
@@ -197,7 +197,7 @@ fn each_check_of_a_changer_can_fail() {
     );
 }
 
-/// The toy behind a link that fails.
+/// The toy behind a failing link.
 struct Failing {
     toy: ToyFactory,
     plan: FaultPlan,

@@ -1,4 +1,4 @@
-//! The list of drivers and devices, and opening one of them by its name.
+//! Listing of drivers and devices, and opening of one by name.
 
 use taceva_core::{
     Access, Args, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource, ErrorKind,
@@ -6,7 +6,7 @@ use taceva_core::{
 };
 use taceva_drivers::{Drivers, devices, open};
 
-/// A driver that sees two cameras, or cannot look.
+/// Driver that finds two cameras, or fails to search.
 struct Cameras {
     descriptor: Descriptor,
     can_look: bool,
@@ -74,7 +74,7 @@ fn the_list_has_every_driver_what_it_sees_and_why_another_could_not_look() {
         .iter()
         .filter(|driver| driver.kind.name() == "sensor");
     let mut keys: Vec<_> = sensors.map(|driver| driver.key.as_str()).collect();
-    // Drivers of real cameras are there by feature.
+    // Drivers of real cameras depend on features.
     keys.retain(|key| !key.starts_with("camera/"));
     assert_eq!(keys, ["sensor/replay", "test/blind", "test/seeing"]);
     let found: Vec<_> = listed

@@ -1,4 +1,4 @@
-//! What a machine has and what is in the way is found from its files alone.
+//! The doctor finds devices and problems from the files of a machine alone.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use taceva_drivers::Drivers;
 use taceva_drivers::doctor::{Diagnosis, Machine, State, UsbDevice, examine};
 use tempfile::TempDir;
 
-/// A machine of files, each with its text.
+/// Creates a machine from files with their texts.
 fn machine(files: &[(&str, &str)]) -> TempDir {
     let root = tempfile::tempdir().expect("a folder");
     for (path, text) in files {
@@ -27,7 +27,7 @@ fn codes(findings: &[Diagnosis]) -> Vec<&str> {
     findings.iter().map(|finding| finding.code).collect()
 }
 
-/// A user who owns none of the files that a test makes, and is in no group of theirs.
+/// User who owns none of a test's files and is in none of their groups.
 const STRANGER: &str =
     "Uid:\t987654 987654 987654 987654\nGid:\t987654 987654 987654 987654\nGroups:\t\n";
 

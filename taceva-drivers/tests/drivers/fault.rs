@@ -1,4 +1,4 @@
-//! Each fault does what failing hardware does, is counted, and comes again with the same seed.
+//! Each fault emulates failing hardware, is counted, and repeats with the same seed.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ fn pace() -> Box<VirtualPace> {
     Box::new(VirtualPace::starting_at(0.0))
 }
 
-/// The stamps in tenths of a second and the shades of five captures, with `kind` in the captures counted 1 and 2.
+/// Stamps, in 0.1 s, and shades of five captures, with `kind` in captures number 1 and 2.
 fn captures(kind: FaultKind) -> Vec<Option<(f64, u8)>> {
     let folder = folder(9);
     let plan = FaultPlan::none().during(kind, 1..3);
@@ -136,7 +136,7 @@ fn a_seed_draws_every_kind_of_fault_and_the_same_ones_again() {
                 Err(error) => error.to_string(),
             })
             .collect();
-        // Without time a slow link is a timeout, and is counted as itself.
+        // Without time left, a slow link is a timeout, and counts as a slow link.
         for kind in FaultKind::ALL {
             assert!(
                 log.count(kind) > 0,

@@ -1,4 +1,4 @@
-//! The drivers as a program meets them: by name, with arguments, and going wrong.
+//! Drivers as a program uses them: by name, with arguments, and with failures.
 
 mod conformance;
 mod devices;

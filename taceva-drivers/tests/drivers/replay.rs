@@ -1,4 +1,4 @@
-//! A folder of frames is a live sensor, and whatever is wrong with it is said by name.
+//! A folder of frames is replayed as a live sensor, and errors name the fault.
 
 use std::fs;
 use std::io::Cursor;
@@ -60,7 +60,7 @@ fn a_frame_that_comes_after_the_deadline_is_a_timeout_and_then_comes() {
             "sensor/replay: cannot capture a frame: no frame within 400ms"
         );
     }
-    // 0.8 s of virtual time have passed by waiting.
+    // Waiting took 0.8 s of virtual time.
     let (stamp, shade) = capture(sensor.as_mut(), brief).expect("now");
     assert_eq!((stamp.valid_s, shade), (1.0, 2));
 }
@@ -212,7 +212,7 @@ fn a_png_with_a_flipped_bit_is_refused_or_unharmed_and_a_jpeg_never_stops_the_re
             pixels(sensor.as_mut()).expect("the first");
             match pixels(sensor.as_mut()) {
                 Err(error) => assert_eq!(error.kind(), ErrorKind::Protocol, "byte {at}: {error}"),
-                // A JPEG has no checksum: what is wrong in it cannot be seen.
+                // A JPEG has no checksum, so damage can go undetected.
                 Ok(_) if format == ImageFormat::Jpeg => {}
                 Ok(pixels) => assert_eq!(&pixels, picture.as_raw(), "byte {at}"),
             }

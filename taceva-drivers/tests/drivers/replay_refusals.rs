@@ -1,4 +1,4 @@
-//! Replays that do not open: folders, tables and arguments that are refused, and in which words.
+//! Replays that fail to open: invalid folders, tables and arguments, and their messages.
 
 use std::fs;
 

@@ -8,10 +8,10 @@ use taceva_core::{Deadline, DriverError, FrameMut, Rig, Sensor, Stamp};
 use taceva_drivers::{Drivers, OpenError, open};
 use tempfile::TempDir;
 
-/// Long enough for every frame of a test.
+/// Deadline for every frame of a test.
 pub(crate) const PATIENCE: Deadline = Deadline::after(Duration::from_secs(5));
 
-/// A folder of `count` gray frames, 8 × 6 pixels, each of its own shade: `frame 1.png` is all 1.
+/// Writes a folder of `count` gray frames, 8 × 6 pixels, each with its own shade: all pixels of `frame 1.png` are 1.
 pub(crate) fn folder(count: u8) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     for shade in 1..=count {
@@ -25,7 +25,7 @@ pub(crate) fn folder(count: u8) -> TempDir {
     folder
 }
 
-/// A gray picture of one shade.
+/// Gray image of one shade.
 pub(crate) fn gray(shade: u8, width: u32, height: u32, path: &Path) {
     GrayImage::from_pixel(width, height, Luma([shade]))
         .save(path)
@@ -39,7 +39,7 @@ pub(crate) fn sensor(selector: &str) -> Result<Box<dyn Sensor>, OpenError> {
     open(&drivers.sensors, &selector, &mut Rig::new())
 }
 
-/// The replay of a folder, started.
+/// Opens and starts the replay of a folder.
 pub(crate) fn replay(folder: &Path, more: &str) -> Box<dyn Sensor> {
     let selector = format!("sensor/replay:folder={}{more}", folder.display());
     let mut sensor = sensor(&selector).expect("opens");
@@ -47,7 +47,7 @@ pub(crate) fn replay(folder: &Path, more: &str) -> Box<dyn Sensor> {
     sensor
 }
 
-/// The next frame, as its stamp and its first pixel.
+/// Captures the next frame: its stamp and its first pixel.
 pub(crate) fn capture(
     sensor: &mut dyn Sensor,
     deadline: Deadline,

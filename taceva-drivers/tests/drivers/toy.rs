@@ -1,4 +1,4 @@
-//! Devices in virtual time, right in everything but one flaw: to show that each check of the suites can fail.
+//! Devices in virtual time with one flaw each, to show that each check of the suites can fail.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
@@ -14,7 +14,7 @@ use taceva_core::{
 
 pub(crate) const KEY: DriverKey = DriverKey::fixed("test/toy");
 
-/// What a toy does wrong.
+/// Flaw of a toy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Flaw {
     Nothing,
@@ -112,7 +112,7 @@ impl ToyFactory {
         ToyFactory::new(Facts::Lighting(facts), flaw)
     }
 
-    /// It holds what the lighting calls scenes.
+    /// Creates a changer that holds items named like the lighting scenes.
     pub(crate) fn changer(flaw: Flaw) -> ToyFactory {
         let facts = ChangerFacts::default().with_holds(scenes());
         ToyFactory::new(Facts::Changer(facts), flaw)
@@ -135,11 +135,11 @@ fn error(kind: ErrorKind, doing: &'static str) -> DriverError {
     DriverError::new(kind, &KEY, doing)
 }
 
-/// A toy, before it is known as which kind of device.
+/// A toy of any kind of device.
 struct Toy {
     flaw: Flaw,
     shade: u8,
-    /// Of the last reading.
+    /// Number of the last reading.
     number: u64,
     readings: f64,
     stopped: bool,
@@ -225,7 +225,7 @@ impl Toy {
     }
 }
 
-/// Interrupts a toy, which never waits: only one with a flaw notices.
+/// Interrupts a toy. A toy never waits, so only a flawed one notices.
 struct Bell(Arc<AtomicBool>);
 
 impl Interrupt for Bell {

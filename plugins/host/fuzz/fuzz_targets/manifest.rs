@@ -1,4 +1,4 @@
-//! Manifests, and what libraries say of themselves, out of any bytes: `cargo +nightly fuzz run manifest`.
+//! Fuzzes manifests and descriptions by libraries: `cargo +nightly fuzz run manifest`.
 
 #![no_main]
 
@@ -9,7 +9,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
         return;
     };
     if let Ok(manifest) = Manifest::parse(text) {
-        // What is accepted can be used: each key is the plugin's, and each error of another has a line.
+        // An accepted manifest is usable: each key belongs to the plugin, and each error of another has a line.
         for provided in &manifest.provides {
             assert!(provided.key().as_str().starts_with(manifest.id.as_str()));
         }

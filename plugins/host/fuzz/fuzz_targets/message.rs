@@ -1,4 +1,4 @@
-//! Any bytes as what a host and its child say to each other: `cargo +nightly fuzz run message`.
+//! Fuzzes messages between a host and its child: `cargo +nightly fuzz run message`.
 
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! The process in which a plugin runs, for programs that embed the host and whose own `main` cannot begin with
-//! [`main_if_child`](taceva_host::main_if_child): they name this program instead.
+//! Child process that runs a plugin, for host programs whose own `main` cannot begin with [`main_if_child`](taceva_host::main_if_child).
+//! They name this program instead.
 
 use std::process::ExitCode;
 

@@ -1,17 +1,17 @@
-//! Arguments of a driver as the interface has them.
+//! Driver arguments in the form of the plugin interface.
 
 use taceva_abi as abi;
 use taceva_core::{ArgSpec, ArgValue, Args};
 
-/// Arguments in the interface's form; they borrow from the texts kept beside them.
+/// Arguments in the form of the plugin interface. They borrow from the texts stored beside them.
 pub struct ArgList {
     items: Vec<abi::Arg>,
-    // What the items point to, on the heap: moving the list moves none of it.
+    // Heap texts that the items point to. They stay in place when the list moves.
     _texts: Vec<(String, String)>,
 }
 
 impl ArgList {
-    /// The arguments that `args` holds, out of those that `specs` declare.
+    /// Converts the arguments in `args` that `specs` declare.
     pub fn new(args: &Args, specs: &[ArgSpec]) -> ArgList {
         let given = specs
             .iter()
@@ -25,7 +25,7 @@ impl ArgList {
                 ArgValue::Whole(whole) => (abi::Arg::WHOLE, whole, 0.0),
                 ArgValue::Number(number) => (abi::Arg::NUMBER, 0, number),
                 ArgValue::Flag(flag) => (abi::Arg::FLAG, i64::from(flag), 0.0),
-                // A value of a kind that the interface does not know crosses as it is written.
+                // An unknown kind of value is passed as text.
                 _ => (abi::Arg::TEXT, 0, 0.0),
             };
             items.push(abi::Arg {
@@ -43,7 +43,7 @@ impl ArgList {
         }
     }
 
-    /// What is handed over; it borrows from the list.
+    /// Argument array for the plugin. It borrows from the list.
     pub fn args(&self) -> abi::Args {
         abi::Args {
             items: self.items.as_ptr(),

@@ -1,11 +1,11 @@
-//! Which call a plugin is in, so that a check which is ended can say where it hung.
+//! Pending plugin calls, so that an aborted check can name the call in which it hung.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Whether anybody looks; calls are noted only then.
+/// True once [`watch`] runs. Calls are recorded only then.
 static IS_WATCHED: AtomicBool = AtomicBool::new(false);
 static CALLS: Mutex<Calls> = Mutex::new(Calls {
     next: 0,
@@ -14,20 +14,20 @@ static CALLS: Mutex<Calls> = Mutex::new(Calls {
 
 struct Calls {
     next: u64,
-    /// By their number: what is done, in words that follow "did not", and since when.
+    /// By call number: the operation, in words that follow "did not", and its start time.
     under_way: BTreeMap<u64, (&'static str, Instant)>,
 }
 
 fn calls() -> MutexGuard<'static, Calls> {
-    // Every change is made at once, whatever happened to another thread.
+    // Each change is a single operation, so a panic of another thread leaves the state consistent.
     CALLS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A call that is under way until this is dropped.
+/// A call that is pending until this guard is dropped.
 #[derive(Debug)]
 pub struct UnderWay(Option<u64>);
 
-/// Notes a call, if anybody looks.
+/// Records a call if pending calls are watched.
 pub fn begin(doing: &'static str) -> UnderWay {
     if !IS_WATCHED.load(Ordering::Relaxed) {
         return UnderWay(None);
@@ -47,12 +47,13 @@ impl Drop for UnderWay {
     }
 }
 
-/// From when on a call counts as one that may hang.
+/// Duration after which a call is reported.
 const LONG: Duration = Duration::from_millis(400);
-/// How often it is looked.
+/// Polling interval.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Tells from now on, on a thread of its own, which call lasts long, as soon as that is another: the one that began last, or "" where none does.
+/// Starts a thread that reports the newest call pending for longer than [`LONG`]. Calls `tell` whenever that call changes, with "" if there
+/// is none.
 pub(crate) fn watch(tell: impl Fn(&'static str) + Send + 'static) {
     IS_WATCHED.store(true, Ordering::Relaxed);
     let look = move || {
@@ -66,7 +67,7 @@ pub(crate) fn watch(tell: impl Fn(&'static str) + Send + 'static) {
             }
         }
     };
-    // Without it a check that hangs is ended as well, and says less.
+    // If the thread cannot start, a hanging check is still aborted, but without the name of the call.
     let _ = std::thread::Builder::new()
         .name("taceva-calls".to_owned())
         .spawn(look);

@@ -1,4 +1,4 @@
-//! Tables of functions of a library, read as far as both sides know them.
+//! Function tables of a library, read as far as both the library and the host define them.
 
 #![expect(
     unsafe_code,
@@ -18,7 +18,7 @@ use super::Failure;
 /// # Safety
 /// The type is `repr(C)`, begins with its size as a `u32`, and is a value where all its bytes are 0.
 pub unsafe trait Table: Copy {
-    /// Its name, for messages.
+    /// Name of the table, for messages.
     const NAME: &'static str;
 }
 
@@ -48,7 +48,7 @@ tables! {
     abi::ext::BenchCalls => "taceva_bench_calls",
 }
 
-/// A copy of the table at `table`: fields beyond the plugin's own size are NULL.
+/// Copies the function table at `table`. Fields beyond the plugin's own size are NULL.
 ///
 /// # Safety
 /// `table` points to a table as the interface has it: at least its size field can be read, and as many bytes as that says.
@@ -96,7 +96,7 @@ mod tests {
         assert!(copy(16, &mut calls).expect("read").device.close.is_some());
         assert!(copy(8, &mut calls).expect("read").device.close.is_none());
         assert!(copy(4, &mut calls).is_err());
-        // SAFETY: NULL and what is misaligned is refused unread.
+        // SAFETY: NULL and misaligned tables are rejected unread.
         assert!(unsafe { table::<abi::ForceCalls>(std::ptr::null()) }.is_err());
         let odd = std::ptr::from_ref(&calls).cast::<u8>().wrapping_add(1);
         // SAFETY: as above.

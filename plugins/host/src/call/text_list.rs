@@ -1,4 +1,4 @@
-//! Texts that a library gives.
+//! Texts that a library passes to the host.
 
 #![expect(unsafe_code, reason = "texts come through the plugin's functions")]
 
@@ -9,7 +9,7 @@ use taceva_core::ErrorKind;
 
 use super::Failure;
 
-/// What a plugin lists: one text a call.
+/// Collected texts of a plugin, one per callback.
 #[derive(Debug, Default)]
 pub struct Taken {
     texts: Vec<String>,
@@ -17,18 +17,18 @@ pub struct Taken {
     fault: Option<&'static str>,
 }
 
-/// No plugin lists more.
+/// Maximum number of texts.
 const TEXTS_MAX: usize = 4_096;
-/// Nor more bytes.
+/// Maximum total length of the texts, bytes.
 const BYTES_MAX: usize = 1 << 20;
 
 impl Taken {
-    /// What [`take`] is called with.
+    /// Context pointer for [`take`].
     pub fn context(&mut self) -> *mut c_void {
         std::ptr::from_mut(self).cast()
     }
 
-    /// The texts, unless one of them was none.
+    /// Collected texts, or an error if a text was invalid or a limit was exceeded.
     pub fn texts(self) -> Result<Vec<String>, Failure> {
         match self.fault {
             None => Ok(self.texts),
@@ -36,7 +36,7 @@ impl Taken {
         }
     }
 
-    /// All texts as one.
+    /// Concatenation of all texts.
     pub fn whole(self) -> Result<String, Failure> {
         Ok(self.texts()?.concat())
     }
@@ -60,12 +60,12 @@ impl Taken {
     }
 }
 
-/// Takes one text into the [`Taken`] that `context` is.
+/// Appends one text to the [`Taken`] at `context`.
 ///
 /// # Safety
 /// `context` is the pointer that `Taken::context` gave for the call under way, and nothing else reads it during the call.
 pub unsafe extern "C" fn take(context: *mut c_void, text: abi::Text) {
-    // SAFETY: `context` is what `Taken::context` gave for the call that is under way, and nobody else looks at it meanwhile.
+    // SAFETY: `context` is the pointer that `Taken::context` gave for the pending call, and nothing else accesses it during the call.
     let taken = unsafe { &mut *context.cast::<Taken>() };
     taken.add(text);
 }

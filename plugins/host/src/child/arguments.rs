@@ -1,10 +1,10 @@
-//! The arguments of a driver as the child reads them.
+//! Driver arguments as the child reads them.
 
 use taceva_core::{ArgSpec, ArgValue, Args, ErrorKind};
 
 use super::wire::Failure;
 
-/// The arguments that the host has checked, as they were: declared here by what they are.
+/// Rebuilds the arguments that the host has checked. Each is declared by the type of its value.
 pub(super) fn arguments(pairs: &[(String, ArgValue)]) -> Result<Args, Failure> {
     let specs: Vec<ArgSpec> = pairs
         .iter()
@@ -12,7 +12,7 @@ pub(super) fn arguments(pairs: &[(String, ArgValue)]) -> Result<Args, Failure> {
             ArgValue::Whole(_) => ArgSpec::whole(key, i64::MIN, i64::MAX),
             ArgValue::Number(_) => ArgSpec::number(key, f64::NEG_INFINITY, f64::INFINITY),
             ArgValue::Flag(_) => ArgSpec::flag(key),
-            // A text; no other kind arrives, see `wire/value.rs`.
+            // Text; no other kind arrives, see `wire/value.rs`.
             _ => ArgSpec::text(key),
         })
         .collect();

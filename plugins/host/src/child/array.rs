@@ -1,4 +1,4 @@
-//! Arrays of numbers in shared memory, little-endian, one behind another without padding.
+//! Arrays of numbers in shared memory, little-endian and without padding between arrays.
 
 use taceva_core::{Features, Targets, TrainingSet};
 
@@ -6,13 +6,13 @@ use super::memory::SharedMemory;
 use super::wire::{Failure, SetShape};
 use taceva_core::ErrorKind;
 
-/// A number as it lies in memory.
+/// A number with a fixed memory layout.
 pub(crate) trait Number: Copy {
-    /// Bytes of one.
+    /// Size of one number, bytes.
     const LENGTH: usize;
-    /// Writes it into as many bytes.
+    /// Writes the number into [`LENGTH`](Number::LENGTH) bytes.
     fn put(self, into: &mut [u8]);
-    /// Reads it from as many bytes.
+    /// Reads a number from [`LENGTH`](Number::LENGTH) bytes.
     fn get(from: &[u8]) -> Self;
 }
 
@@ -33,7 +33,7 @@ macro_rules! numbers {
 }
 numbers!(f32, f64, u32);
 
-/// Writes `numbers` at the front of `into`, and gives back what is behind them; they fit.
+/// Writes `numbers` at the front of `into`, which must be long enough, and returns the rest of the buffer.
 pub(crate) fn put<'b, T: Number>(numbers: &[T], into: &'b mut [u8]) -> &'b mut [u8] {
     let (place, rest) = into.split_at_mut(numbers.len() * T::LENGTH);
     for (number, place) in numbers.iter().zip(place.chunks_exact_mut(T::LENGTH)) {
@@ -42,20 +42,20 @@ pub(crate) fn put<'b, T: Number>(numbers: &[T], into: &'b mut [u8]) -> &'b mut [
     rest
 }
 
-/// Reads `count` numbers from the front of `from`, and gives back what is behind them; `None` if there are fewer.
+/// Reads `count` numbers from the front of `from` and returns them with the rest. `None` if `from` is too short.
 pub(crate) fn get<T: Number>(count: usize, from: &[u8]) -> Option<(Vec<T>, &[u8])> {
     let (place, rest) = from.split_at_checked(count.checked_mul(T::LENGTH)?)?;
     Some((place.chunks_exact(T::LENGTH).map(T::get).collect(), rest))
 }
 
-/// Memory for `bytes` bytes; there is no memory of none.
+/// Allocates shared memory of `bytes` bytes, at least one. `None` stands for an overflowed size and fails.
 pub(crate) fn memory(bytes: Option<usize>) -> Result<SharedMemory, Failure> {
     let refused = |why: &str| Failure::new(ErrorKind::OutOfRange, "share memory", why);
     let bytes = bytes.ok_or_else(|| refused("more numbers than memory holds"))?;
     SharedMemory::new(bytes.max(1)).map_err(|error| refused(&error.to_string()))
 }
 
-/// What `set` is like, and its numbers in memory: targets, features, groups.
+/// Shape of `set`, and shared memory with its targets, features and groups, in this order.
 pub(crate) fn share(set: &TrainingSet<'_>) -> Result<(SetShape, SharedMemory), Failure> {
     let (values, targets) = (set.features.values(), set.targets.values);
     let groups = set.groups.unwrap_or_default();
@@ -76,7 +76,7 @@ pub(crate) fn share(set: &TrainingSet<'_>) -> Result<(SetShape, SharedMemory), F
     Ok((shape, memory))
 }
 
-/// A set that owns its numbers.
+/// A training set that owns its numbers.
 pub(crate) struct OwnedSet {
     shape: SetShape,
     features: Features,
@@ -85,7 +85,7 @@ pub(crate) struct OwnedSet {
 }
 
 impl OwnedSet {
-    /// The set of `shape` whose numbers are in `memory`.
+    /// Reads the set of `shape` from `memory`.
     pub(crate) fn take(shape: SetShape, memory: &mut SharedMemory) -> Result<OwnedSet, Failure> {
         let refused = || {
             let why = "memory that does not hold the samples it is said to";
@@ -115,7 +115,7 @@ impl OwnedSet {
         })
     }
 
-    /// The set as estimators take it.
+    /// Borrows the set in the form that estimators accept.
     pub(crate) fn set(&self) -> TrainingSet<'_> {
         TrainingSet::new(
             &self.features,

@@ -1,4 +1,4 @@
-//! A simulated bench of a plugin, as the host and the child each hold it.
+//! A plugin's simulated bench, on the host side and on the child side.
 
 mod proxy;
 mod serve;

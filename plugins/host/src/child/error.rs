@@ -1,4 +1,4 @@
-//! What goes wrong between a host and its child.
+//! Errors between a host and its child.
 
 use std::fmt;
 
@@ -8,54 +8,54 @@ use super::exit_status::Fate;
 use super::plain::plain;
 use super::wire::Failure;
 
-/// The longest message of a plugin that is passed on, in characters.
+/// Maximum length of a plugin's message, characters. Longer messages are cut.
 const MESSAGE_MAX: usize = 2000;
 
-/// Why a child did not do what it was asked.
+/// Failure of a child to start or to answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ChildError {
-    /// It could not be started.
+    /// The child could not be started.
     Start {
         /// The name of the plugin.
         plugin: String,
-        /// Why not.
+        /// Cause.
         why: String,
     },
-    /// It started, and would not serve: it could not confine itself or load its plugin.
+    /// The child started but refused to serve: it could not confine itself or load its plugin.
     Refused {
         /// The name of the plugin.
         plugin: String,
-        /// What kind of failure it was.
+        /// Kind of the failure.
         kind: ErrorKind,
-        /// Why, in its words.
+        /// Cause, in the child's words.
         why: String,
     },
-    /// Its library crashed before, and its user has not released it since.
+    /// The library has crashed before and its user has not released it since.
     Quarantined {
         /// The name of the plugin.
         plugin: String,
-        /// What it did.
+        /// Description of the crash.
         reason: String,
     },
-    /// It is gone.
+    /// The child has ended.
     Gone {
         /// The name of the plugin.
         plugin: String,
-        /// How it ended.
+        /// The child's fate.
         fate: Fate,
-        /// The last that it printed, control characters written out; empty if nothing.
+        /// Last output of the child, with control characters escaped; empty if it printed nothing.
         printed: String,
     },
-    /// What it should be asked does not fit into a message.
+    /// The request does not fit into a message.
     Unsendable {
-        /// Why not.
+        /// Cause.
         why: String,
     },
 }
 
 impl ChildError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub fn kind(&self) -> ErrorKind {
         match self {
             ChildError::Start { .. } => ErrorKind::Internal,
@@ -66,7 +66,7 @@ impl ChildError {
         }
     }
 
-    /// The same as an error of `driver` while it was `doing`.
+    /// Converts the failure into an error of `driver` that occurred while it was `doing`.
     pub fn of(self, driver: &DriverKey, doing: &str) -> DriverError {
         DriverError::new(self.kind(), driver, doing.to_owned()).because(self)
     }
@@ -104,7 +104,7 @@ impl fmt::Display for ChildError {
 
 impl std::error::Error for ChildError {}
 
-/// The end of what was printed, short enough for a message.
+/// Last three lines of `printed`, at most 400 characters.
 fn last_lines(printed: &str) -> String {
     let lines: Vec<&str> = printed.lines().rev().take(3).collect();
     let lines: Vec<&str> = lines.into_iter().rev().collect();
@@ -114,7 +114,7 @@ fn last_lines(printed: &str) -> String {
 }
 
 impl Failure {
-    /// What an error of a driver says.
+    /// Converts a driver's error for the wire.
     pub(crate) fn of(error: &DriverError) -> Failure {
         Failure {
             kind: error.kind(),
@@ -124,7 +124,7 @@ impl Failure {
         }
     }
 
-    /// A failure in words of the child itself.
+    /// Creates a failure of the child itself.
     pub(crate) fn new(kind: ErrorKind, doing: &str, why: &str) -> Failure {
         Failure {
             kind,
@@ -134,7 +134,7 @@ impl Failure {
         }
     }
 
-    /// The error that `driver` would have given without a child between; its text is shown with control characters escaped.
+    /// Rebuilds the error of `driver` as it would read without a child. Control characters are escaped.
     pub(crate) fn to_error(&self, driver: &DriverKey) -> DriverError {
         let mut error = DriverError::new(self.kind, driver, plain(&cut(&self.doing)));
         if let Some(fault) = self.fault {
@@ -147,7 +147,7 @@ impl Failure {
     }
 }
 
-/// What a plugin says of the devices it sees, with control characters escaped.
+/// Escapes control characters in the plugin's description of a found device.
 pub(crate) fn plain_found(found: Found) -> Found {
     Found::new(found.driver, plain(&cut(&found.title)))
         .with_arguments(plain(&cut(&found.arguments)))

@@ -1,47 +1,47 @@
-//! How a child ended, in words.
+//! Fate of a child process and its description.
 
 use std::fmt;
 use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
 use std::time::Duration;
 
-/// What a device is asked for last; nobody waits for it any more.
+/// Operation name of the last call of a device. No caller waits for its result.
 pub(super) const CLOSING: &str = "close the device";
-/// What a child is asked for last.
+/// Operation name of the last order to a child.
 pub(super) const ENDING: &str = "end";
 
-/// How a child ended.
+/// Fate of a child process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fate {
-    /// Its last device was closed, and it was asked to end.
+    /// The child was asked to end after its last device was closed.
     Closed,
-    /// It called `exit`, which no plugin may.
+    /// The child called `exit`, which no plugin may.
     Exited {
-        /// With this code.
+        /// Exit code; -1 if the system reports none.
         code: i32,
     },
-    /// A signal ended it.
+    /// A signal killed the child.
     Signalled {
-        /// This one.
+        /// Signal number.
         signal: i32,
     },
-    /// It was ended because it did not answer.
+    /// The host killed the child because it did not answer in time.
     Late {
-        /// What it was asked to do, in words that follow "cannot".
+        /// The operation, in words that follow "cannot".
         doing: String,
-        /// How long it had.
+        /// Timeout of the call.
         after: Duration,
     },
-    /// It was ended because it did not follow the rules.
+    /// The host killed the child because it broke a rule.
     Breach {
-        /// What it did.
+        /// Description of the breach.
         what: String,
     },
 }
 
 impl Fate {
-    /// What the status of a process that ended says.
+    /// Converts the exit status of a process.
     pub(crate) fn of(status: ExitStatus) -> Fate {
         match (status.signal(), status.code()) {
             (Some(signal), _) => Fate::Signalled { signal },
@@ -51,12 +51,12 @@ impl Fate {
         }
     }
 
-    /// Whether it ended while nobody waited for an answer, so that no error tells of it.
+    /// True if the child missed the timeout of a close or an end, which no caller's error reports.
     pub(crate) fn is_unheard(&self) -> bool {
         matches!(self, Fate::Late { doing, .. } if doing == CLOSING || doing == ENDING)
     }
 
-    /// Whether the plugin is to blame: whatever it did by itself, not what somebody else did to it.
+    /// True if the plugin is to blame. False after a requested end and after signals that others send, such as SIGKILL or SIGTERM.
     pub fn is_its_own_fault(&self) -> bool {
         match self {
             Fate::Closed => false,

@@ -1,7 +1,7 @@
-//! The thread that starts a child, watches it, ends it when it is late, and says how it ended.
+//! Keeper thread: starts a child, watches it, kills it when a call times out, and reports how it ended.
 //!
-//! The kernel ends a child with the *thread* that started it, so this one starts it and outlives it. It is also the one watchdog: calls note
-//! until when they wait and block; a child that is ended closes its sockets, which wakes them.
+//! The kernel kills a child when the *thread* that started it ends, so the keeper starts the child and outlives it. The keeper is also the
+//! only watchdog. Callers record their timeout and block; a killed child closes its sockets, which wakes them.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -17,10 +17,10 @@ use rustix::process::{Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal};
 use super::exit_status::Fate;
 use super::watch::{PRINTED_MAX, Watch};
 
-/// How much a pipe holds.
+/// Capacity of a pipe, bytes.
 const PIPE_MAX: usize = 64 * 1024;
 
-/// A running child: its number, what watches it, and the thread that does.
+/// A running child: its process number, its watch and its keeper thread.
 #[derive(Debug)]
 pub(crate) struct Kept {
     pub(crate) process: u32,
@@ -28,8 +28,8 @@ pub(crate) struct Kept {
     pub(crate) keeper: JoinHandle<()>,
 }
 
-/// Starts a process and a thread that keeps it. What it prints comes from `output`, whose other end `command` holds; `ended` is called
-/// with how it ended.
+/// Starts a process and its keeper thread. `output` is the read end of the pipe that `command` prints to. The keeper calls `ended` with the
+/// child's fate.
 pub(crate) fn keep(
     command: Command,
     output: OwnedFd,
@@ -44,7 +44,7 @@ pub(crate) fn keep(
             let Some((process, handle)) = start_process(command, &started) else {
                 return;
             };
-            // Whoever started it must learn its number before it can end.
+            // The caller must learn the process number before the child can end.
             drop(started);
             let fate = Fate::of(watch_over(&shared, process, &handle, output));
             shared.ended(fate);
@@ -72,7 +72,7 @@ fn start_process(
         let number = number.ok_or_else(|| io::Error::other("a process without a number"))?;
         Ok((process, pidfd_open(number, PidfdFlags::empty())?))
     });
-    // The ends that the child holds now must not stay open here, or nobody would see it close them.
+    // Close the child's pipe ends here, or their closing by the child would go unnoticed.
     drop(command);
     match process {
         Ok((process, handle)) => {
@@ -96,7 +96,7 @@ fn watch_over(
     let mut left_to_read = PIPE_MAX / PRINTED_MAX;
     loop {
         let wait = watch.look().unwrap_or_else(|_| {
-            // By the handle, which is never another process's. It may have ended by itself already.
+            // The handle never refers to another process. The child may have ended already.
             let _ = pidfd_send_signal(handle, Signal::KILL);
             None
         });
@@ -108,7 +108,7 @@ fn watch_over(
         if let Some(output) = &output {
             polled.push(PollFd::from_borrowed_fd(output.as_fd(), PollFlags::IN));
         }
-        // An interrupted poll says nothing.
+        // An interrupted poll is ignored.
         let _ = poll(&mut polled, timeout.as_ref());
         let has = |at: usize| polled.get(at).is_some_and(|fd| !fd.revents().is_empty());
         let (has_ended, was_woken, has_printed) = (has(0), has(1), has(2));
@@ -125,7 +125,7 @@ fn watch_over(
         if has_ended && has_printed && left_to_read > 0 {
             left_to_read -= 1;
         } else if has_ended {
-            // The process is a child of this one that nobody else waits for.
+            // Only this thread waits for the process.
             return process.wait().unwrap_or_default();
         }
     }

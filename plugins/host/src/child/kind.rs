@@ -1,7 +1,7 @@
-//! Kinds of device on both sides of the socket, a file each: the proxy that the host holds, and the server by which the child answers it.
+//! Device kinds, one file each: the host's proxy, and the server in the child that answers it.
 //!
-//! An operation is a row of [`Call`], a method of the proxy and an arm of the server; what it answers is a [`Reply`],
-//! which is turned into an [`Answer`], recognised and checked in one place.
+//! An operation is a row of [`Call`], a method of the proxy and an arm of the server. Its result is a [`Reply`], which is converted to and
+//! from an [`Answer`] and checked in one place.
 
 mod changer;
 mod force;
@@ -20,43 +20,43 @@ use super::wire::{Answer, Call, Failure, OpenedDevice};
 
 /// A kind of device: `dyn Sensor`, `dyn Robot`, `dyn ForceTransducer`, `dyn Lighting` or `dyn Changer`.
 pub(super) trait Kind: 'static {
-    /// Its name.
+    /// Name of the kind.
     const KIND: DriverKind;
 
-    /// What answers calls to an open device in the child.
+    /// Wraps an open device in the server that answers calls in the child.
     fn server(self: Box<Self>) -> Box<dyn Server>;
 
-    /// What the host holds of the device behind `link`; an error if something else was opened.
+    /// Creates the host's proxy of the device behind `link`. An error if another kind of device was opened.
     fn proxy(link: Link, opened: OpenedDevice) -> Result<Box<Self>, DriverError>;
 }
 
 /// An open device in the child.
 pub(super) trait Server: Send {
-    /// What is known about it now that it is open.
+    /// Properties of the open device.
     fn opened(&mut self) -> OpenedDevice;
 
-    /// What ends a pending call.
+    /// Handle that interrupts a pending call; `None` if the device has none.
     fn interrupt(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }
 
-    /// What stops it.
+    /// Handle that halts the device; `None` if the device has none.
     fn halt(&self) -> Option<Arc<dyn Halt>> {
         None
     }
 
-    /// Its answer to a call; `files` came beside it.
+    /// Answers a call. `files` came with the message.
     fn answer(&mut self, call: Call, files: Vec<OwnedFd>) -> Result<Answer, Failure>;
 }
 
-/// The answer that the result of an operation is.
+/// Converts the result of an operation into an answer.
 fn answered<R: Reply>(result: Result<R, DriverError>) -> Result<Answer, Failure> {
     result
         .map(Reply::into_answer)
         .map_err(|error| Failure::of(&error))
 }
 
-/// The answer of an ability that a device may lack.
+/// Converts the result of an optional operation. `None` becomes an `Unsupported` failure.
 fn answered_if_able<R: Reply>(result: Option<Result<R, DriverError>>) -> Result<Answer, Failure> {
     result.map_or_else(|| Err(unsupported()), answered)
 }

@@ -1,4 +1,4 @@
-//! What is known about a child, even after it ended.
+//! State of a child that remains available after its end.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use super::socket::LinkError;
 use super::timeouts::Patience;
 use super::watch::Watch;
 
-/// What is known about a child for as long as anybody may ask, even after it ended.
+/// Name, watch and timeouts of a child, kept by its clients even after its end.
 #[derive(Debug)]
 pub(crate) struct Life {
     pub(super) plugin: String,
@@ -17,7 +17,7 @@ pub(crate) struct Life {
 }
 
 impl Life {
-    /// What became of a question that was not answered; waits until it is known how the child ended.
+    /// Converts a link error into a [`ChildError`]. Unless the message was unsendable, waits until the child's fate is known.
     pub(crate) fn lost(&self, error: LinkError) -> ChildError {
         match error {
             LinkError::Unsendable(why) => return ChildError::Unsendable { why },
@@ -32,7 +32,7 @@ impl Life {
         }
     }
 
-    /// Ends a child that broke a rule.
+    /// Kills a child that broke a rule, and returns the error.
     pub(crate) fn broke(&self, what: &str) -> ChildError {
         self.lost(LinkError::Breach(what.to_owned()))
     }

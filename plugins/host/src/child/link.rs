@@ -1,4 +1,4 @@
-//! The connection to one device of a child.
+//! Connection to one device of a child.
 
 use std::fmt;
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
@@ -16,7 +16,7 @@ use super::start::Child;
 use super::watch::CallId;
 use super::wire::{Answer, Call, Urgent};
 
-/// The connection to one open device: its calls, and what goes round them. Dropping it closes the device.
+/// Connection to one open device: its call queue and its urgent channel. Dropping the link closes the device.
 pub(crate) struct Link {
     child: Arc<Child>,
     driver: DriverKey,
@@ -54,7 +54,7 @@ impl Link {
         Arc::clone(&self.urgent) as Arc<dyn Halt>
     }
 
-    /// Asks for an operation that has a deadline.
+    /// Calls an operation that has a deadline.
     pub(super) fn ask<R: Reply>(
         &mut self,
         call: &Call,
@@ -67,7 +67,7 @@ impl Link {
         self.reply(answer, doing)
     }
 
-    /// Asks for an operation that has none, with files beside it.
+    /// Calls an operation without a deadline, passing `files`.
     pub(super) fn ask_without_deadline<R: Reply>(
         &mut self,
         call: &Call,
@@ -79,7 +79,7 @@ impl Link {
         self.reply(answer, doing)
     }
 
-    /// Asks the device, which may be a sensor too, to set a scene.
+    /// Sets the lighting scene of a lighting device or of a sensor.
     pub(super) fn set_light(&mut self, scene: &str, deadline: Deadline) -> Result<(), DriverError> {
         let scene = scene.to_owned();
         self.ask(&Call::Light { scene, deadline }, "set the light", deadline)
@@ -105,7 +105,7 @@ impl Link {
         }
     }
 
-    /// What was asked for, if it is that and a reading; a child that answers something else is ended.
+    /// Extracts and checks the expected reply. A child that sends another type of answer is killed.
     fn reply<R: Reply>(&self, answer: Answer, doing: &'static str) -> Result<R, DriverError> {
         let Some(reply) = R::from_answer(answer) else {
             let error = self.child.life().broke("the answer to another question");
@@ -115,13 +115,13 @@ impl Link {
         Ok(reply)
     }
 
-    /// Ends a child that broke a rule.
+    /// Kills a child that broke a rule, and returns the error.
     pub(super) fn broke(&self, what: &str) -> DriverError {
         let error = self.child.life().broke(what);
         error.of(&self.driver, "open the device")
     }
 
-    /// A fault of the device: it gave something that is no reading.
+    /// Error for an invalid reading of the device.
     pub(super) fn fault(&self, doing: &'static str, why: impl fmt::Display) -> DriverError {
         DriverError::new(ErrorKind::DeviceFault, &self.driver, doing).because(why.to_string())
     }
@@ -131,7 +131,7 @@ impl Drop for Link {
     fn drop(&mut self) {
         self.urgent.is_closed.store(true, Ordering::Release);
         let after = self.child.life().patience.close;
-        // A child that is gone has closed everything; one that hangs is ended, which its host tells.
+        // A dead child has closed everything. A hanging child is killed, and the host reports that.
         let _ = self.call(&Call::Close {}, &[], CLOSING, after);
     }
 }
@@ -145,11 +145,11 @@ impl fmt::Debug for Link {
     }
 }
 
-/// What goes round the calls of a device. It keeps no child alive.
+/// Channel for interrupts and halts, which bypass the call queue. Does not keep the child alive.
 struct UrgentLink {
     life: Arc<Life>,
     driver: DriverKey,
-    /// The same socket, for what is not answered and must not wait.
+    /// Duplicate of the urgent socket, for sending interrupts without waiting.
     bell: Option<OwnedFd>,
     questions: Mutex<Caller>,
     pending: Mutex<Option<CallId>>,
@@ -161,7 +161,7 @@ impl UrgentLink {
         *self.pending.lock().unwrap_or_else(PoisonError::into_inner) = call;
     }
 
-    /// Gives a pending call no longer than it may take to end.
+    /// Shortens the timeout of the pending call to the urgent one.
     fn hasten(&self) {
         let pending = *self.pending.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(call) = pending {
@@ -180,7 +180,7 @@ impl Interrupt for UrgentLink {
         }
         match send_now(bell.as_fd(), &(0_u32, Urgent::Interrupt {})) {
             Ok(()) => self.hasten(),
-            // It reads nothing any more: its thread for what is urgent hangs.
+            // The child's urgent thread hangs and no longer reads.
             Err(LinkError::Breach(_)) => {
                 let what = "interrupts are not taken any more".to_owned();
                 self.life.watch.condemn(Fate::Breach { what });
@@ -213,7 +213,7 @@ impl Halt for UrgentLink {
                 let error = self.life.broke("the answer to another question");
                 Err(error.of(&self.driver, doing))
             }
-            // Nothing is left to stop.
+            // The device was closed meanwhile.
             Err(LinkError::Closed) if self.is_closed.load(Ordering::Acquire) => Ok(()),
             Err(error) => Err(self.life.lost(error).of(&self.driver, doing)),
         }

@@ -1,4 +1,4 @@
-//! Lines that a plugin logs, on their way from its child: by a socket of their own, so that they come while a call lasts.
+//! Log lines of a plugin, sent from the child over a separate socket so that they arrive during a call.
 
 use std::os::fd::{AsFd, OwnedFd};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -14,7 +14,7 @@ use crate::library::{Level, Log};
 use crate::log::Limited;
 use crate::text::shown;
 
-/// What comes by that socket.
+/// Message of the log socket.
 #[derive(Debug, PartialEq)]
 enum LogMessage {
     Line {
@@ -22,7 +22,7 @@ enum LogMessage {
         target: String,
         message: String,
     },
-    /// So many lines found no room.
+    /// Number of lines dropped because the socket was full.
     Lost { count: u64 },
 }
 
@@ -31,17 +31,17 @@ variants!(LogMessage, "a line of the log" {
     1 => Lost { count },
 });
 
-/// In the child: where its lines go.
+/// In the child: socket to the host.
 static HOST: OnceLock<OwnedFd> = OnceLock::new();
 static LOST: AtomicU64 = AtomicU64::new(0);
 
-/// In the child: sends lines to `host` from now on.
+/// In the child: sets the socket to the host.
 pub(super) fn to_host(host: OwnedFd) {
     // A child has one host.
     let _ = HOST.set(host);
 }
 
-/// In the child: sends a line, if anybody listens; whether somebody does. One that finds no room is counted: a plugin waits for no reader.
+/// In the child: sends a line; false if no host listens. A line that does not fit is dropped and counted, so that logging never blocks.
 pub(super) fn send(level: Level, target: &str, message: &str) -> bool {
     let Some(host) = HOST.get() else {
         return false;
@@ -57,15 +57,15 @@ pub(super) fn send(level: Level, target: &str, message: &str) -> bool {
     true
 }
 
-/// What a line is about that says in which call a check is.
+/// Log target of lines that name the pending call of a check.
 pub const CALL: &str = "taceva-call";
 
-/// In the child: says that the call to do `doing` lasts; nothing where none does any more.
+/// In the child: reports the long-running call `doing`; empty if there is none.
 pub(super) fn tell_call(doing: &'static str) {
     send(Level::Debug, CALL, doing);
 }
 
-/// Sends how many lines found no room since the last count was sent.
+/// Sends the number of lines dropped since the last report.
 fn tell_how_many(host: &OwnedFd) -> Result<(), LinkError> {
     let count = LOST.swap(0, Ordering::Relaxed);
     let sent = match count {
@@ -78,7 +78,7 @@ fn tell_how_many(host: &OwnedFd) -> Result<(), LinkError> {
     sent
 }
 
-/// In the child: sends at its end what could not be sent before, as long as its host reads.
+/// In the child: sends the outstanding count of dropped lines at the end, retrying while the host exists.
 pub(super) fn end() {
     let Some(host) = HOST.get() else {
         return;
@@ -88,10 +88,11 @@ pub(super) fn end() {
     }
 }
 
-/// How long a child that ends waits for room.
+/// Delay between retries of a child that ends.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// In the host: hands what comes from the child to `log`, within its limit, until the child is gone. A child that sends anything else is ended.
+/// In the host: forwards log lines of the child to `log`, rate-limited, until the socket closes. A child that sends anything else is
+/// killed.
 pub(super) fn listen(
     socket: Socket,
     log: Log,

@@ -1,4 +1,4 @@
-//! The first thing that `main` does: find out whether this process is a host child.
+//! First action of `main`: detect whether this process is a host child.
 #![expect(
     unsafe_code,
     reason = "a process that begins owns the files it inherited, and one that ends must not run what a plugin left to be run at its end"
@@ -20,16 +20,16 @@ use super::socket::Socket;
 use super::wire::{Failure, FirstWord, Greeting, Hello};
 use crate::session::Session;
 
-/// The first argument of a host child. Nobody types it.
+/// First command-line argument of a host child. Users never type it.
 pub const CHILD_ARGUMENT: &str = "--taceva-host-child";
 
-/// Returns at once, unless this process was started as a host child: then it confines itself, lets `load` load what it serves from the
-/// files that it was given, serves until its host is gone, and ends.
+/// Returns at once unless this process was started as a host child. A host child confines itself, calls `load` with the files from the
+/// host, serves the result until the host is gone, and ends.
 ///
-/// A program that embeds the host calls this before anything else in `main`, while there is one thread and no file is open.
+/// A program that embeds the host calls this first in `main`, while it has one thread and no open file.
 ///
 /// # Errors
-/// `load` says in words, and as a kind, why there is nothing to serve; the host passes it on.
+/// If `load` fails, the host receives its error kind and message.
 pub fn main_if_child_with(
     load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) {
@@ -43,7 +43,7 @@ pub fn main_if_child_with(
     unsafe { libc::_exit(code) }
 }
 
-/// Confines this process, serves what `load` loads to the host at the other end of standard input, and says with which code to end.
+/// Confines this process and serves what `load` loads to the host on standard input. Returns the exit code.
 pub(super) fn serve_host(
     load: impl FnOnce(Vec<File>, &Isolation) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) -> i32 {
@@ -53,18 +53,18 @@ pub(super) fn serve_host(
     }
 }
 
-/// Whether this program asked whether it is a child, so that it may be started as one.
+/// True once `main` has checked for a host child, so that this program can be started as one.
 static CAN_BE_CHILD: AtomicBool = AtomicBool::new(false);
 
-/// Whether this program can be started again as a host child: others would do then whatever they do.
+/// True if this program can be started as a host child. Other programs would ignore the argument.
 pub(super) fn can_be_child() -> bool {
     CAN_BE_CHILD.load(Ordering::Relaxed)
 }
 
-/// The code of a process that was given the argument of a host child, and no host.
+/// Exit code of a process that has the host-child argument but no host.
 const NOT_A_CHILD: i32 = 64;
 
-/// The socket to the host, moved away from standard input, which is empty from now on; every other file that was inherited is closed.
+/// Moves the socket to the host away from standard input, which becomes empty. Closes every other inherited file.
 fn orders() -> Option<Socket> {
     let orders = fcntl_dupfd_cloexec(std::io::stdin().as_fd(), 3).ok()?;
     let nothing = File::open("/dev/null").ok()?;
@@ -78,20 +78,20 @@ fn orders() -> Option<Socket> {
 /// Closes every file but the standard ones and `kept`.
 ///
 /// # Safety
-/// Nobody else owns an open file.
+/// No other code owns an open file.
 unsafe fn close_all_but(kept: &OwnedFd) {
     use std::os::fd::AsRawFd;
     let Ok(entries) = std::fs::read_dir("/proc/self/fd") else {
         return;
     };
-    // Listed first: the folder that is read is a file too, and closed by the end of the list.
+    // List the files first: the folder being read is open too, and is closed when the listing ends.
     let open: Vec<RawFd> = entries
         .flatten()
         .filter_map(|entry| entry.file_name().to_str()?.parse().ok())
         .collect();
     for file in open {
         if file > 2 && file != kept.as_raw_fd() && is_open(file) {
-            // SAFETY: open, and owned by nobody, as the caller promises.
+            // SAFETY: open and without an owner, as the caller promises.
             drop(unsafe { OwnedFd::from_raw_fd(file) });
         }
     }
@@ -113,7 +113,7 @@ fn run(
         FirstWord::Known(hello) => hello,
         FirstWord::OfOtherWire(wire) => {
             let failure = Failure::new(ErrorKind::Abi, "serve", &FirstWord::refusal(wire));
-            // A host that is gone wants no reason.
+            // Ignored if the host is gone.
             let _ = orders.send(&(sequence, Greeting::Refused { failure }), &[]);
             return NOT_A_CHILD;
         }
@@ -134,13 +134,13 @@ fn run(
         return 0;
     }
     serve(orders, session.as_ref());
-    // What it serves is closed as it should be, while the host watches the clock.
+    // Close the session normally while the host enforces its timeout.
     drop(session);
     log::end();
     0
 }
 
-/// What is enforced, and what is served, if anything was to be loaded.
+/// The enforced isolation, and the loaded session; `None` if nothing was to be loaded.
 type Prepared = (Isolation, Option<Arc<dyn Session>>);
 
 fn prepare(

@@ -1,4 +1,4 @@
-//! Memory that the host and its child share: made by the host, of a size that neither can change.
+//! Memory shared by the host and its child. The host allocates it; neither can change its size.
 #![expect(
     unsafe_code,
     reason = "memory is shared by mapping one file in two processes"
@@ -13,12 +13,12 @@ use rustix::fs::{
 use rustix::io::Errno;
 use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
 
-/// What keeps a size as it is, this rule included.
+/// Seals that fix the size of the memory, including the seal on the seals.
 const SEALS: SealFlags = SealFlags::SHRINK
     .union(SealFlags::GROW)
     .union(SealFlags::SEAL);
 
-/// A mapping of memory that another process may map too.
+/// A memory mapping that another process can map too.
 #[derive(Debug)]
 pub(crate) struct SharedMemory {
     start: NonNull<u8>,
@@ -26,11 +26,11 @@ pub(crate) struct SharedMemory {
     file: OwnedFd,
 }
 
-// SAFETY: the mapping belongs to the process, not to a thread; it is unmapped once, by whoever drops the one owner.
+// SAFETY: the mapping belongs to the process, not to a thread; the drop of its only owner unmaps it once.
 unsafe impl Send for SharedMemory {}
 
 impl SharedMemory {
-    /// `length` bytes of zeros, to be handed to another process by [`file`](SharedMemory::file).
+    /// Allocates `length` zero bytes. [`file`](SharedMemory::file) passes them to another process.
     pub(crate) fn new(length: usize) -> Result<SharedMemory, Errno> {
         let file = memfd_create(
             c"taceva-shared",
@@ -41,7 +41,7 @@ impl SharedMemory {
         SharedMemory::map(file, length)
     }
 
-    /// The memory that another process made; refused unless its size is sealed.
+    /// Maps memory of another process. Fails unless its size is sealed.
     pub(crate) fn attach(file: OwnedFd) -> Result<SharedMemory, Errno> {
         if !fcntl_get_seals(&file)?.contains(SEALS) {
             return Err(Errno::PERM);
@@ -69,27 +69,27 @@ impl SharedMemory {
         })
     }
 
-    /// The file by which another process attaches it.
+    /// File with which another process attaches the memory.
     pub(crate) fn file(&self) -> BorrowedFd<'_> {
         self.file.as_fd()
     }
 
-    /// How many bytes it has.
+    /// Size, bytes.
     pub(crate) fn length(&self) -> usize {
         self.length
     }
 
-    /// Copies its first bytes; the other process may change them meanwhile, which changes the copy and nothing else.
+    /// Copies the first `into.len()` bytes. Concurrent writes of the other process change only the copy.
     ///
     /// # Panics
     /// If `into` is longer than the memory.
     pub(crate) fn copy_to(&self, into: &mut [u8]) {
         assert!(into.len() <= self.length, "a copy from within the memory");
-        // SAFETY: both places are valid for `into.len()` bytes, and a borrowed slice cannot overlap a mapping that nobody borrows.
+        // SAFETY: both places are valid for `into.len()` bytes, and a borrowed slice cannot overlap a mapping without borrows.
         unsafe { std::ptr::copy_nonoverlapping(self.start.as_ptr(), into.as_mut_ptr(), into.len()) }
     }
 
-    /// Its bytes, for the process that writes: the other one reads once the answer says that they are whole.
+    /// Bytes of the memory, for the writing process. The other process reads after the answer reports them complete.
     pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         // SAFETY: the mapping is valid for `length` bytes while `self` lives, and `&mut self` is the only way to it in this process.
         unsafe { std::slice::from_raw_parts_mut(self.start.as_ptr(), self.length) }

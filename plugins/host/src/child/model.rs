@@ -1,4 +1,4 @@
-//! A model on both sides of the socket: made, asked and kept.
+//! Model: proxy in the host and server in the child.
 
 mod proxy;
 mod serve;

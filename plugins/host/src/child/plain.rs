@@ -1,8 +1,8 @@
-//! Text of a plugin as a terminal may show it.
+//! Text of a plugin, made safe for a terminal.
 
 use taceva_core::is_obeyed;
 
-/// `text` with control characters written out, so that no terminal interprets them.
+/// Escapes the control characters of `text`, so that no terminal interprets them. Line feeds stay.
 pub(crate) fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     for character in text.chars() {

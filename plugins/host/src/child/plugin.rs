@@ -1,4 +1,4 @@
-//! A plugin handed to a child: what its manifest says, and its library, sealed, or where its module lies.
+//! Plugin passed to a child: its manifest, and its sealed library or the folder of its module.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -22,16 +22,16 @@ use crate::manifest::{Manifest, Sha256Digest};
 use crate::sealed_memory::seal_all;
 use crate::session::Session;
 
-/// What a child is to serve.
+/// Description of the plugin that a child serves.
 #[derive(Debug, PartialEq)]
 enum Label {
-    /// The library that comes behind; without a manifest it is only asked what it offers.
+    /// A library, passed as the next file. Without a manifest, the child only reports what the library offers.
     Library {
         path: PathBuf,
         digest: String,
         manifest: Option<String>,
     },
-    /// The module in this folder.
+    /// The module in `folder`.
     Module {
         folder: PathBuf,
         name: String,
@@ -45,28 +45,28 @@ variants!(Label, "what is to be served" {
     1 => Module { folder, name, preload, manifest },
 });
 
-/// Examines the plugin of a source as the file orders, in a child that would serve it otherwise.
+/// Function that examines the plugin of a source as the order in the file says, instead of serving it.
 ///
-/// A session stands for success; a kind and words say why there is none.
+/// Success is a session; failure is an error kind and a message.
 pub type Examiner = fn(File, Source, &Manifest) -> Result<Arc<dyn Session>, (ErrorKind, String)>;
 
-/// A module that a runtime is to import, in a process that is confined by then.
+/// A module that a runtime imports in a confined process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModuleToImport {
-    /// Its folder, which is the package.
+    /// Folder of the package.
     pub folder: PathBuf,
-    /// Its name.
+    /// Name of the module.
     pub name: String,
-    /// What is imported before it.
+    /// Modules that are imported before it.
     pub preload: Vec<String>,
 }
 
 impl ChildSpec {
-    /// A child that loads `image`, the library of the plugin whose manifest is `text`. It reaches nothing outside until
-    /// [`confinement`](ChildSpec::confinement) says so, and is not started if `quarantine` holds that library.
+    /// Specifies a child that loads `image`, the library of the plugin whose manifest is `text`. The child reaches nothing outside until
+    /// [`confinement`](ChildSpec::confinement) is set. It does not start if `quarantine` contains the library.
     ///
     /// # Errors
-    /// If the memory that is handed over cannot be made.
+    /// If the memory for the description cannot be allocated.
     pub fn of_plugin(
         image: &Image,
         manifest: &Manifest,
@@ -84,7 +84,8 @@ impl ChildSpec {
         Ok(spec)
     }
 
-    /// A child that imports `module` for the plugin `id` whose manifest is `text`; which program does so, and what it may read, is for the caller to say.
+    /// Specifies a child that imports `module` for the plugin `id` whose manifest is `text`. The caller sets the program and the readable
+    /// files.
     ///
     /// # Errors
     /// As [`of_plugin`](ChildSpec::of_plugin).
@@ -105,7 +106,7 @@ impl ChildSpec {
 }
 
 impl ChildSpec {
-    /// A child that loads `image`, of which no manifest says anything, and reaches nothing outside.
+    /// Specifies a child that loads `image` without a manifest and reaches nothing outside.
     ///
     /// # Errors
     /// As [`of_plugin`](ChildSpec::of_plugin).
@@ -121,7 +122,7 @@ impl ChildSpec {
     }
 }
 
-/// The arguments that the drivers and estimators of a plugin take.
+/// Argument declarations of the plugin's drivers and estimators, by key.
 pub(super) fn arguments(manifest: &Manifest) -> BTreeMap<DriverKey, Vec<ArgSpec>> {
     let drivers = manifest
         .drivers()
@@ -142,15 +143,15 @@ fn sealed(label: &Label) -> io::Result<OwnedFd> {
     Ok(file.into())
 }
 
-/// Returns at once, unless this process was started as a host child: then it confines itself, loads the plugin that it was given, serves
-/// it until its host is gone, and ends.
+/// Returns at once unless this process was started as a host child. A host child confines itself, loads its plugin, serves it until the
+/// host is gone, and ends.
 ///
-/// A program that embeds the host calls this before anything else in `main`, while there is one thread and no file is open.
+/// A program that embeds the host calls this first in `main`, while it has one thread and no open file.
 pub fn main_if_child() {
     serve_libraries(None);
 }
 
-/// The same as [`main_if_child`], for a program that also examines plugins.
+/// Like [`main_if_child`], for a program that also examines plugins.
 pub fn main_if_child_examining(examiner: Examiner) {
     serve_libraries(Some(examiner));
 }
@@ -163,17 +164,18 @@ fn serve_libraries(examiner: Option<Examiner>) {
                 module.name
             ))
         };
-        // Nothing is sealed here: what is no library is refused.
+        // Not sealed here: everything but a library is rejected.
         load(files, &Isolation::default(), import, examiner)
     });
 }
 
-/// Serves as the child of the host at the other end of standard input: confines this process, lets `import` import the module that is
-/// asked for, serves it until its host is gone, and says with which code to end. A library that is asked for is loaded instead.
+/// Serves as the child of the host on standard input, and returns the exit code. The process confines itself, calls `import` for the
+/// requested module and serves it until the host is gone. A requested library is loaded instead.
 ///
-/// For runtimes of other languages, whose `main` is not ours. They call it first of all: while there is one thread, and nothing is imported
-/// that begins others, which would not be confined. Every file that is open but the standard ones is closed. `import` gives the table
-/// that it made of the module, or says in words why there is none. `examiner` carries out orders to examine the module. The process must end without running what is registered for its end.
+/// For runtimes of other languages, whose `main` is not ours. Call it first, while there is one thread and before any import that starts
+/// threads, which would not be confined. It closes every open file except the standard ones. `import` returns the table that it made of the
+/// module, or the reason for the failure. `examiner` carries out orders to examine the module. The process must then end without running
+/// exit handlers.
 pub fn serve_as_child(
     import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>,
     examiner: Option<Examiner>,
@@ -181,7 +183,7 @@ pub fn serve_as_child(
     super::main_hook::serve_host(|files, isolation| load(files, isolation, import, examiner))
 }
 
-/// The plugin that `files` are, loaded.
+/// Loads the plugin in `files`.
 fn load(
     files: Vec<File>,
     isolation: &Isolation,
@@ -217,13 +219,13 @@ fn load(
                 name,
                 preload,
             };
-            // What comes behind is an order to examine it.
+            // A further file is an order to examine the module.
             if files.len() > 0 {
                 pending_call::watch(super::log::tell_call);
             }
             let importing = pending_call::begin("import its module");
             let linked = import(&module).map_err(|why| (ErrorKind::InvalidArgument, why))?;
-            // A check of it is made in the same state in which it is used; a library is loaded by some of them again.
+            // Examine the module sealed, as it is used. Some checks load a library again.
             drop(importing);
             seal(isolation).map_err(|why| (ErrorKind::PermissionDenied, why))?;
             (Source::Linked(linked), Some(manifest))
@@ -253,10 +255,10 @@ fn read(file: File) -> io::Result<Label> {
     decode(&bytes).map_err(io::Error::other)
 }
 
-/// What a plugin logs goes to its host; where that does not listen it stands among what the process prints, of which the host keeps the last.
+/// Sends a log line to the host. If the host does not listen, warnings and errors go to standard error, whose end the host keeps.
 fn log(level: Level, target: &str, message: &str) {
     if !super::log::send(level, target, message) && level <= Level::Warn {
-        // Nobody is left to tell if this fails.
+        // A failure cannot be reported anywhere.
         let _ = writeln!(io::stderr(), "{target}: {message}");
     }
 }

@@ -1,4 +1,4 @@
-//! Plugins that crashed: not started again before their user says so.
+//! Quarantine of crashed plugins, which do not start again until their user releases them.
 
 use std::fs;
 use std::io::{self, Write};
@@ -9,34 +9,34 @@ use serde::{Deserialize, Serialize};
 use super::plain::plain;
 use crate::manifest::Sha256Digest;
 
-/// The folder in which a user keeps what crashed: a file a library, called by its digest, so that a new build is another one.
+/// Folder of a user's quarantine: one file per library, named by its digest, so that a new build is not affected.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quarantine {
     folder: PathBuf,
 }
 
-/// A library that crashed.
+/// Quarantine entry of a crashed library.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quarantined {
-    /// The digest of the library.
+    /// Digest of the library.
     pub sha256: Sha256Digest,
-    /// The plugin it belongs to.
+    /// Name of the plugin.
     pub plugin: String,
-    /// What it did, in words.
+    /// Description of the crash.
     pub reason: String,
 }
 
 impl Quarantine {
-    /// The quarantine kept in `folder`, which need not be there yet.
+    /// Quarantine stored in `folder`, which need not exist yet.
     pub fn of_folder(folder: impl Into<PathBuf>) -> Quarantine {
         Quarantine {
             folder: folder.into(),
         }
     }
 
-    /// That of the user whom the environment names: `$XDG_STATE_HOME/taceva/quarantine`, or the same below `~/.local/state`. `None`
-    /// where neither variable is an absolute path.
+    /// Quarantine of the current user: `$XDG_STATE_HOME/taceva/quarantine`, or the same below `$HOME/.local/state`. `None` if neither
+    /// variable is an absolute path.
     pub fn of_user(variable: impl Fn(&str) -> Option<PathBuf>) -> Option<Quarantine> {
         let absolute = |name: &str| variable(name).filter(|path| path.is_absolute());
         let state = absolute("XDG_STATE_HOME")
@@ -46,15 +46,15 @@ impl Quarantine {
         ))
     }
 
-    /// Where it is.
+    /// Path of the quarantine folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The entry of a library, if it is in quarantine. An entry that cannot be read holds all the same.
+    /// Entry of a library, or `None`. An unreadable entry still counts.
     ///
     /// # Errors
-    /// If it cannot be known whether there is one.
+    /// If the entry's file exists but cannot be read.
     pub fn get(&self, sha256: Sha256Digest) -> io::Result<Option<Quarantined>> {
         match fs::read_to_string(self.file(sha256)) {
             Ok(text) => Ok(Some(toml::from_str(&text).unwrap_or(Quarantined {
@@ -67,7 +67,7 @@ impl Quarantine {
         }
     }
 
-    /// Every entry, by digest.
+    /// All entries, sorted by digest.
     ///
     /// # Errors
     /// If the folder cannot be read.
@@ -92,11 +92,11 @@ impl Quarantine {
     /// Puts a library into quarantine.
     ///
     /// # Errors
-    /// If that cannot be written.
+    /// If the entry cannot be written.
     pub fn put(&self, entry: &Quarantined) -> io::Result<()> {
         fs::create_dir_all(&self.folder)?;
         let text = toml::to_string(entry).map_err(io::Error::other)?;
-        // Written beside and renamed: an entry is there or not.
+        // Written to a temporary file and renamed, so that an entry is never partial.
         let beside = self
             .folder
             .join(format!(".{}-{}", entry.sha256, std::process::id()));
@@ -106,7 +106,7 @@ impl Quarantine {
         fs::rename(&beside, self.file(entry.sha256))
     }
 
-    /// Releases every library of `plugin`, or the one whose digest that is; says how many.
+    /// Releases every library of `plugin`, or the library with this digest. Returns the number released.
     ///
     /// # Errors
     /// If an entry cannot be read or removed.
@@ -127,7 +127,7 @@ impl Quarantine {
 }
 
 impl Quarantined {
-    /// A library of `plugin` that crashed for this reason.
+    /// Creates the entry of a library of `plugin` that crashed for `reason`.
     pub fn new(sha256: Sha256Digest, plugin: &str, reason: &str) -> Quarantined {
         Quarantined {
             sha256,

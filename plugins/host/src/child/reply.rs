@@ -1,22 +1,22 @@
-//! What an operation returns, as it crosses: the answer that carries it, and whether it is a reading.
+//! Results of device operations: conversion to and from answers, and checks of their values.
 
 use taceva_core::{GuardedStop, Pose, Stamp, Wrench, check_pose, check_wrench};
 
 use super::wire::Answer;
 
-/// What an operation of a device returns.
+/// Result of a device operation.
 pub(super) trait Reply: Sized {
-    /// The answer that carries it.
+    /// Converts the result into an answer.
     fn into_answer(self) -> Answer;
 
-    /// What `answer` carries; `None` if it is the answer to another question.
+    /// Extracts the result from `answer`; `None` if it answers another call.
     fn from_answer(answer: Answer) -> Option<Self>;
 
-    /// Refuses numbers that no device reads; the error says which.
+    /// Rejects impossible values. The error names the value.
     fn check(&self) -> Result<(), String>;
 }
 
-/// What a transducer read, and the number that it gave it.
+/// Reading of a force transducer with its sequence number.
 #[derive(Clone, Copy)]
 pub(super) struct Reading {
     pub(super) wrench: Wrench,
@@ -24,10 +24,10 @@ pub(super) struct Reading {
     pub(super) sequence: Option<u64>,
 }
 
-/// The name of what a changer has in place.
+/// Name of the item that a changer has in place.
 pub(super) struct InPlace(pub(super) String);
 
-/// A row for each type: the value by its parts, the answer that carries them, and their check.
+/// Implements [`Reply`]. Each row has the type, its parts, the matching answer and the check.
 macro_rules! replies {
     ($($type:ty: $value:pat_param = $parts:expr => $answer:ident { $($part:ident),* }, $check:expr;)*) => {$(
         impl Reply for $type {

@@ -1,4 +1,4 @@
-//! What a child may do: said by the host, enforced by the child upon itself before it loads anything, and reported back.
+//! Sandbox of a child: ordered by the host, enforced by the child on itself before it loads anything, and reported back.
 
 mod confinement;
 mod devices;

@@ -1,4 +1,4 @@
-//! What a child does: it opens devices and answers calls to them, each device on threads of its own.
+//! Main loop of a child: opens devices and serves each on its own threads.
 
 mod device;
 
@@ -15,9 +15,9 @@ use super::wire::{Failure, OpenedDevice, Order, OrderAnswer};
 use super::{bench, model};
 use crate::session::Session;
 
-/// Answers orders until the host is gone or says so. Without a session, only the last one.
+/// Answers orders until the host is gone or orders the end. Without a session, returns on the first order.
 pub(super) fn serve(mut orders: Socket, session: Option<&Arc<dyn Session>>) {
-    // Without a host there is nothing left to do, whatever the reason.
+    // Any failure to receive means that the host is gone.
     while let Ok(((sequence, order), files)) = orders.receive_with_files::<(u32, Order)>() {
         let answer = match (order, session) {
             (Order::Shutdown {}, _) | (_, None) => return,
@@ -30,7 +30,7 @@ pub(super) fn serve(mut orders: Socket, session: Option<&Arc<dyn Session>>) {
     }
 }
 
-/// Sends an answer; one that is too long is replaced by a failure that says so.
+/// Sends an answer. If the answer is too long, sends a failure instead.
 fn send_or_say_why(
     orders: &mut Socket,
     sequence: u32,
@@ -112,7 +112,7 @@ fn open(
     }
 }
 
-/// Calls the session; a panic is a failure like any other.
+/// Calls the session and converts a panic into a failure.
 fn called<T>(doing: &str, call: impl FnOnce() -> Result<T, DriverError>) -> Result<T, Failure> {
     guarded(doing, call)?.map_err(|error| Failure::of(&error))
 }

@@ -1,4 +1,4 @@
-//! A plugin in a child, as the host holds it.
+//! Host-side session of a plugin in a child.
 
 use std::collections::BTreeMap;
 use std::os::fd::{AsFd, BorrowedFd};
@@ -26,7 +26,7 @@ use crate::manifest::Manifest;
 use crate::offer::Offer;
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
-/// The devices that one plugin has in one rig, all in one child.
+/// Devices of one plugin in one rig, all in one child.
 #[derive(Debug)]
 pub struct ChildSession {
     child: Arc<Child>,
@@ -35,7 +35,7 @@ pub struct ChildSession {
 }
 
 impl ChildSession {
-    /// Starts a child for `plugin`, whose drivers and estimators take the `arguments` that its manifest declares.
+    /// Starts a child for `plugin`. `arguments` are the manifest's declarations for its drivers and estimators.
     ///
     /// # Errors
     /// As [`Child::start`].
@@ -51,7 +51,7 @@ impl ChildSession {
         })
     }
 
-    /// Starts the child that [`ChildSpec::of_plugin`] specifies for the plugin of `manifest`.
+    /// Starts the child that [`ChildSpec::of_plugin`] specified for the plugin of `manifest`.
     ///
     /// # Errors
     /// As [`Child::start`].
@@ -59,7 +59,7 @@ impl ChildSession {
         ChildSession::start(spec, manifest.id.as_driver(), arguments(manifest))
     }
 
-    /// The process behind it.
+    /// Child process of the session.
     pub fn child(&self) -> &Child {
         &self.child
     }
@@ -93,7 +93,7 @@ impl ChildSession {
         }
     }
 
-    /// The arguments by name, as the driver declares them.
+    /// Arguments by name, limited to those the driver declares.
     fn pairs(&self, driver: &DriverKey, args: &Args) -> Vec<(String, ArgValue)> {
         let specs = self.arguments.get(driver).into_iter().flatten();
         specs
@@ -246,7 +246,7 @@ impl Session for ChildSession {
 }
 
 impl ChildSession {
-    /// Asks for a model, and waits until there is one.
+    /// Orders a model and waits until the child has made it.
     fn make(
         &self,
         estimator: &DriverKey,

@@ -1,4 +1,4 @@
-//! Packets between two processes: each is read whole or not at all, and files travel beside them.
+//! Packet sockets between two processes. A packet is read whole or not at all, and can carry files.
 
 use std::io::{IoSlice, IoSliceMut};
 use std::mem::MaybeUninit;
@@ -13,13 +13,13 @@ use rustix::net::{
 
 use super::wire::{MESSAGE_MAX, Malformed, Reader, Wire, decode, encode};
 
-/// The most files that travel beside one packet.
+/// Maximum number of files per packet.
 const FILES_MAX: usize = 4;
 
-/// Room for the files beside one packet.
+/// Ancillary buffer for the files of one packet.
 type FileSpace = [MaybeUninit<u8>; rustix::cmsg_space!(ScmRights(FILES_MAX))];
 
-/// One end of a pair of sockets, with room for the packets that go and come.
+/// One end of a socket pair, with buffers for outgoing and incoming packets.
 #[derive(Debug)]
 pub(crate) struct Socket {
     file: OwnedFd,
@@ -28,19 +28,19 @@ pub(crate) struct Socket {
     incoming: Vec<u8>,
 }
 
-/// Why no packet went or came.
+/// Failure to send or to receive a packet.
 #[derive(Debug)]
 pub(crate) enum LinkError {
-    /// The other end is gone.
+    /// The other end is closed.
     Closed,
-    /// The other end does not follow the rules.
+    /// The other end broke the protocol.
     Breach(String),
-    /// What should be sent cannot be.
+    /// The message cannot be sent.
     Unsendable(String),
 }
 
 impl Socket {
-    /// Two ends; neither outlives an `exec`.
+    /// Creates a socket pair. Both ends close on `exec`.
     pub(crate) fn pair() -> Result<(Socket, OwnedFd), Errno> {
         let (ours, theirs) = socketpair(
             AddressFamily::UNIX,
@@ -51,7 +51,7 @@ impl Socket {
         Ok((Socket::from(ours), theirs))
     }
 
-    /// Sends a message, and files beside it.
+    /// Sends a message with files.
     pub(crate) fn send(
         &mut self,
         message: &impl Wire,
@@ -64,12 +64,12 @@ impl Socket {
 
     /// Waits for a message without files.
     pub(crate) fn receive<T: Wire>(&mut self) -> Result<T, LinkError> {
-        // A packet that is cut has its true length; what travels beside it is closed by the kernel.
+        // A truncated packet reports its true length. The kernel closes files that came with it.
         let received = retry(|| recv(&self.file, &mut self.incoming[..], RecvFlags::TRUNC))?;
         message(&self.incoming, received.1)
     }
 
-    /// Waits for a message and for the files beside it.
+    /// Waits for a message and its files.
     pub(crate) fn receive_with_files<T: Wire>(&mut self) -> Result<(T, Vec<OwnedFd>), LinkError> {
         let mut space: FileSpace = [MaybeUninit::uninit(); _];
         let mut beside = RecvAncillaryBuffer::new(&mut space);
@@ -112,7 +112,7 @@ impl AsFd for Socket {
     }
 }
 
-/// The end that asks: each question has a number, which its answer repeats, so that nothing can be answered before it was asked.
+/// Requesting end. Each request has a number that its answer repeats, so that an answer sent in advance is detected.
 #[derive(Debug)]
 pub(crate) struct Caller {
     socket: Socket,
@@ -120,7 +120,7 @@ pub(crate) struct Caller {
 }
 
 impl Caller {
-    /// Asks, and waits for the answer.
+    /// Sends a request and waits for the answer.
     pub(crate) fn ask<A: Wire>(
         &mut self,
         question: &impl Wire,
@@ -153,7 +153,7 @@ impl AsFd for Caller {
     }
 }
 
-/// A borrowed message behind its number, read as a pair of both.
+/// A borrowed message preceded by its number; reads back as a pair.
 struct Numbered<'a, T>(u32, &'a T);
 
 impl<T: Wire> Wire for Numbered<'_, T> {
@@ -167,7 +167,7 @@ impl<T: Wire> Wire for Numbered<'_, T> {
     }
 }
 
-/// Sends a message without waiting for room; one that does not go at once does not go.
+/// Sends a message without blocking. Fails if the socket is full.
 pub(crate) fn send_now(socket: BorrowedFd<'_>, message: &impl Wire) -> Result<(), LinkError> {
     let mut packet = Vec::new();
     encode(message, &mut packet).map_err(|error| LinkError::Unsendable(error.to_string()))?;
@@ -175,7 +175,7 @@ pub(crate) fn send_now(socket: BorrowedFd<'_>, message: &impl Wire) -> Result<()
     retry(|| send(socket, &packet, flags)).map(|_| ())
 }
 
-/// The message that has come, if one has.
+/// Receives a message without blocking; `None` if none has arrived.
 pub(crate) fn try_receive<T: Wire>(socket: BorrowedFd<'_>) -> Result<Option<T>, LinkError> {
     let mut packet = vec![0; MESSAGE_MAX];
     let flags = RecvFlags::TRUNC | RecvFlags::DONTWAIT;
@@ -216,7 +216,7 @@ fn send_packet(
 
 fn message<T: Wire>(packet: &[u8], received: usize) -> Result<T, LinkError> {
     match received {
-        // No message is empty: this is the end.
+        // No message is empty, so length 0 means that the socket is closed.
         0 => Err(LinkError::Closed),
         _ => {
             let packet = packet.get(..received).ok_or_else(too_long)?;

@@ -1,4 +1,4 @@
-//! What a child is started with.
+//! Specification of a child to start.
 
 use std::ffi::OsString;
 use std::fmt;
@@ -12,35 +12,35 @@ use super::timeouts::Patience;
 use crate::library::Log;
 use crate::manifest::Sha256Digest;
 
-/// What is called with how a child ended.
+/// Callback that receives the fate of a child.
 pub(super) type Ended = Box<dyn FnOnce(&Fate) + Send>;
 
-/// A child to be started.
+/// Specification of a child to start.
 pub struct ChildSpec {
-    /// The name of the plugin, for messages.
+    /// Name of the plugin, for messages.
     pub plugin: String,
-    /// The program whose `main` begins with [`main_if_child`](crate::main_if_child): this one, if none is named.
+    /// Program whose `main` begins with [`main_if_child`](crate::main_if_child); `None` for this program.
     pub program: Option<PathBuf>,
-    /// What that program is given before the argument of a host child: how an interpreter is told which file to run.
+    /// Arguments before the host-child argument, such as the file that an interpreter runs.
     pub arguments: Vec<OsString>,
-    /// What is handed to it, at most three files; it decides what they are.
+    /// Files passed to the child, at most three. The child determines their meaning.
     pub files: Vec<OwnedFd>,
-    /// What it must confine itself to.
+    /// Limits that the child imposes on itself.
     pub confinement: Confinement,
-    /// How long it is waited for.
+    /// Timeouts of the child.
     pub patience: Patience,
-    /// Called once with how it ended, from the thread that watches it.
+    /// Callback that receives the child's fate once, on the keeper thread.
     pub ended: Option<Ended>,
-    /// Whether it loads anything; one that does not only shows what is enforced upon it.
+    /// True if the child loads a plugin. Otherwise it only reports its isolation.
     pub loads: bool,
-    /// Takes what its plugin logs, from a thread of its own; without, the errors and warnings stand among what the child prints.
+    /// Receives the plugin's log lines on a separate thread. Without it, errors and warnings appear in the child's printed output.
     pub log: Option<Log>,
-    /// Where its library is kept if it crashes, and where it must not be; and the digest of that library.
+    /// Quarantine that must not contain the library and receives it if it crashes, and the library's digest.
     pub quarantine: Option<(Quarantine, Sha256Digest)>,
 }
 
 impl ChildSpec {
-    /// A child of this program that is given `files`, with the usual confinement and patience.
+    /// Specifies a child of this program that receives `files`, with default confinement and timeouts.
     pub fn new(plugin: impl Into<String>, files: Vec<OwnedFd>) -> ChildSpec {
         ChildSpec {
             plugin: plugin.into(),

@@ -1,4 +1,4 @@
-//! Starting a child, and what it is asked as a whole.
+//! Start of a child, and its orders.
 
 use std::fmt;
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
@@ -26,10 +26,10 @@ use crate::manifest::Sha256Digest;
 use crate::python::{arguments as python_arguments, own};
 use crate::wire_version::WIRE;
 
-/// The program that is running: the same file, even if another one has taken its name since.
+/// The running executable, even if another file has taken its path since.
 const THIS_PROGRAM: &str = "/proc/self/exe";
 
-/// A running child; it is asked to end when the last device of it and the last owner of this are gone.
+/// A running child. It is ordered to end when its last device and the last owner of this value are gone.
 pub struct Child {
     process: u32,
     isolation: Isolation,
@@ -40,7 +40,7 @@ pub struct Child {
 }
 
 impl Child {
-    /// Starts a child and waits until it has confined itself and loaded what it serves.
+    /// Starts a child and waits until it has confined itself and loaded its plugin.
     ///
     /// # Errors
     /// [`ChildError`] if it does not start, or refuses to serve.
@@ -62,7 +62,7 @@ impl Child {
             plugin: plugin.clone(),
             why: why.to_string(),
         };
-        // A program that runs within an interpreter is that one again.
+        // A program that runs in an interpreter starts that interpreter again.
         let within = own().filter(|_| program.is_none() && !can_be_child());
         let (program, arguments) = match within {
             Some((interpreter, child)) => (Some(interpreter.clone()), python_arguments(child)),
@@ -76,7 +76,7 @@ impl Child {
         let (printed, output) = pipe_with(PipeFlags::CLOEXEC).map_err(|error| failed(&error))?;
         let also_output = output.try_clone().map_err(|error| failed(&error))?;
         let mut command = Command::new(program.unwrap_or_else(|| PathBuf::from(THIS_PROGRAM)));
-        // An interpreter finds its environment by the name that it is started by.
+        // An interpreter locates its environment by its program name.
         if arguments.is_empty() {
             command.arg0("taceva-plugin");
         }
@@ -86,7 +86,7 @@ impl Child {
             .arg(&plugin)
             .env_clear()
             .current_dir("/")
-            // What a terminal sends to the programs in front of it, its host handles.
+            // The host handles signals of the terminal, such as SIGINT.
             .process_group(0)
             .stdin(Stdio::from(theirs))
             .stdout(Stdio::from(output))
@@ -125,7 +125,7 @@ impl Child {
             child.listener = Some(listener.map_err(|error| failed(&error))?);
         }
         let greeting = child.greet(&hello, &files);
-        // Whoever listens hears the end of the child only when nobody here holds its ends.
+        // The log listener sees the child's end only after the host closes its copies of the sockets.
         drop(files);
         child.isolation = greeting?;
         Ok(Arc::new(child))
@@ -151,29 +151,29 @@ impl Child {
         }
     }
 
-    /// The number of its process.
+    /// Process number.
     pub fn process(&self) -> u32 {
         self.process
     }
 
-    /// What is enforced upon it.
+    /// Isolation in force.
     pub fn isolation(&self) -> &Isolation {
         &self.isolation
     }
 
-    /// How it ended; `None` while it lives.
+    /// Fate of the child; `None` while it runs.
     pub fn fate(&self) -> Option<Fate> {
         self.life.watch.fate()
     }
 
-    /// Gives an order and waits for its answer.
+    /// Sends an order and waits for its answer.
     pub(crate) fn order(
         &self,
         order: &Order,
         files: &[BorrowedFd<'_>],
         doing: &str,
     ) -> Result<OrderAnswer, ChildError> {
-        // Before the time begins to count: another order may be under way.
+        // Lock before the timeout starts: another order may be pending.
         let mut orders = self.orders();
         let call = self.life.watch.begin(doing, self.life.patience.open);
         let answer = orders.ask(order, files);
@@ -190,7 +190,7 @@ impl Child {
     }
 }
 
-/// Refuses a library that crashed before.
+/// Rejects a library in quarantine.
 fn refuse_quarantined(
     plugin: &str,
     quarantine: Option<&(Quarantine, Sha256Digest)>,
@@ -212,7 +212,7 @@ fn refuse_quarantined(
     }
 }
 
-/// What is done when a child has ended: a library that crashed goes into quarantine, then whoever wants to know is called.
+/// Creates the callback for the end of a child: puts a crashed library into quarantine, then calls `on_end`.
 fn when_ended(
     plugin: String,
     quarantine: Option<(Quarantine, Sha256Digest)>,
@@ -221,7 +221,7 @@ fn when_ended(
     move |fate| {
         if let Some((quarantine, digest)) = quarantine.filter(|_| fate.is_its_own_fault()) {
             let entry = Quarantined::new(digest, &plugin, &fate.to_string());
-            // Its devices have failed already, and say why; that it may be started again is the lesser evil.
+            // The devices have already failed with a reason. An unwritten quarantine entry only allows another start.
             let _ = quarantine.put(&entry);
         }
         if let Some(on_end) = on_end {
@@ -237,14 +237,14 @@ impl Drop for Child {
         } = &*self.life;
         watch.expect_end();
         let call = watch.begin(ENDING, patience.end);
-        // It answers by ending. One that is gone already cannot be asked.
+        // The child answers by ending. If it is gone, the order fails.
         let _ = self.orders().ask::<OrderAnswer>(&Order::Shutdown {}, &[]);
         if let Some(keeper) = self.keeper.take() {
-            // A keeper that panicked keeps nothing any more.
+            // A panic of the keeper is ignored.
             let _ = keeper.join();
         }
         if let Some(listener) = self.listener.take() {
-            // As above: its last messages are read before the child is forgotten.
+            // Ignored too; joining ensures that the last log lines are read.
             let _ = listener.join();
         }
         watch.end(call);

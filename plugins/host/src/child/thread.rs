@@ -1,13 +1,13 @@
-//! How a child runs code of a driver: on threads of its own, and a panic is a failure.
+//! Threads of a child for driver code; a panic becomes a failure.
 
 use taceva_core::{ErrorKind, caught};
 
 use super::wire::Failure;
 
-/// What a thread of a C program has, in bytes: libraries of linear algebra take more of it than the 2 MiB of Rust.
+/// Stack size of a thread, bytes, as in C programs. Linear-algebra libraries exceed the 2 MiB of Rust.
 const STACK: usize = 8 << 20;
 
-/// Starts a thread.
+/// Starts a named thread with a stack of [`STACK`] bytes.
 pub(super) fn start(name: &str, run: impl FnOnce() + Send + 'static) -> Result<(), Failure> {
     std::thread::Builder::new()
         .name(name.to_owned())
@@ -17,9 +17,9 @@ pub(super) fn start(name: &str, run: impl FnOnce() + Send + 'static) -> Result<(
         .map_err(|error| Failure::new(ErrorKind::Internal, "start a thread", &error.to_string()))
 }
 
-/// Runs code of a driver; a panic is a failure that says what it said.
+/// Runs driver code. A panic becomes a failure with the panic message.
 pub(super) fn guarded<T>(doing: &str, run: impl FnOnce() -> T) -> Result<T, Failure> {
-    // Whoever panicked is not called again.
+    // After a panic the driver is not called again.
     caught(run).map_err(|message| {
         let message = format!("the driver panicked: {message}");
         Failure::new(ErrorKind::Panicked, doing, &message)

@@ -1,28 +1,28 @@
-//! How long a host waits for its child.
+//! Timeouts of a host for its child.
 
 use std::time::Duration;
 
-/// How long a host waits before it ends a child that does not answer.
+/// Timeouts after which a host kills a child that does not answer.
 ///
-/// A call that has a deadline is waited for until the deadline and [`grace`](Patience::grace) have passed on the clock of the machine.
+/// A call with a deadline times out [`grace`](Patience::grace) after the deadline, on the machine's clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Patience {
-    /// Until the child has confined itself and loaded its plugin.
+    /// From start until the child has confined itself and loaded its plugin.
     pub start: Duration,
-    /// Until a device is open, and for every call without a deadline.
+    /// For opening a device and every call without a deadline.
     pub open: Duration,
-    /// Until a device is closed; a child that takes longer is ended.
+    /// For closing a device.
     pub close: Duration,
-    /// Beyond the deadline of a call, since simulated devices count the deadline on a clock of their own.
+    /// Beyond the deadline of a call, since simulated devices count deadlines on their own clock.
     pub grace: Duration,
-    /// Until a halt is acknowledged, and until a call has ended after an interrupt.
+    /// For acknowledging a halt, and for ending a call after an interrupt.
     pub urgent: Duration,
-    /// Until the child has ended after it was asked to.
+    /// For ending after the order to end.
     pub end: Duration,
 }
 
 impl Default for Patience {
-    /// Generous: it tells what hangs from what is slow on a busy machine.
+    /// Generous timeouts that tell a hanging child from a slow one on a busy machine.
     fn default() -> Patience {
         Patience {
             start: Duration::from_secs(20),

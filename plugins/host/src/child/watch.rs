@@ -1,4 +1,4 @@
-//! The calls that a child has not answered yet, and what became of it: shared by its keeper and by those who call.
+//! Pending calls and fate of a child, shared by its keeper and its callers.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io;
@@ -11,10 +11,10 @@ use rustix::event::{EventfdFlags, eventfd};
 use super::exit_status::Fate;
 use super::plain::plain;
 
-/// How much of the last that a child printed is kept.
+/// Length of the kept end of the child's output, bytes.
 pub(super) const PRINTED_MAX: usize = 4096;
 
-/// What the keeper shares with those who call.
+/// State shared by the keeper and the callers.
 #[derive(Debug)]
 pub(crate) struct Watch {
     state: Mutex<State>,
@@ -27,11 +27,11 @@ pub(crate) struct Watch {
 struct State {
     calls: BTreeMap<u64, Expiry>,
     next_call: u64,
-    /// When the keeper looks again by itself; `None`: when something happens.
+    /// Time of the keeper's next check; `None` if it waits for an event.
     looks_at: Option<Instant>,
-    /// Why it is to be ended, if it is.
+    /// Reason to kill the child, if there is one.
     sentence: Option<Fate>,
-    /// Whether it was asked to end.
+    /// True once the child was ordered to end.
     is_ending: bool,
     fate: Option<Fate>,
     printed: VecDeque<u8>,
@@ -44,7 +44,7 @@ struct Expiry {
     doing: String,
 }
 
-/// A call that is being waited for.
+/// Identifier of a pending call.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CallId(u64);
 
@@ -57,12 +57,12 @@ impl Watch {
         })
     }
 
-    /// Notes a call that must be answered within `after`.
+    /// Records a call that must be answered within `after`.
     pub(crate) fn begin(&self, doing: &str, after: Duration) -> CallId {
         let mut state = self.state();
         let id = state.next_call;
         state.next_call += 1;
-        // A deadline beyond the clock's end is as good as a century.
+        // A deadline that overflows the clock becomes a century.
         let now = Instant::now();
         let at = now
             .checked_add(after)
@@ -73,12 +73,12 @@ impl Watch {
         CallId(id)
     }
 
-    /// Notes that a call was answered.
+    /// Records that a call was answered.
     pub(crate) fn end(&self, call: CallId) {
         self.state().calls.remove(&call.0);
     }
 
-    /// Shortens what is left of a call, if it is still being waited for.
+    /// Shortens the timeout of a call to `after`, if the call is pending and has more time left.
     pub(crate) fn hasten(&self, call: CallId, after: Duration) {
         let mut state = self.state();
         let at = Instant::now() + after;
@@ -90,24 +90,24 @@ impl Watch {
         }
     }
 
-    /// Ends the child, for this reason unless there is one already.
+    /// Kills the child for `reason`, unless it already has a reason.
     pub(crate) fn condemn(&self, reason: Fate) {
         let mut state = self.state();
         state.sentence.get_or_insert(reason);
         self.look_at(&mut state, Instant::now());
     }
 
-    /// Notes that the child is asked to end, so that it may.
+    /// Records that the child is ordered to end, so that its exit is no failure.
     pub(crate) fn expect_end(&self) {
         self.state().is_ending = true;
     }
 
-    /// How the child ended; `None` while it lives.
+    /// Fate of the child; `None` while it runs.
     pub(crate) fn fate(&self) -> Option<Fate> {
         self.state().fate.clone()
     }
 
-    /// How the child ended; waits for that as long as it takes a process that closed its sockets to be gone.
+    /// Waits for the fate of a child that closed its sockets. Kills it if it still runs after 250 ms.
     pub(crate) fn final_fate(&self) -> Fate {
         let closing = Duration::from_millis(250);
         let (state, _) = self
@@ -118,7 +118,7 @@ impl Watch {
             return fate.clone();
         }
         drop(state);
-        // It lives, and hangs up.
+        // The child still runs but closed its socket.
         self.condemn(Fate::Breach {
             what: "it closed the connection to its host".to_owned(),
         });
@@ -129,7 +129,7 @@ impl Watch {
         state.fate.clone().unwrap_or(Fate::Closed)
     }
 
-    /// The last that it printed, control characters written out.
+    /// End of the child's output, with control characters escaped.
     pub(crate) fn printed(&self) -> String {
         let bytes: Vec<u8> = self.state().printed.iter().copied().collect();
         plain(&String::from_utf8_lossy(&bytes))
@@ -138,17 +138,17 @@ impl Watch {
     fn look_at(&self, state: &mut State, at: Instant) {
         if state.looks_at.is_none_or(|looks_at| at < looks_at) {
             state.looks_at = Some(at);
-            // A counter that is full wakes as well.
+            // A full counter wakes the keeper too.
             let _ = rustix::io::write(&self.wake, &1_u64.to_ne_bytes());
         }
     }
 
-    /// The state, whole whatever happened to another thread: every change of it is finished before it can be interrupted.
+    /// Locks the state. Every change completes before a panic is possible, so a poisoned lock is consistent.
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What is to be done now: a reason to end the child, or how long to wait.
+    /// Next action of the keeper: an error with the reason to kill the child, or the time to wait.
     pub(super) fn look(&self) -> Result<Option<Duration>, Fate> {
         let mut state = self.state();
         let now = Instant::now();
@@ -163,13 +163,13 @@ impl Watch {
         if let Some(reason) = state.sentence.clone() {
             return Err(reason);
         }
-        // With nothing to wait for it looks again when it would have, so that a stream of short calls does not wake it for each.
+        // Without pending calls it keeps the next check, so that a stream of short calls does not wake it each time.
         let next = state.calls.values().map(|call| call.at).min();
         state.looks_at = next.or(state.looks_at.filter(|at| *at > now));
         Ok(state.looks_at.map(|at| at.saturating_duration_since(now)))
     }
 
-    /// Takes what the child printed.
+    /// Appends output of the child and drops the surplus beyond [`PRINTED_MAX`].
     pub(super) fn printed_more(&self, bytes: &[u8]) {
         let mut state = self.state();
         state.printed.extend(bytes);
@@ -177,7 +177,7 @@ impl Watch {
         state.printed.drain(..surplus);
     }
 
-    /// Notes how the child ended, and wakes whoever waits for that.
+    /// Records the child's fate and wakes all waiting threads.
     pub(super) fn ended(&self, fate: Fate) {
         let mut state = self.state();
         let fate = state.sentence.take().unwrap_or(fate);

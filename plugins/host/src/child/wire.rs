@@ -1,7 +1,7 @@
-//! How the host and its child write what they say to each other: little-endian, every length checked before it is used.
+//! Binary message format between the host and its child: little-endian, with every length checked before use.
 //!
-//! A message is one packet of at most [`MESSAGE_MAX`] bytes. Reading never panics, allocates no more than the packet is long, and refuses a
-//! message that is not read to its end.
+//! A message is one packet of at most [`MESSAGE_MAX`] bytes. Reading never panics and allocates no more than the packet length. A message
+//! with trailing bytes is rejected.
 
 mod any;
 mod basic;
@@ -24,19 +24,19 @@ pub(crate) use model::{ModelAnswer, ModelCall, ModelEvent, ModelOrder, ModelWord
 
 use std::fmt;
 
-/// The longest message in bytes; pictures and arrays go through shared memory.
+/// Maximum message length, bytes. Images and arrays use shared memory.
 pub(crate) const MESSAGE_MAX: usize = 64 * 1024;
 
-/// What can be sent.
+/// A value with a binary encoding.
 pub(crate) trait Wire: Sized {
-    /// Appends it to `into`.
+    /// Appends the encoding to `into`.
     fn write(&self, into: &mut Vec<u8>);
 
-    /// Takes it from the front of `from`.
+    /// Reads a value from the front of `from`.
     fn read(from: &mut Reader<'_>) -> Result<Self, Malformed>;
 }
 
-/// The bytes of a message, or nothing if they are more than a packet holds.
+/// Encodes a message into `into`. Fails if it exceeds a packet.
 pub(crate) fn encode(message: &impl Wire, into: &mut Vec<u8>) -> Result<(), TooLong> {
     into.clear();
     message.write(into);
@@ -46,7 +46,7 @@ pub(crate) fn encode(message: &impl Wire, into: &mut Vec<u8>) -> Result<(), TooL
     Ok(())
 }
 
-/// The message that `bytes` are, all of them.
+/// Decodes a message from all of `bytes`.
 pub(crate) fn decode<T: Wire>(bytes: &[u8]) -> Result<T, Malformed> {
     let mut reader = Reader { bytes, at: 0 };
     let message = T::read(&mut reader)?;
@@ -56,7 +56,7 @@ pub(crate) fn decode<T: Wire>(bytes: &[u8]) -> Result<T, Malformed> {
     Ok(message)
 }
 
-/// A message that no packet holds.
+/// A message that exceeds a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TooLong {
     bytes: usize,
@@ -74,7 +74,7 @@ impl fmt::Display for TooLong {
 
 impl std::error::Error for TooLong {}
 
-/// Bytes that are no message.
+/// Invalid encoding of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Malformed {
     at: usize,
@@ -93,14 +93,14 @@ impl fmt::Display for Malformed {
 
 impl std::error::Error for Malformed {}
 
-/// The bytes of a message that are not read yet.
+/// Cursor over the unread bytes of a message.
 pub(crate) struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
 impl<'a> Reader<'a> {
-    /// What is wrong here.
+    /// Error at the current position.
     pub(crate) fn malformed(&self, expected: &'static str) -> Malformed {
         Malformed {
             at: self.at,
@@ -124,7 +124,7 @@ impl<'a> Reader<'a> {
         taken.try_into().map_err(|_| self.malformed(expected))
     }
 
-    /// How many items follow, each of at least one byte: never more than bytes are left.
+    /// Reads an item count. Fails if it exceeds the remaining bytes, since an item has at least one byte.
     fn count(&mut self) -> Result<usize, Malformed> {
         let left = self.bytes.len() - self.at;
         let count = u32::read(self)?;

@@ -1,4 +1,4 @@
-//! The text of the user's settings, with one permission more or less; comments and order stay.
+//! Edits the permissions in the text of the user's settings. Comments and order are kept.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -13,7 +13,7 @@ use crate::manifest::{ManifestError, Need};
 /// The header of the table of permissions.
 const HEADER: &str = "[plugins.allow]";
 
-/// Where the permissions stand in the text.
+/// Positions of the permissions in the text.
 #[derive(Default, Deserialize)]
 struct Places {
     #[serde(default)]
@@ -27,7 +27,7 @@ struct PluginPlaces {
 }
 
 impl PluginConfig {
-    /// `text`, the user's settings, changed so that the plugin `id` may reach `needs` and nothing else.
+    /// Edits the settings `text` so that the plugin `id` may reach exactly `needs`.
     ///
     /// ```
     /// use taceva_host::PluginConfig;
@@ -39,7 +39,8 @@ impl PluginConfig {
     /// ```
     ///
     /// # Errors
-    /// [`ManifestError`] for settings with a mistake, and for those that are written in a way that cannot be edited: then it says what to write.
+    /// [`ManifestError`] if the settings have a mistake or cannot be edited. In the latter case the message contains the line to write by
+    /// hand.
     pub fn edited(
         text: &str,
         id: &PluginId,
@@ -54,7 +55,7 @@ impl PluginConfig {
             None => with_line(text, id, needs, allow),
         };
         expected.allow.insert(id.clone(), needs.clone());
-        // Whatever the text looks like, what is written says what was meant and nothing else.
+        // Return the edited text only if it parses to the intended settings.
         if PluginConfig::parse(&edited).ok().as_ref() == Some(&expected) {
             return Ok(edited);
         }
@@ -66,7 +67,7 @@ impl PluginConfig {
     }
 }
 
-/// The entry of a plugin.
+/// Line of a plugin in the table.
 fn line(id: &PluginId, needs: &BTreeSet<Need>) -> String {
     let needs: Vec<String> = needs.iter().map(quoted).collect();
     format!("\"{id}\" = [{}]\n", needs.join(", "))
@@ -76,7 +77,7 @@ fn quoted(need: &Need) -> String {
     toml::Value::String(need.to_string()).to_string()
 }
 
-/// The text with a new entry, behind the last one of its table.
+/// Adds an entry after the last one of the table.
 fn with_line(
     text: &str,
     id: &PluginId,
@@ -107,7 +108,7 @@ fn with_line(
     }
 }
 
-/// Behind the header of the table, if it is there.
+/// Byte offset after the header of the table; `None` if there is no such table.
 fn header_end(text: &str) -> Option<usize> {
     let mut place = 0;
     for line in text.split_inclusive('\n') {
@@ -124,7 +125,7 @@ fn header_end(text: &str) -> Option<usize> {
     None
 }
 
-/// The text with the list of one plugin changed: what is no longer allowed is taken out, what is new comes behind the last.
+/// Edits the list of one plugin: removes needs that are no longer allowed and appends new ones.
 fn with_list(text: &str, list: &Spanned<Vec<Spanned<String>>>, needs: &BTreeSet<Need>) -> String {
     let mut edits: Vec<(Range<usize>, String)> = Vec::new();
     let mut written = BTreeSet::new();
@@ -139,7 +140,7 @@ fn with_list(text: &str, list: &Spanned<Vec<Spanned<String>>>, needs: &BTreeSet<
             continue;
         }
         edits.push((item.span(), String::new()));
-        // One comma goes with it: the one behind it, of the last the one before what is left.
+        // Remove one comma too: the one after the item, or for the last item the one before it.
         let behind = comma(text, item.span().end);
         let before = || {
             let kept = items[..number].iter().rfind(is_kept)?;
@@ -166,7 +167,7 @@ fn with_list(text: &str, list: &Spanned<Vec<Spanned<String>>>, needs: &BTreeSet<
     edited
 }
 
-/// Where the comma stands behind `from`, over spaces and comments, before anything else does.
+/// Byte offset of the next comma after `from`, skipping spaces and comments. `None` if another character comes first.
 fn comma(text: &str, from: usize) -> Option<usize> {
     let mut in_comment = false;
     for (place, letter) in text[from..].char_indices() {

@@ -1,4 +1,4 @@
-//! A simulated bench that a plugin is.
+//! Simulated bench of a plugin.
 
 #![expect(
     unsafe_code,
@@ -15,7 +15,7 @@ use taceva_core::{DriverError, DriverKey, ErrorKind, GratingKind, SimulatedBench
 use super::rig::RigHandle;
 use crate::call::{Failure, Taken, call, table, take};
 
-/// The bench called `name` in a rig of a plugin.
+/// Bench `name` in a rig of a plugin.
 pub(crate) struct PluginBench {
     rig: Arc<RigHandle>,
     calls: BenchCalls,
@@ -24,7 +24,7 @@ pub(crate) struct PluginBench {
 }
 
 impl PluginBench {
-    /// The bench, where the plugin has benches; nobody looks whether one of that name was opened.
+    /// Creates the bench; `None` if the plugin has no benches. Does not check that a bench of that name is open.
     pub(crate) fn of(rig: &Arc<RigHandle>, name: &str) -> Option<PluginBench> {
         let library = rig.library();
         let extension = library.plugin().rig_extension?;

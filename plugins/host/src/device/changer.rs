@@ -1,4 +1,4 @@
-//! A changer of a plugin.
+//! Changer of a plugin.
 
 #![expect(
     unsafe_code,
@@ -16,7 +16,7 @@ use taceva_core::{
 use super::handle::{Opened, Owned, PluginDevice};
 use crate::call::{Failure, Taken, take, timeout};
 
-/// A changer whose plugin runs in this process.
+/// Changer of a plugin in this process.
 pub(crate) struct PluginChanger {
     handle: Owned,
     bring: Bring,

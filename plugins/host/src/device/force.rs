@@ -1,4 +1,4 @@
-//! A force transducer of a plugin.
+//! Force transducer of a plugin.
 
 #![expect(unsafe_code, reason = "readings come through the plugin's functions")]
 
@@ -16,7 +16,7 @@ use super::handle::{Handle, Opened, Owned, PluginDevice};
 use super::sensor::stamp;
 use crate::call::timeout;
 
-/// A force transducer whose plugin runs in this process.
+/// Force transducer of a plugin in this process.
 pub(crate) struct PluginForce {
     handle: Owned,
     calls: abi::ForceCalls,
@@ -24,7 +24,7 @@ pub(crate) struct PluginForce {
     axes: Axes,
     tare: Option<TareAbility>,
     numbers: Option<Sequence>,
-    /// Of the last reading.
+    /// Sequence number of the last reading.
     sequence: Option<u64>,
 }
 
@@ -150,7 +150,7 @@ impl ForceTransducer for PluginForce {
     }
 }
 
-/// The wrench with 0 where nothing is measured, whatever stands there.
+/// Sets the components of axes that are not measured to 0.
 fn measured(mut wrench: Wrench, axes: Axes) -> Wrench {
     for (place, axis) in [Axis::Fx, Axis::Fy, Axis::Fz].into_iter().enumerate() {
         if !axes.contains(axis) {

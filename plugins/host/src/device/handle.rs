@@ -1,4 +1,4 @@
-//! An open device: its handle, closed once, and what may be called on it from any thread.
+//! Handle of an open device: closed once, with calls allowed from any thread.
 
 #![expect(
     unsafe_code,
@@ -16,16 +16,16 @@ use super::rig::RigHandle;
 use crate::call::{ArgList, Failure, Table, call, pending_call, table};
 use crate::library::Entry;
 
-/// An open device, shared by its owner and by whoever may interrupt or halt it.
+/// Handle of an open device, shared by its owner and by interrupt and halt handles.
 pub struct Handle {
     raw: *mut c_void,
     calls: abi::DeviceCalls,
     driver: DriverKey,
-    /// Held for reading by whoever interrupts, for writing by whoever closes.
+    /// Locked for reading by interrupts, for writing by the close.
     is_open: RwLock<bool>,
-    /// After a panic of the plugin nothing but closing is safe.
+    /// True after a panic of the plugin. Only closing is safe then.
     is_dead: AtomicBool,
-    /// Last: the rig, and through it the library, outlives the handle.
+    /// Dropped last: the rig, and through it the library, outlives the handle.
     _rig: Arc<RigHandle>,
 }
 
@@ -35,30 +35,30 @@ unsafe impl Send for Handle {}
 // SAFETY: as above.
 unsafe impl Sync for Handle {}
 
-/// A device that was opened, with the table of its kind. Dropping it closes the device.
+/// An opened device with the function table of its kind. Dropping it closes the device.
 pub struct Opened<T> {
-    /// The device itself.
+    /// Owner of the device.
     pub handle: Owned,
-    /// The functions of its kind.
+    /// Function table of its kind.
     pub calls: T,
 }
 
-/// The one owner of a handle.
+/// Sole owner of a handle.
 pub struct Owned(Arc<Handle>);
 
-/// A kind of device as the tables of a library have it.
+/// Device kind with its function table and facts.
 pub(crate) trait PluginDevice: Sized {
-    /// Its name.
+    /// Name of the kind.
     const KIND: DriverKind;
-    /// The table of an open one.
+    /// Function table of an open device.
     type Calls: Table;
-    /// What a library says of it.
+    /// Facts that a library states.
     type Facts;
 
-    /// What is said of this kind, if `facts` are of it.
+    /// Extracts the facts of this kind; `None` for another kind.
     fn facts(facts: &Facts) -> Option<&Self::Facts>;
 
-    /// The device that was opened, of which the library says `facts`.
+    /// Creates the device from its table and `facts`. Fails if the table lacks a required function.
     fn new(opened: Opened<Self::Calls>, facts: &Self::Facts) -> Result<Self, DriverError>;
 }
 
@@ -117,7 +117,7 @@ pub fn open<T: Table>(
     Ok(Opened { handle, calls })
 }
 
-/// The part that the tables of all kinds begin with.
+/// Common first part of the tables of all kinds.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
 struct DeviceTable(abi::DeviceCalls);
@@ -132,7 +132,7 @@ impl Handle {
         &self.driver
     }
 
-    /// Makes a call on the device, unless the plugin has panicked in it before; a panic now is remembered.
+    /// Calls a function of the device. Fails after an earlier panic of the plugin, and records a new one.
     pub fn call(
         &self,
         doing: &'static str,
@@ -151,14 +151,14 @@ impl Handle {
         })
     }
 
-    /// Makes a call that may come from any thread; `None` once the device is closed.
+    /// Calls a function from any thread; `None` once the device is closed or dead.
     pub(crate) fn call_beside<R>(&self, run: impl FnOnce(*mut c_void) -> R) -> Option<R> {
-        // A lock that cannot be had for reading is held by whoever closes: there is nothing left to reach.
+        // If the lock is not available for reading, the device is being closed.
         let is_open = self.is_open.try_read().ok()?;
         (*is_open && !self.is_dead.load(Ordering::Acquire)).then(|| run(self.raw))
     }
 
-    /// Whether the device has a table under `id`.
+    /// True if the device has an extension table `id`.
     pub fn extension_is_there(&self, id: &str) -> bool {
         self.calls.extension.is_some_and(|extension| {
             // SAFETY: [owner & open]: only the owner asks.
@@ -167,7 +167,7 @@ impl Handle {
         })
     }
 
-    /// The table of an ability, where the device has it.
+    /// Extension table `id`; `None` if the device lacks it.
     pub(crate) fn extension<T: Table>(
         &self,
         id: &'static str,
@@ -189,12 +189,12 @@ impl Handle {
 }
 
 impl Owned {
-    /// What may outlive the device.
+    /// Shares the handle, which may outlive the device.
     pub(crate) fn share(&self) -> Arc<Handle> {
         Arc::clone(&self.0)
     }
 
-    /// What ends a pending call, where the device can.
+    /// Handle that interrupts a pending call; `None` if the device has no `interrupt`.
     pub fn interrupt(&self) -> Option<Arc<dyn Interrupt>> {
         let interrupt = self.0.calls.interrupt?;
         Some(Arc::new(Interrupter {
@@ -203,7 +203,7 @@ impl Owned {
         }))
     }
 
-    /// The failure of a check that the host makes.
+    /// Error of a check by the host.
     pub(crate) fn failed(
         &self,
         kind: ErrorKind,
@@ -213,7 +213,7 @@ impl Owned {
         Failure::new(kind, why).of(&self.0.driver, doing)
     }
 
-    /// A function of the table `id` of an ability that the device has, as `says` puts it.
+    /// Function of the extension table `id`, which the device claims to have. `says` quotes the claim in the error.
     pub(crate) fn ability<T: Table, F>(
         &self,
         id: &'static str,
@@ -228,7 +228,7 @@ impl Owned {
         })
     }
 
-    /// A function of the table that this kind of device cannot do without.
+    /// Unwraps a required function of the table. `name` appears in the error.
     pub fn needs<F>(&self, function: Option<F>, name: &'static str) -> Result<F, DriverError> {
         function.ok_or_else(|| {
             let why = format!("its `{name}` is NULL");
@@ -252,14 +252,14 @@ impl Drop for Owned {
             .unwrap_or_else(PoisonError::into_inner);
         if let Some(close) = self.0.calls.close.filter(|_| *is_open) {
             let _under_way = pending_call::begin("close the device");
-            // SAFETY: [owner & open], the last call: `is_open` is true once, and whoever interrupts is kept out by the lock.
+            // SAFETY: [owner & open], the last call: `is_open` is true once, and the lock keeps interrupts out.
             unsafe { close(self.0.raw) };
         }
         *is_open = false;
     }
 }
 
-/// Ends the pending call of a device.
+/// Handle that interrupts the pending call of a device.
 struct Interrupter {
     handle: Arc<Handle>,
     interrupt: unsafe extern "C" fn(*mut c_void),

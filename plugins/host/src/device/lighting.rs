@@ -1,4 +1,4 @@
-//! The light around a sensor, set by a plugin: a device of its own, or an ability of the sensor.
+//! Lighting of a plugin: a separate device, or an ability of a sensor.
 
 #![expect(
     unsafe_code,
@@ -16,7 +16,7 @@ use crate::call::{Failure, timeout};
 
 type Set = unsafe extern "C" fn(*mut c_void, abi::Text, u64, *mut abi::Error) -> abi::Status;
 
-/// What sets the light on an open device.
+/// Lighting function of an open device.
 pub(super) struct LightingAbility {
     handle: Arc<Handle>,
     set: Set,
@@ -24,7 +24,7 @@ pub(super) struct LightingAbility {
 }
 
 impl LightingAbility {
-    /// The ability of the device `handle`, whose owner keeps it and makes no other call meanwhile.
+    /// Creates the ability of the device `handle`. The device's owner keeps it and makes no concurrent call.
     pub(super) fn new(handle: Arc<Handle>, set: Set, scenes: Vec<String>) -> LightingAbility {
         LightingAbility {
             handle,
@@ -54,10 +54,10 @@ impl Lighting for LightingAbility {
     }
 }
 
-/// A lighting whose plugin runs in this process.
+/// Lighting of a plugin in this process.
 pub(crate) struct PluginLighting {
     ability: LightingAbility,
-    /// After the ability, which calls on it.
+    /// Dropped after the ability, which uses the handle.
     _handle: Owned,
 }
 

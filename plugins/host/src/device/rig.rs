@@ -1,4 +1,4 @@
-//! What the devices of one rig share within a plugin.
+//! Rig of a plugin: state shared by its devices.
 
 #![expect(
     unsafe_code,
@@ -13,10 +13,10 @@ use taceva_core::DriverError;
 use crate::call::call;
 use crate::library::Library;
 
-/// An open rig of a plugin, or nothing where the plugin knows none; closed once its last device is.
+/// An open rig of a plugin, or NULL if the plugin has none. Closed after its last device.
 pub struct RigHandle {
     rig: *mut abi::Rig,
-    /// After the rig: its functions live there.
+    /// Dropped after the rig, whose functions are in the library.
     library: Arc<Library>,
 }
 
@@ -43,7 +43,7 @@ impl RigHandle {
         }))
     }
 
-    /// The plugin's own pointer; NULL where it knows no rigs.
+    /// The plugin's rig pointer; NULL if it has no rigs.
     pub fn raw(&self) -> *mut abi::Rig {
         self.rig
     }

@@ -1,4 +1,4 @@
-//! A robot of a plugin.
+//! Robot of a plugin.
 
 #![expect(
     unsafe_code,
@@ -20,7 +20,7 @@ use super::handle::{Handle, Opened, Owned, PluginDevice};
 use super::sensor::stamp;
 use crate::call::{Failure, call, timeout};
 
-/// A robot whose plugin runs in this process.
+/// Robot of a plugin in this process.
 pub(crate) struct PluginRobot {
     handle: Owned,
     functions: Functions,
@@ -170,7 +170,7 @@ impl Robot for PluginRobot {
     }
 }
 
-/// A pose that is none, for a plugin that says it wrote one and did not.
+/// Pose of NaNs, to detect a plugin that reports success without writing a pose.
 const NOWHERE: abi::Pose = abi::Pose {
     x: f64::NAN,
     y: f64::NAN,
@@ -195,7 +195,7 @@ fn from_si(pose: abi::Pose, driver: &DriverKey, doing: &'static str) -> Result<P
     })
 }
 
-/// Stops a robot from any thread, and remembers that it is to stand still even if the stop could not be sent.
+/// Halts a robot from any thread. Remembers the halt even if the stop could not be sent.
 struct Halter {
     handle: Arc<Handle>,
     halt: unsafe extern "C" fn(*mut c_void, *mut abi::Error) -> abi::Status,
@@ -218,7 +218,7 @@ impl Halt for Halter {
 }
 
 impl Halter {
-    /// The motion to `target`, unless the robot is halted, or the motion is none that it declares: its plugin never sees such.
+    /// Creates the motion to `target`. Fails if the robot is halted or the motion exceeds its declared limits.
     fn motion(&self, target: Pose, speed: Speed) -> Result<abi::Motion, DriverError> {
         let refused = |kind, why: String| Failure::new(kind, why).of(self.handle.driver(), MOVING);
         check_pose(&target)

@@ -1,4 +1,4 @@
-//! A sensor of a plugin: every frame is checked before anybody sees it.
+//! Sensor of a plugin. Every frame is checked before use.
 
 #![expect(
     unsafe_code,
@@ -19,7 +19,7 @@ use super::handle::{Opened, Owned, PluginDevice};
 use super::lighting::LightingAbility;
 use crate::call::timeout;
 
-/// A sensor whose plugin runs in this process.
+/// Sensor of a plugin in this process.
 pub struct PluginSensor {
     handle: Owned,
     calls: abi::SensorCalls,
@@ -36,18 +36,18 @@ type Capture = unsafe extern "C" fn(
     *mut abi::Error,
 ) -> abi::Status;
 
-/// A frame in the plugin's own memory, for as long as it is looked at.
+/// Frame in the plugin's memory, borrowed for one callback.
 #[derive(Clone, Copy, Debug)]
 pub struct LentFrame<'a> {
-    /// Size and format.
+    /// Width, height and pixel format.
     pub info: FrameInfo,
-    /// The pixels, row by row from the top, without padding.
+    /// Pixels, row by row from the top, without padding.
     pub bytes: &'a [u8],
-    /// When the frame was exposed, and received.
+    /// Times of exposure and reception.
     pub stamp: Stamp,
-    /// The device's count of frames; a gap is a loss.
+    /// Frame number of the device. A gap means lost frames.
     pub sequence: u64,
-    /// Whether frames were lost since the last one.
+    /// True if frames were lost since the last one.
     pub dropped: bool,
 }
 
@@ -103,7 +103,7 @@ impl PluginDevice for PluginSensor {
 }
 
 impl PluginSensor {
-    /// Waits for the next frame and shows it where it lies in the plugin's memory: nothing is copied.
+    /// Waits for the next frame and passes it to `look` without a copy.
     ///
     /// # Errors
     /// As [`Sensor::capture`]; `Unsupported` if the plugin never lends.
@@ -127,7 +127,7 @@ impl PluginSensor {
         }))
     }
 
-    /// Asks for the next frame, in `buffer` of the length of a frame unless it is NULL.
+    /// Captures the next frame into `buffer`, which has the length of a frame or is NULL.
     fn take(&self, buffer: *mut u8, deadline: Deadline) -> Result<Taken, DriverError> {
         let mut taken = Taken {
             frame: abi::Frame {
@@ -152,13 +152,13 @@ impl PluginSensor {
             },
         };
         self.handle.call(CAPTURING, |raw, error| {
-            // SAFETY: [owner & started] by `&mut self` of whoever calls, with a frame, its buffer and an error that outlive the call.
+            // SAFETY: [owner & started] by `&mut self` of the caller, with a frame, its buffer and an error that outlive the call.
             unsafe { (self.capture)(raw, &raw mut taken.frame, timeout(deadline), error) }
         })?;
         Ok(taken)
     }
 
-    /// The pixels of a frame that is as large as was promised; `buffer` is where it may lie without being lent.
+    /// Checks format, size and address of a frame and returns its pixels. A frame outside `buffer` must be lent.
     fn checked<'t>(
         &self,
         taken: &'t Taken,
@@ -199,7 +199,7 @@ impl PluginSensor {
     }
 }
 
-/// A frame as it came; dropping it gives lent memory back.
+/// A captured frame. Dropping it releases lent memory.
 struct Taken {
     frame: abi::Frame,
 }
@@ -207,7 +207,7 @@ struct Taken {
 impl Drop for Taken {
     fn drop(&mut self) {
         if let Some(release) = self.frame.release {
-            // SAFETY: [any], once: `release` is set by whoever lent, and nobody looks at the pixels any more.
+            // SAFETY: [any], once: `release` is set by the lender, and the pixels are no longer borrowed.
             unsafe { release(&raw mut self.frame) };
         }
     }
@@ -280,7 +280,7 @@ fn pixel_format(format: abi::PixelFormat) -> Option<PixelFormat> {
     }
 }
 
-/// The stamp in core's units.
+/// Converts a time stamp.
 pub(super) fn stamp(stamp: abi::Stamp) -> Stamp {
     let received = (stamp.received_ns != 0).then(|| Duration::from_nanos(stamp.received_ns));
     Stamp::new(Duration::from_nanos(stamp.valid_ns), received)

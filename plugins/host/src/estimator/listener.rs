@@ -1,4 +1,4 @@
-//! How far a fit is, from the library to whoever listens.
+//! Progress of a fit, from the library to the caller.
 
 #![expect(unsafe_code, reason = "a function that the library calls")]
 
@@ -6,7 +6,7 @@ use std::ffi::c_void;
 
 use taceva_core::{Progress, caught};
 
-/// Steps of a fit, as whoever listens counts them.
+/// Number of progress steps of a fit.
 pub(super) const STEPS: u64 = 1_000;
 
 pub(super) struct Listener<'a> {
@@ -14,7 +14,7 @@ pub(super) struct Listener<'a> {
     pub(super) reported: u64,
 }
 
-/// Passes on how far a fit is.
+/// Reports the fraction `done` of a fit. Returns 1 if the fit is cancelled.
 pub(super) unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32 {
     // SAFETY: `context` is the listener that `fit` handed over for the call that is under way.
     let listener = unsafe { &mut *context.cast::<Listener<'_>>() };
@@ -28,7 +28,7 @@ pub(super) unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32
     let reported = listener.reported;
     listener.reported = reported.max(reached);
     let progress = listener.progress;
-    // A panic of the listener must not unwind into the library: it ends the fit.
+    // A panic of the listener must not unwind into the library; it cancels the fit.
     let cancelled = caught(|| {
         if reached > reported {
             progress.advance(reached - reported);

@@ -1,4 +1,4 @@
-//! A fitted model of a library that runs in this process.
+//! Fitted model of a library in this process.
 
 #![expect(
     unsafe_code,
@@ -16,17 +16,17 @@ use crate::call::{Failure, call, pending_call, table};
 use crate::library::Library;
 use crate::session::SavedRegressor;
 
-/// A kept model has at most this many bytes.
+/// Maximum size of a saved model, bytes.
 const MODEL_MAX: u64 = 1 << 30;
 
-/// A fitted model of a plugin.
+/// Fitted model of a plugin.
 pub(super) struct Model {
     handle: *mut c_void,
     calls: abi::RegressorCalls,
     key: DriverKey,
     channels: Channels,
     shape: FeatureShape,
-    /// After the handle: its functions live there.
+    /// Dropped after the handle, whose functions are in the library.
     _library: Arc<Library>,
 }
 
@@ -103,7 +103,7 @@ impl Regressor for Model {
         }
         let predict = self.calls.predict;
         let predict = predict.ok_or_else(|| self.failed(DOING, lacks("predict")))?;
-        // What a plugin leaves out is no prediction.
+        // Entries that the plugin does not write stay NaN.
         into.fill(f64::NAN);
         let _under_way = pending_call::begin(DOING);
         call(|error| {

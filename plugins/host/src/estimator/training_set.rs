@@ -1,11 +1,11 @@
-//! A set of samples as the interface has it.
+//! Training set in the form of the plugin interface.
 
 use taceva_abi as abi;
 use taceva_core::{ErrorKind, TrainingSet};
 
 use crate::call::Failure;
 
-/// A set in the interface's form, with the texts it points to.
+/// Training set in the form of the plugin interface, with the texts it points to.
 pub(super) struct Lent<'a> {
     set: &'a TrainingSet<'a>,
     names: Vec<abi::Text>,

@@ -1,4 +1,4 @@
-//! The code of a plugin as the host deals with it, whether it is a library or a module: its digest, and the child that runs it.
+//! Code of a plugin, library or Python module: its digest, and the child that runs it.
 
 use taceva_core::{DriverError, DriverKey};
 
@@ -12,7 +12,7 @@ use {super::Children, crate::child::ChildSpec, taceva_core::ErrorKind};
 
 const DOING: &str = "load the plugin";
 
-/// The code of a plugin as it was read: a library was copied, a package is only known by its digest.
+/// Code of a plugin: the copied library, or the digest of a Python package.
 pub(crate) enum ReadCode {
     Library(Image),
     Package(Sha256Digest),
@@ -28,17 +28,17 @@ impl ReadCode {
 }
 
 impl PythonError {
-    /// The same, as the failure of a driver of the plugin.
+    /// Converts the failure into an error of a driver of the plugin.
     fn of_driver(self, driver: &DriverKey) -> DriverError {
         DriverError::new(self.kind(), driver, DOING).because(self)
     }
 }
 
 impl Plugin {
-    /// Its code as it lies there.
+    /// Reads the plugin's code.
     ///
     /// # Errors
-    /// [`DriverError`] of `driver` if it cannot be read, or is no library.
+    /// [`DriverError`] of `driver` if it cannot be read or is not a library.
     pub(crate) fn read(&self, driver: &DriverKey) -> Result<ReadCode, DriverError> {
         match &self.code {
             Code::Library(library) => {
@@ -53,10 +53,10 @@ impl Plugin {
         }
     }
 
-    /// A child that runs its `code`.
+    /// Specifies a child that runs `code`.
     ///
     /// # Errors
-    /// [`DriverError`] of `driver` if nothing is there to run it.
+    /// [`DriverError`] of `driver` if there is no interpreter to run it.
     #[cfg(target_os = "linux")]
     pub(crate) fn child(
         &self,

@@ -1,4 +1,4 @@
-//! Looking for devices: each plugin is asked in a child of its own, which is ended after 10 s.
+//! Device discovery: each plugin searches in a separate child with a timeout of 10 s.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,10 +9,10 @@ use super::PluginHost;
 use crate::search::Plugin;
 use crate::session::Session;
 
-/// How long a plugin may take to load, and then to say which devices a driver sees; a child that takes longer is ended.
+/// Timeout for loading a plugin, and for listing a driver's devices.
 const LOOKING: Duration = Duration::from_secs(10);
 
-/// A session in which devices are looked for, or why there is none.
+/// Session for device discovery, or the reason for its failure.
 #[derive(Clone)]
 pub(super) enum Looker {
     Looks(Arc<dyn Session>),
@@ -20,7 +20,7 @@ pub(super) enum Looker {
 }
 
 impl PluginHost {
-    /// The devices that `driver` of `plugin` sees.
+    /// Lists the devices that `driver` of `plugin` finds.
     pub(super) fn look(
         &self,
         plugin: &Plugin,
@@ -38,7 +38,7 @@ impl PluginHost {
         }
     }
 
-    /// The session of `plugin` for this: started once, so that one that hangs costs its time once.
+    /// Discovery session of `plugin`. Started once, so that a hanging plugin costs one timeout.
     fn looker(&self, plugin: &Plugin, driver: &DriverKey) -> Looker {
         let mut lookers = self.lock_lookers();
         if let Some(looker) = lookers.get(plugin.id()) {

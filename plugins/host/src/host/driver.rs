@@ -1,4 +1,4 @@
-//! A driver of a plugin among other drivers.
+//! Driver of a plugin, with the interface of all drivers.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::search::Plugin;
 use crate::session::Session;
 use crate::usb;
 
-/// A driver of a plugin: described by its manifest, opened by its library.
+/// Driver of a plugin: described by its manifest, opened by its library.
 #[derive(Debug)]
 pub struct PluginDriver {
     pub(super) host: Arc<PluginHost>,
@@ -28,7 +28,7 @@ pub struct PluginDriver {
 }
 
 impl PluginDriver {
-    /// Opens a device in the session that `rig` has of the plugin, and makes its bench known, where it is one.
+    /// Opens a device in the plugin's session of `rig`. Registers the device's bench in the rig, if it has one.
     fn open_in<D: ?Sized>(
         &self,
         args: &Args,
@@ -39,7 +39,7 @@ impl PluginDriver {
         let plugin = self.plugin("load the plugin")?;
         let (grant, args) = self.granted(plugin, args)?;
         let args = &args;
-        // A process reaches what it reached from its beginning: devices of other places are opened in others.
+        // A child's needs are fixed at its start, so devices with other needs get another child.
         let name = match grant.is_bound {
             true => format!("plugin {} {:?}", self.plugin, grant.reached),
             false => format!("plugin {}", self.plugin),
@@ -56,7 +56,7 @@ impl PluginDriver {
         Ok(device)
     }
 
-    /// What a device may reach that is opened with `args`, and the arguments with the addresses of the machines that they name.
+    /// Needs granted to a device that is opened with `args`. Also returns the arguments with host names replaced by addresses.
     fn granted(&self, plugin: &Plugin, args: &Args) -> Result<(Grant, Args), DriverError> {
         let key = self.descriptor.key();
         let config = self.host.config();
@@ -64,7 +64,7 @@ impl PluginDriver {
         if config.delivery(plugin) == Delivery::InProcess || !grant.is_bound {
             return Ok((grant, args.clone()));
         }
-        // Nobody is asked for the address of a machine that may not be reached.
+        // Do not resolve the name of a host that may not be reached.
         if plugin.manifest.needs.iter().any(|need| {
             let bound = need
                 .fixed()
@@ -83,8 +83,8 @@ impl PluginDriver {
         Ok((grant, args))
     }
 
-    /// What the manifest says, unless `args` can change that: then the library is asked, in its process. Where it cannot be, opening the
-    /// device will say why.
+    /// Description of the driver: the manifest's, unless `args` can change its facts. Then the library describes it; if that fails, the
+    /// manifest's description is returned.
     fn described(&self, args: &Args) -> Descriptor {
         let manifest = &*self.descriptor;
         if !changes_facts(manifest, args) {
@@ -100,28 +100,28 @@ impl PluginDriver {
         })
     }
 
-    /// The digest of the library that opens its devices.
+    /// Digest of the library that opens the devices.
     fn digest(&self) -> Result<String, DriverError> {
         let key = self.descriptor.key();
         let plugin = self.plugin("read the library")?;
         Ok(format!("sha256:{}", plugin.read(key)?.digest()))
     }
 
-    /// The devices that the library finds; where it finds none, those that the manifest names and the kernel lists.
+    /// Devices that the library finds. If it finds none, USB devices that the manifest names and the kernel lists.
     fn present(&self) -> Result<Vec<Found>, DriverError> {
         let key = self.descriptor.key();
         let found = self.host.look(self.plugin("look for devices")?, key)?;
         Ok(if found.is_empty() { self.seen() } else { found })
     }
 
-    /// The plugin that it is of.
+    /// Plugin of the driver.
     fn plugin(&self, doing: &'static str) -> Result<&Plugin, DriverError> {
         let key = self.descriptor.key();
         let plugin = self.host.plugins().get(self.plugin.as_str());
         plugin.map_err(|error| DriverError::new(ErrorKind::NotFound, key, doing).because(error))
     }
 
-    /// The devices that the manifest names and the system lists.
+    /// USB devices that the manifest names and the system lists.
     fn seen(&self) -> Vec<Found> {
         if self.usb.is_empty() {
             return Vec::new();

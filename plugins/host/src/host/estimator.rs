@@ -1,4 +1,4 @@
-//! An estimator of a plugin: described by its manifest, fitted and loaded by its library.
+//! Estimator of a plugin: described by its manifest, fitted and loaded by its library.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -14,17 +14,17 @@ use crate::manifest::{EstimatorInfo, Sha256Digest};
 use crate::search::Plugin;
 use crate::session::Session;
 
-/// An estimator of a plugin, delivered as the user decided. What it fitted is its own bytes, and the digest of its library stands beside them.
+/// Estimator of a plugin. A saved model has the plugin's own format, with the library's digest beside it.
 struct PluginEstimator {
     host: Arc<PluginHost>,
     plugin: Plugin,
     info: EstimatorInfo,
-    /// Of the library that answered first, which is the one that answers.
+    /// Digest of the first library that answered; it stays the same.
     built: OnceLock<Sha256Digest>,
 }
 
 impl PluginHost {
-    /// What fits and loads the models of every plugin, by key.
+    /// Estimator factories of every plugin, by key.
     pub fn models(self: &Arc<PluginHost>) -> Vec<Arc<dyn EstimatorFactory>> {
         let estimators = self.estimators().map(|(plugin, info)| {
             let estimator: Arc<dyn EstimatorFactory> = Arc::new(PluginEstimator {
@@ -82,7 +82,7 @@ impl EstimatorFactory for PluginEstimator {
         Ok(Some(format!("sha256:{}", self.digest()?)))
     }
 
-    /// A manifest that demands one build demands it of models too; otherwise another build is reported.
+    /// If the manifest pins a build, models of another build are rejected; otherwise the difference is logged.
     fn admit(&self, fitted_by: Option<&str>) -> Result<(), ModelError> {
         let build = format!("sha256:{}", self.digest()?);
         if fitted_by == Some(build.as_str()) {
@@ -110,7 +110,7 @@ impl fmt::Debug for PluginEstimator {
     }
 }
 
-/// What kept the plugin from answering, as models say it.
+/// Converts a driver error into a model error.
 fn of_driver(error: DriverError) -> ModelError {
     ModelError::new(error.kind(), error.to_string()).because(error)
 }

@@ -1,4 +1,4 @@
-//! How a plugin is isolated, found out by doing it: a child that loads nothing confines itself and says what is enforced.
+//! Isolation of a plugin, found by trial: a child that loads nothing confines itself and reports the result.
 
 use std::fmt;
 
@@ -10,21 +10,21 @@ use crate::config::Trust;
 use crate::python::PythonError;
 use crate::search::Plugin;
 
-/// How the code of a plugin would run.
+/// Isolation in which a plugin's code would run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Keeping {
-    /// In this process, because of this.
+    /// In this process, for this reason.
     Trusted(Trust),
-    /// In a process of its own, from which nothing is kept because of this.
+    /// In a separate process without restrictions, for this reason.
     Apart(Trust),
-    /// In a process of its own, of which this is enforced, in words.
+    /// In a separate process with these restrictions, in words.
     Confined(String),
-    /// Not at all: this machine cannot confine it, for this reason.
+    /// Not at all: this machine cannot confine the plugin, for this reason.
     Refused(String),
 }
 
 impl Keeping {
-    /// Whether it would run.
+    /// True if the plugin can run.
     pub fn is_possible(&self) -> bool {
         !matches!(self, Keeping::Refused(_))
     }
@@ -42,7 +42,7 @@ impl fmt::Display for Keeping {
 }
 
 impl PluginHost {
-    /// How `plugin` is kept from the rest of the machine when it runs. None of its code does for this.
+    /// Isolation in which `plugin` would run. Runs no code of the plugin.
     pub fn keeping(&self, plugin: &Plugin) -> Keeping {
         match self.config.trust(plugin) {
             Some(trust) if plugin.library().is_some() => Keeping::Trusted(trust),
@@ -51,7 +51,7 @@ impl PluginHost {
         }
     }
 
-    /// What is enforced upon a child with the needs of `plugin`; tried once for all that have the same.
+    /// Isolation of a child with the needs of `plugin`. Tried once for equal needs.
     #[cfg(target_os = "linux")]
     fn confined(&self, plugin: &Plugin) -> Keeping {
         let needs = self.config.allowed(plugin);

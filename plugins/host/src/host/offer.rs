@@ -1,4 +1,4 @@
-//! The offer of a library, asked for in a process that reaches nothing.
+//! Offer of a library, queried in a child that reaches nothing.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use crate::offer::Offer;
 use crate::session::Session;
 
 impl Offer {
-    /// What the library of `image` says, asked in a process that reaches nothing.
+    /// Queries the offer of the library `image` in a child that reaches nothing.
     ///
     /// # Errors
-    /// [`DriverError`] if it cannot be loaded, or says what cannot be read.
+    /// [`DriverError`] if the library cannot be loaded or its offer cannot be read.
     pub fn of(image: &Image, children: &Children) -> Result<Offer, DriverError> {
         const DOING: &str = "ask the library what it offers";
         let nameless = DriverKey::fixed("plugin");

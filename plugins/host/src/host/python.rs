@@ -1,4 +1,4 @@
-//! The process of a plugin in Python.
+//! Child process of a Python plugin.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::python::{Interpreter, PythonError, arguments, closed_by};
 use crate::search::Plugin;
 
 impl Interpreter {
-    /// A child that is this interpreter, confined to what `module` of `plugin` is to be confined to.
+    /// Specifies a child that runs this interpreter with the confinement of `module` of `plugin`.
     pub(crate) fn spec(
         &self,
         plugin: &Plugin,
@@ -20,7 +20,7 @@ impl Interpreter {
             program: self.program().to_owned(),
             source,
         };
-        // Asked first, since a process that does not start says less.
+        // Checked first, since the error of a failed start is less specific.
         std::fs::metadata(self.program()).map_err(start)?;
         std::fs::metadata(self.child()).map_err(|source| PythonError::File {
             path: self.child(),
@@ -39,7 +39,7 @@ impl Interpreter {
         Ok(spec)
     }
 
-    /// Makes the child this interpreter, with the confinement of `module`.
+    /// Sets this interpreter and the confinement of `module` in `spec`.
     pub(crate) fn confine(&self, spec: &mut ChildSpec, module: &PythonModule) {
         spec.program = Some(self.program().to_owned());
         spec.arguments = arguments(&self.child());
@@ -48,7 +48,7 @@ impl Interpreter {
         spec.confinement.seals = module.profile.seals();
     }
 
-    /// Refuses what the user of the process may not read, where that is another than ours.
+    /// Fails if user nobody, as whom the child of root runs, cannot read a required file.
     pub(crate) fn refuse_closed(&self, package: &Path) -> Result<(), PythonError> {
         if !geteuid().is_root() {
             return Ok(());

@@ -1,20 +1,20 @@
-//! Whether a file is a whole shared library of this machine: the system's loader maps what the headers say, and dies where the file ends.
+//! Check of a shared library before loading: the system's loader crashes on a truncated file.
 
 use std::fs::File;
 use std::os::unix::fs::FileExt;
 
 use super::error::LoadProblem;
 
-/// Bytes of the header of a file of 64 bits.
+/// Size of a 64-bit ELF header, bytes.
 const HEADER: usize = 64;
-/// Bytes of the header of a segment.
+/// Size of a segment header, bytes.
 const SEGMENT: usize = 56;
-/// A library has no more segments.
+/// Maximum number of segments.
 const SEGMENTS_MAX: u16 = 512;
-/// A segment that is mapped.
+/// Type of a mapped segment, `PT_LOAD`.
 const LOADED: u32 = 1;
 
-/// Refuses `file` unless it is a shared library for this machine that is as long as its headers say.
+/// Rejects `file` unless it is a shared library for this machine and as long as its headers say.
 pub(super) fn check(file: &File) -> Result<(), LoadProblem> {
     let length = file.metadata().map_err(LoadProblem::File)?.len();
     let mut header = [0; HEADER];
@@ -54,7 +54,7 @@ pub(super) fn check(file: &File) -> Result<(), LoadProblem> {
     }
 }
 
-/// Where `file` tells the loader to look for what it needs, if it says so anywhere: its run path, as it is written.
+/// Run path of `file`, as written; `None` if it has none.
 pub(super) fn run_path(file: &File) -> Option<String> {
     let mut header = [0; HEADER];
     file.read_exact_at(&mut header, 0).ok()?;
@@ -85,33 +85,33 @@ pub(super) fn run_path(file: &File) -> Option<String> {
     Some(String::from_utf8_lossy(text).into_owned())
 }
 
-/// A segment of what the loader reads.
+/// Type of the dynamic segment, `PT_DYNAMIC`.
 const DYNAMIC: u32 = 2;
-/// No such segment has more bytes.
+/// Maximum size of the dynamic segment that is read, bytes.
 const DYNAMIC_MAX: u64 = 1 << 16;
-/// Bytes of an entry in it: what it is, and its value.
+/// Size of a dynamic entry, bytes: tag and value.
 const ENTRY: usize = 16;
-/// The entry of the texts that others are places in.
+/// Tag of the string table, `DT_STRTAB`.
 const TEXTS: u64 = 5;
-/// The entry of the run path, and the one that linkers wrote before.
+/// Tags of the run path: `DT_RUNPATH` and the older `DT_RPATH`.
 const RUN_PATH: u64 = 29;
 const OLD_RUN_PATH: u64 = 15;
-/// Bytes of a run path that are read.
+/// Maximum length of a run path that is read, bytes.
 const RUN_PATH_MAX: usize = 4096;
 
-/// The type of a shared library.
+/// ELF type of a shared library, `ET_DYN`.
 const SHARED: u16 = 3;
-/// 64 bits.
+/// ELF class of 64-bit files.
 const CLASS: u8 = 2;
-/// Little-endian.
+/// ELF byte order: little-endian.
 const ORDER: u8 = 1;
-/// The number of this machine.
+/// ELF machine number of this target.
 const MACHINE: u16 = if cfg!(target_arch = "x86_64") {
     62
 } else if cfg!(target_arch = "aarch64") {
     183
 } else {
-    // RISC-V; no other machine of 64 bits and this order is among the platforms of a manifest.
+    // RISC-V, the only other 64-bit little-endian platform of a manifest.
     243
 };
 

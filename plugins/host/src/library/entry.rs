@@ -1,4 +1,4 @@
-//! The drivers and estimators of a library, each compared with what the manifest says of it.
+//! Drivers and estimators of a library, each compared with its manifest.
 
 #![expect(unsafe_code, reason = "a plugin describes itself through its tables")]
 
@@ -15,22 +15,22 @@ use crate::descriptor::{arguments, difference, difference_with};
 use crate::id::PluginId;
 use crate::manifest::{Manifest, Provided};
 
-/// A driver or an estimator that can be opened.
+/// A driver or an estimator of a library.
 #[derive(Debug)]
 pub struct Entry {
     pub(crate) place: Place,
-    /// Its number in the factory.
+    /// Index in the factory.
     pub number: u32,
-    /// The factory of its kind; that of estimators is asked for anew.
+    /// Factory of a device kind; `None` for estimators.
     pub factory: Option<abi::Factory>,
     pub(crate) estimators: Option<abi::EstimatorFactory>,
-    /// The manifest's description of it.
+    /// Description by the library, consistent with the manifest.
     pub provided: Provided,
-    /// The table that it was read from, as the library writes it.
+    /// The library's description, as TOML text.
     pub(crate) text: String,
 }
 
-/// Which factory an entry is of.
+/// Factory of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Place {
     Driver(DriverKind),
@@ -47,7 +47,7 @@ impl fmt::Display for Place {
 }
 
 impl Entry {
-    /// The arguments it takes.
+    /// Declared arguments.
     pub fn arguments(&self) -> &[ArgSpec] {
         match &self.provided {
             Provided::Driver { descriptor, .. } => descriptor.arguments(),
@@ -55,7 +55,7 @@ impl Entry {
         }
     }
 
-    /// What the library says of the driver with `args`, compared with what it said without any.
+    /// Library's description of the driver with `args`, checked against the one without arguments.
     pub(crate) fn describe(&self, id: &PluginId, args: &Args) -> Result<Descriptor, Failure> {
         let list = ArgList::new(args, self.arguments());
         let said = self.said(id, &list.args())?;
@@ -73,7 +73,7 @@ impl Entry {
         }
     }
 
-    /// What the library says of the driver with these arguments.
+    /// Library's description of the driver with these arguments.
     fn said(&self, id: &PluginId, args: &abi::Args) -> Result<Descriptor, Failure> {
         let abi_fault = |why: String| Failure::new(taceva_core::ErrorKind::Abi, why);
         let Some(describe) = self.factory.and_then(|factory| factory.describe) else {
@@ -90,7 +90,7 @@ impl Entry {
         }
     }
 
-    /// The arguments that choose each device that is present; `None` where the plugin cannot look.
+    /// Arguments that select each device found; `None` if the plugin cannot search.
     pub(crate) fn discover(&self) -> Result<Option<Vec<String>>, Failure> {
         let Some(discover) = self.factory.and_then(|factory| factory.discover) else {
             return Ok(None);
@@ -111,10 +111,10 @@ const FACTORIES: [(DriverKind, &str); 5] = [
     (DriverKind::Changer, abi::CHANGER_FACTORY),
 ];
 
-/// No factory has more drivers.
+/// Maximum number of drivers in a factory.
 const DRIVERS_MAX: u32 = 256;
 
-/// Everything that `library` has, which is everything that `manifest` says and nothing else, where there is one.
+/// All entries of `library`. Fails if they differ from `manifest`, if given.
 pub(super) fn entries(
     library: &Library,
     manifest: Option<&Manifest>,
@@ -130,7 +130,7 @@ pub(super) fn entries(
         };
         for number in 0..count(factory.drivers)? {
             let place = Place::Driver(kind);
-            // As it holds for whatever arguments.
+            // NULL: the description that holds for any arguments.
             let args: *const abi::Args = std::ptr::null();
             let (provided, text) = described(library, place, number, |taken, error| {
                 // SAFETY: [any], without arguments, with a context and an error that outlive the call.
@@ -227,7 +227,7 @@ fn insert(said: &mut BTreeMap<DriverKey, Entry>, entry: Entry) -> Result<(), Loa
     Ok(())
 }
 
-/// Refuses a library that says anything else than its manifest.
+/// Fails if the library's entries differ from its manifest.
 fn agree(said: &BTreeMap<DriverKey, Entry>, manifest: &Manifest) -> Result<(), LoadProblem> {
     let differs = |what: String, manifest: &str, library: &str| LoadProblem::Differs {
         what,

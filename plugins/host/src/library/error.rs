@@ -1,4 +1,4 @@
-//! Why a library was not loaded.
+//! Errors of loading a library.
 
 use std::fmt;
 use std::io;
@@ -10,7 +10,7 @@ use taceva_core::{DriverError, DriverKey, ErrorKind};
 use crate::call::Failure;
 use crate::manifest::{ManifestError, Sha256Digest};
 
-/// A library that was not loaded: which file, and why.
+/// Failure to load a library, with its path.
 #[derive(Debug)]
 pub struct LoadError {
     path: PathBuf,
@@ -18,22 +18,22 @@ pub struct LoadError {
 }
 
 impl LoadError {
-    /// The file.
+    /// Path of the library.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What is wrong with it.
+    /// Cause of the failure.
     pub fn problem(&self) -> &LoadProblem {
         &self.problem
     }
 
-    /// What is wrong, alone.
+    /// Cause of the failure, without the path.
     pub fn into_problem(self) -> LoadProblem {
         self.problem
     }
 
-    /// The same, as the failure of a driver of the plugin.
+    /// Converts the failure into an error of a driver of the plugin.
     pub fn of_driver(self, driver: &DriverKey) -> DriverError {
         DriverError::new(self.problem.kind(), driver, "load the plugin").because(self)
     }
@@ -55,95 +55,95 @@ impl std::error::Error for LoadError {
     }
 }
 
-/// What is wrong with a library.
+/// Cause of a failure to load a library.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum LoadProblem {
-    /// It cannot be read.
+    /// The file cannot be read.
     File(io::Error),
-    /// A folder, a pipe or a device.
+    /// The path is a folder, a pipe or a device.
     NotAFile,
-    /// Longer than any library.
+    /// The file is too long.
     TooLong {
-        /// The most that is read.
+        /// Maximum length, bytes.
         most: u64,
     },
-    /// Not the bytes that the manifest promises.
+    /// The digest differs from the manifest's.
     Digest {
-        /// As the manifest says.
+        /// Digest in the manifest.
         expected: Sha256Digest,
-        /// Of the file.
+        /// Digest of the file.
         found: Sha256Digest,
     },
-    /// Not a shared library.
+    /// The file is not a shared library.
     NotALibrary,
-    /// A shared library of another machine.
+    /// The file is a shared library for another machine.
     OtherMachine,
-    /// A shared library whose end is missing.
+    /// The file is a truncated shared library.
     CutOff,
-    /// The system's loader refused it.
+    /// The system's loader rejected the library.
     Loader(String),
-    /// The system's loader did not find what it needs, which it looks for beside itself.
+    /// The system's loader did not find a dependency that it looks for beside the library.
     BesideItself {
-        /// What the loader says.
+        /// Message of the loader.
         message: String,
-        /// Where it looks.
+        /// Run path of the library.
         run_path: String,
     },
-    /// It exports no `taceva_plugin_v1`.
+    /// The library does not export `taceva_plugin_v1`.
     Symbol(String),
-    /// The exported symbol, or a text in it, lies where nothing can be read.
+    /// The exported symbol, or a text in it, is at an unreadable or misaligned address.
     Address {
-        /// What lies there.
+        /// Name of the item at that address.
         what: &'static str,
     },
-    /// The exported symbol is something else.
+    /// The exported symbol has the wrong magic number.
     Magic {
-        /// What stands where the magic number should.
+        /// Number found.
         found: u32,
     },
-    /// Written for another major version of the interface.
+    /// The library uses another major version of the interface.
     Major {
-        /// Its version.
+        /// Major version of the library.
         found: u32,
     },
-    /// The exported symbol ends before what every plugin has.
+    /// The exported symbol is too short.
     Size {
-        /// Its size.
+        /// Size of the symbol, bytes.
         found: usize,
-        /// The least.
+        /// Minimum size, bytes.
         least: usize,
     },
     /// A text of the library is not UTF-8.
     Text {
-        /// Which text.
+        /// Name of the text.
         what: &'static str,
     },
-    /// The library says something else than its manifest.
+    /// The library contradicts its manifest.
     Differs {
-        /// What they disagree about.
+        /// Name of the differing item.
         what: String,
-        /// As the manifest says.
+        /// Value in the manifest.
         manifest: String,
-        /// As the library says.
+        /// Value in the library.
         library: String,
     },
-    /// A function that every plugin has is NULL.
+    /// A required function is NULL.
     Lacks {
-        /// Its name.
+        /// Name of the function.
         what: &'static str,
     },
-    /// Its `init` failed.
+    /// The plugin's `init` failed.
     Init(Failure),
-    /// A table of functions that cannot be one.
+    /// A function table is invalid.
     Table(String),
-    /// A driver could not be described.
+    /// A description of a driver failed.
     Describe(Failure),
-    /// What it says of a driver does not read.
+    /// The description of a driver cannot be parsed.
     Describes {
-        /// Which one.
+        /// Name of the driver.
         driver: String,
-        /// What is wrong with the text.
+        /// Error in the text.
         source: ManifestError,
     },
 }
@@ -156,7 +156,7 @@ impl LoadProblem {
         }
     }
 
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub fn kind(&self) -> ErrorKind {
         match self {
             LoadProblem::File(error) => match error.kind() {

@@ -1,4 +1,4 @@
-//! What a plugin may ask of us: a line for the log, and the time.
+//! Host functions that a plugin may call: logging and clock.
 
 #![expect(unsafe_code, reason = "functions that a plugin calls")]
 
@@ -10,23 +10,23 @@ use taceva_core::caught;
 
 use crate::text::shown;
 
-/// How much a line of a plugin's log matters.
+/// Level of a log line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// Something failed.
+    /// A failure.
     Error,
-    /// Something is odd.
+    /// An unexpected condition.
     Warn,
-    /// Something happened.
+    /// An event.
     Info,
-    /// For whoever looks for a fault.
+    /// Details for debugging.
     Debug,
 }
 
-/// Takes the lines that a plugin logs: how much they matter, what they are about, and what they say.
+/// Callback for a plugin's log lines: level, target and message.
 pub type Log = Box<dyn Fn(Level, &str, &str) + Send + Sync>;
 
-/// The table that a plugin is initialised with; it is there for good, as the library is.
+/// Host table for a plugin's `init`. Leaked, since the library is never unloaded.
 pub(super) fn table(log: Log) -> *const abi::Host {
     let log: &'static Log = Box::leak(Box::new(log));
     let host = abi::Host {
@@ -39,7 +39,7 @@ pub(super) fn table(log: Log) -> *const abi::Host {
     std::ptr::from_ref(Box::leak(Box::new(host)))
 }
 
-/// Longest line or target, in bytes: a length that nobody means is not read.
+/// Maximum length of a message or target, bytes. A longer text is not read.
 const LENGTH_MAX: usize = 1 << 16;
 
 unsafe extern "C" fn write(
@@ -68,7 +68,7 @@ unsafe extern "C" fn write(
     }
     // SAFETY: `context` is the log that `table` leaked, as this function and it are only handed over together.
     let log = unsafe { &*context.cast::<Log>() };
-    // A panic must not unwind into the library; only this line of the log is lost then.
+    // A panic must not unwind into the library; the log line is lost.
     let _ = caught(|| log(level, &read(target), &read(message)));
 }
 

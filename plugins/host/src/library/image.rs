@@ -1,4 +1,4 @@
-//! The file that is loaded is the file that was hashed: a private copy that nobody can change any more.
+//! Private, sealed copy of a library, so that the hashed file is the loaded file.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -13,12 +13,12 @@ use super::error::{LoadError, LoadProblem};
 use crate::manifest::{LibraryFile, Sha256Digest};
 use crate::sealed_memory::seal_all;
 
-/// No library is longer, in bytes.
+/// Maximum length of a library, bytes.
 pub(crate) const LENGTH_MAX: u64 = 1 << 30;
-/// Bytes that are copied at a time.
+/// Block size for copying, bytes.
 const BLOCK: usize = 1 << 16;
 
-/// A library as it was hashed, in sealed memory: what happens to its file later does not matter.
+/// A hashed library in sealed memory. Later changes of its file have no effect.
 #[derive(Debug)]
 pub struct Image {
     memory: OwnedFd,
@@ -30,12 +30,12 @@ impl Image {
     /// Copies and hashes the library that a manifest in `folder` names.
     ///
     /// # Errors
-    /// [`LoadError`] if it is no regular file, no library of this machine, cut off, or not what the manifest says.
+    /// [`LoadError`] if it is not a regular file, not a library for this machine, truncated, or has another digest than the manifest.
     pub fn read(folder: &Path, library: &LibraryFile) -> Result<Image, LoadError> {
         let path = folder.join(&library.path);
         let failed = |problem: LoadProblem| problem.of(&path);
         let io = |error: std::io::Error| failed(LoadProblem::File(error));
-        // Asked before opening: opening a pipe would wait for whoever writes into it.
+        // Checked before opening, since opening a pipe would block.
         if !std::fs::metadata(&path).map_err(io)?.is_file() {
             return Err(failed(LoadProblem::NotAFile));
         }
@@ -54,7 +54,7 @@ impl Image {
             }));
         }
         seal_all(&copy).map_err(|error| io(error.into()))?;
-        // After the seals: what is looked at here cannot become something else.
+        // After sealing, so that the checked bytes cannot change.
         elf::check(&copy).map_err(failed)?;
         Ok(Image {
             memory: copy.into(),
@@ -63,17 +63,17 @@ impl Image {
         })
     }
 
-    /// The digest of its bytes.
+    /// Digest of the library.
     pub fn digest(&self) -> Sha256Digest {
         self.digest
     }
 
-    /// Where it was copied from, for messages.
+    /// Path of the original file, for messages.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// An image that another process read, sealed and checked: `memory` is what its [`as_fd`](Image::as_fd) gave.
+    /// Wraps an image that another process read, sealed and checked. `memory` comes from its [`as_fd`](Image::as_fd).
     pub fn from_sealed(memory: OwnedFd, digest: Sha256Digest, path: PathBuf) -> Image {
         Image {
             memory,
@@ -125,7 +125,7 @@ mod tests {
         }
     }
 
-    /// A library that is there wherever tests run: the one this program itself uses.
+    /// A library that exists wherever tests run: one that this program itself uses.
     fn some_library() -> PathBuf {
         let maps = std::fs::read_to_string("/proc/self/maps").expect("readable");
         let library = maps

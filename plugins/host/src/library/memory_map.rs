@@ -1,16 +1,16 @@
-//! Which addresses can be read: a library's own constants are looked at only where something is mapped.
+//! Memory map of this process, to check a library's pointers before reading.
 
 use std::io;
 use std::ops::Range;
 
-/// The readable memory of this process at one moment.
+/// Readable address ranges of this process at one moment.
 pub(super) struct Mapped {
-    /// Sorted, and apart from each other.
+    /// Sorted and disjoint.
     ranges: Vec<Range<usize>>,
 }
 
 impl Mapped {
-    /// What is mapped now.
+    /// Reads the current memory map.
     pub(super) fn now() -> io::Result<Mapped> {
         let text = std::fs::read_to_string("/proc/self/maps")?;
         Ok(Mapped::parse(&text))
@@ -40,7 +40,7 @@ impl Mapped {
         Mapped { ranges }
     }
 
-    /// Whether the `length` bytes at `address` can be read.
+    /// True if the `length` bytes at `address` are readable.
     pub(super) fn holds(&self, address: usize, length: usize) -> bool {
         let Some(end) = address.checked_add(length) else {
             return false;

@@ -1,10 +1,10 @@
-//! What a loaded library says that it offers.
+//! Offer of a loaded library.
 
 use super::{Library, LoadProblem, text};
 use crate::offer::Offer;
 
 impl Library {
-    /// What it offers and needs.
+    /// Offers and needs of the library.
     pub fn offer(&self) -> Result<Offer, LoadProblem> {
         let said = self.plugin();
         let needs = text("`needs`", said.needs, None)?;

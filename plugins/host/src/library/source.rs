@@ -1,4 +1,4 @@
-//! Where the tables of a plugin come from: a library that the loader maps, or a table that the program made itself.
+//! Source of a plugin's tables: a loaded library, or a table that the program built.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use super::{Image, Library, LoadError, Log};
 use crate::manifest::Manifest;
 use crate::offer::Offer;
 
-/// A table that the program itself made, by which a runtime of another language offers its objects as a library offers its devices.
+/// A table built by the program. A runtime of another language uses it to offer its objects as devices.
 #[derive(Clone, Debug)]
 pub struct Linked {
     table: &'static abi::Plugin,
@@ -17,15 +17,15 @@ pub struct Linked {
 }
 
 impl Linked {
-    /// The plugin of `table`, which was made of the code at `path`. Its functions are called as those of a loaded library are.
+    /// Wraps `table`, which was built from the code at `path`. Its functions are called like those of a loaded library.
     pub fn new(table: &'static abi::Plugin, path: PathBuf) -> Linked {
         Linked { table, path }
     }
 
-    /// What it offers and needs, as a manifest would say it.
+    /// Offers and needs, as in a manifest.
     ///
     /// # Errors
-    /// [`LoadError`] if its tables say what no manifest can.
+    /// [`LoadError`] if the tables contain values that no manifest can express.
     pub fn offer(&self) -> Result<Offer, LoadError> {
         let library = self.load(None, Box::new(|_, _, _| {}))?;
         library.offer().map_err(|problem| problem.of(&self.path))
@@ -36,17 +36,17 @@ impl Linked {
     }
 }
 
-/// Where the tables of a plugin come from.
+/// Source of a plugin's tables.
 #[derive(Debug)]
 pub enum Source {
-    /// A file that was read.
+    /// A copied library file.
     Image(Image),
-    /// A table of this program.
+    /// A table built by this program.
     Linked(Linked),
 }
 
 impl Source {
-    /// Loads it, for `manifest` if there is one.
+    /// Loads the tables and compares them with `manifest`, if given.
     ///
     /// # Errors
     /// [`LoadError`], as by [`Library::load`].

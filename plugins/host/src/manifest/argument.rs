@@ -1,4 +1,4 @@
-//! An argument as a manifest declares it.
+//! Argument declared in a manifest.
 
 use serde::Deserialize;
 use taceva_core::{ArgKind, ArgSpec, ArgValue, Presence};
@@ -6,7 +6,7 @@ use toml::{Spanned, Value};
 
 use super::Refused;
 
-/// `[[provides.args]]`.
+/// One table `[[provides.args]]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WrittenArgument {
@@ -36,7 +36,7 @@ enum Type {
 }
 
 impl WrittenArgument {
-    /// The declaration, if it does not contradict itself.
+    /// Converts the declaration. Fails if it contradicts itself.
     pub(super) fn spec(self) -> Result<ArgSpec, Refused> {
         let key = self.key.get_ref().as_str();
         let of_type = *self.r#type.get_ref();

@@ -1,4 +1,4 @@
-//! What is wrong with a manifest, and where.
+//! Mistake in a manifest, with its position.
 
 use std::fmt;
 use std::ops::Range;
@@ -7,7 +7,7 @@ use taceva_core::nearest;
 
 use crate::text::shown;
 
-/// Text that is no manifest, or no `[[provides]]` table: where it stands, and what would be accepted.
+/// Mistake in a manifest or a `[[provides]]` table: its position and the expected value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ManifestError {
     place: Option<(usize, usize)>,
@@ -15,7 +15,7 @@ pub struct ManifestError {
 }
 
 impl ManifestError {
-    /// A problem that is of no line.
+    /// Creates an error without a position.
     pub(crate) fn whole(problem: impl Into<String>) -> ManifestError {
         ManifestError {
             place: None,
@@ -23,7 +23,7 @@ impl ManifestError {
         }
     }
 
-    /// A problem at bytes of `text`.
+    /// Creates an error at a byte range of `text`.
     pub(crate) fn at(text: &str, span: &Range<usize>, problem: impl Into<String>) -> ManifestError {
         let before = text.get(..span.start).unwrap_or(text);
         let line = 1 + before.matches('\n').count();
@@ -35,7 +35,7 @@ impl ManifestError {
         }
     }
 
-    /// What the parser found.
+    /// Converts an error of the TOML parser.
     pub(crate) fn of_parser(text: &str, error: &toml::de::Error) -> ManifestError {
         let problem = explained(error.message());
         match error.span() {
@@ -44,7 +44,7 @@ impl ManifestError {
         }
     }
 
-    /// The line, from 1, where one is to blame.
+    /// Line of the mistake, counted from 1; `None` if it has no position.
     pub fn line(&self) -> Option<usize> {
         self.place.map(|(line, _)| line)
     }
@@ -61,7 +61,7 @@ impl fmt::Display for ManifestError {
 
 impl std::error::Error for ManifestError {}
 
-/// The parser's message with the nearest key.
+/// Rewrites the parser's message and suggests the nearest key.
 fn explained(message: &str) -> String {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {

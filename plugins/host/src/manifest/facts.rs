@@ -1,4 +1,4 @@
-//! What a `[[provides]]` table says of a device, as facts of its kind.
+//! Conversion of a `[[provides]]` table to device facts.
 
 use taceva_core::{
     Axes, Axis, ChangerFacts, Facts, Footprint, ForceFacts, FrameInfo, Hertz, LightingFacts,
@@ -11,7 +11,7 @@ use super::provides_table::{Kind, Shape, WrittenFootprint, WrittenProvides};
 use crate::text::shown;
 
 impl WrittenProvides {
-    /// The facts of a device of its kind.
+    /// Facts of the device, by its kind.
     pub(super) fn facts(&self) -> Result<Facts, Refused> {
         match self.kind {
             Kind::Sensor => Ok(Facts::Sensor(Box::new(self.sensor()?))),

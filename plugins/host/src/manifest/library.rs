@@ -1,11 +1,11 @@
-//! Which file is the library, platform by platform.
+//! Library files by platform.
 
 use std::fmt;
 use std::path::{Component, Path};
 
 use serde::{Deserialize, Serialize};
 
-/// The platforms that a manifest may name.
+/// Platforms that a manifest may name.
 pub(super) const PLATFORMS: [&str; 9] = [
     "linux-x86_64",
     "linux-aarch64",
@@ -18,22 +18,22 @@ pub(super) const PLATFORMS: [&str; 9] = [
     "freebsd-x86_64",
 ];
 
-/// The platform that this program was built for, as manifests write it: `linux-x86_64`.
+/// Platform of this program, as manifests write it: `linux-x86_64`.
 pub fn platform() -> String {
     format!("{}-{}", std::env::consts::OS, std::env::consts::ARCH)
 }
 
-/// The library of one platform.
+/// Library file of one platform.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct LibraryFile {
-    /// Relative to the manifest, below its folder.
+    /// Path relative to the manifest, below its folder.
     pub path: String,
-    /// What its bytes must be, where the manifest says so.
+    /// Required digest; `None` if any build is accepted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sha256: Option<Sha256Digest>,
 }
 
-/// What is wrong with the path of a library, if anything is.
+/// Describes the fault of a library path; `None` if it is valid.
 pub(crate) fn path_fault(path: &str) -> Option<&'static str> {
     if path.is_empty() || path.contains(char::is_control) {
         return Some("expected the name of a file");
@@ -51,7 +51,7 @@ pub(crate) fn path_fault(path: &str) -> Option<&'static str> {
 pub struct Sha256Digest(pub [u8; 32]);
 
 impl Sha256Digest {
-    /// The digest written as 64 hexadecimal digits.
+    /// Parses 64 hexadecimal digits; `None` for any other text.
     pub fn from_hex(text: &str) -> Option<Sha256Digest> {
         let digits = text.as_bytes();
         if digits.len() != 64 || !digits.iter().all(u8::is_ascii_hexdigit) {

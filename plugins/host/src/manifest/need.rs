@@ -1,4 +1,4 @@
-//! What a plugin needs beyond computing: nothing of it is given in a child process unless its manifest says so and the user agrees.
+//! Resources that a plugin needs besides computing. A child process gets only those that the manifest declares and the user allows.
 
 mod coverage;
 mod declaration;
@@ -16,12 +16,12 @@ use taceva_core::suggestion;
 
 use crate::text::shown;
 
-/// The words that needs begin with.
+/// Words before the first `:` of needs.
 const WORDS: [&str; 9] = [
     "camera", "device", "hid", "listen", "read", "serial", "tcp", "udp", "usb",
 ];
 
-/// Something outside the plugin that it must reach.
+/// Resource outside the plugin that it must reach.
 ///
 /// ```
 /// use taceva_host::Need;
@@ -37,44 +37,44 @@ const WORDS: [&str; 9] = [
 #[serde(try_from = "String", into = "String")]
 #[non_exhaustive]
 pub enum Need {
-    /// Devices on USB.
+    /// USB devices.
     Usb,
-    /// Cameras that the system has a driver for: `/dev/video*`.
+    /// Cameras with a system driver: `/dev/video*`.
     Camera,
     /// Human interface devices, such as scales and pedals: `/dev/hidraw*`.
     Hid,
-    /// Serial ports, and no other devices: a path below `/dev`, in which `*` stands for anything but `/`.
+    /// Serial ports only: a path below `/dev`, in which `*` stands for any characters but `/`.
     Serial {
-        /// The path.
+        /// Path of the device.
         path: String,
     },
-    /// Character devices: a path below `/dev`, in which `*` stands for anything but `/`.
+    /// Character devices: a path below `/dev`, in which `*` stands for any characters but `/`.
     Device {
-        /// The path.
+        /// Path of the device.
         path: String,
     },
-    /// One TCP server, or those of addresses in which `*` stands for anything but `.`.
+    /// TCP servers: an address in which `*` stands for any characters but `.`.
     Tcp {
-        /// Its address or name.
+        /// Address or host name.
         address: String,
-        /// Its port.
+        /// Port number.
         port: u16,
     },
-    /// One UDP peer, as of TCP.
+    /// UDP peers, with addresses as for TCP.
     Udp {
-        /// Its address or name.
+        /// Address or host name.
         address: String,
-        /// Its port.
+        /// Port number.
         port: u16,
     },
-    /// A TCP port of this machine, on which it waits for connections.
+    /// TCP port of this machine on which the plugin listens.
     Listen {
-        /// The port.
+        /// Port number.
         port: u16,
     },
-    /// A file, or all that is in a folder: to be read only.
+    /// Read access to a file, or to a folder and everything in it.
     Read {
-        /// Its absolute path, in which `*` stands for anything but `/`.
+        /// Absolute path, in which `*` stands for any characters but `/`.
         path: String,
     },
 }
@@ -138,20 +138,20 @@ fn is_device(path: &str) -> bool {
     path.strip_prefix("/dev/").is_some_and(is_path)
 }
 
-/// Parts between `/`, each a name; braces are those of arguments, see [`DeclaredNeed`].
+/// True for names joined by `/`. Braces are reserved for arguments, see [`DeclaredNeed`].
 fn is_path(path: &str) -> bool {
     let is_plain = |part: &str| !part.is_empty() && part != "." && part != "..";
     let is_foreign = |letter: char| letter.is_control() || matches!(letter, '{' | '}');
     path.split('/').all(is_plain) && !path.contains(is_foreign)
 }
 
-/// Whether no part of `path` matches every name there is.
+/// True if no part of `path` consists of stars only.
 fn names_something(path: &str) -> bool {
     let mut parts = path.split('/').skip(1);
     parts.all(|part| part.chars().any(|letter| letter != '*'))
 }
 
-/// Whether files below `path` are those of users: what the system shows of itself there says too much of other processes.
+/// True for an absolute path outside `/dev`, `/proc` and `/sys`, which would reveal other processes.
 fn is_readable(path: &str) -> bool {
     let first = path.split('/').nth(1).unwrap_or_default();
     let shows_system = ["dev", "proc", "sys"]
@@ -160,7 +160,7 @@ fn is_readable(path: &str) -> bool {
     path.strip_prefix('/').is_some_and(is_path) && names_something(path) && !shows_system
 }
 
-/// An address or a host's name, and a port that is not 0; an IPv6 address stands in brackets.
+/// Parses an address or host name and a port above 0. An IPv6 address is in brackets.
 fn peer_of(text: &str) -> Option<(String, u16)> {
     let (address, port) = text.rsplit_once(':')?;
     let is_name =
@@ -169,7 +169,7 @@ fn peer_of(text: &str) -> Option<(String, u16)> {
         .strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'))
         .is_some_and(|inside| inside.parse::<std::net::Ipv6Addr>().is_ok());
-    // Of nothing but stars and dots every machine would be one.
+    // An address of only stars and dots would match every host.
     let names_something = address.contains(|letter: char| letter.is_ascii_alphanumeric());
     let is_address = is_ipv6 || (names_something && address.chars().all(is_name));
     is_address.then_some((address.to_owned(), port_of(port)?))
@@ -210,7 +210,7 @@ impl fmt::Display for Need {
     }
 }
 
-/// Text that names nothing a plugin may need.
+/// Invalid need.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{}`: {problem}", shown(.text))]
 pub struct NeedError {

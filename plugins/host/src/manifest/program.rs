@@ -1,4 +1,4 @@
-//! `[program]`: a plugin that is a module of Python instead of a library.
+//! Table `[program]`: a plugin that is a Python module instead of a library.
 
 use std::fmt;
 
@@ -8,35 +8,35 @@ use toml::Spanned;
 use super::Refused;
 use crate::text::shown;
 
-/// No plugin has more modules imported for it beforehand.
+/// Maximum number of preloaded modules.
 const PRELOAD_MAX: usize = 64;
 
-/// A module of Python that is a plugin, and how it is run.
+/// Python module of a plugin, and its process settings.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PythonModule {
-    /// The package that the manifest lies in, as `import` names it.
+    /// Name of the package that contains the manifest, as `import` takes it.
     pub name: String,
-    /// The version of the wire that it was written for.
+    /// Wire version for which the module was written.
     pub wire: u32,
-    /// What is imported before it: modules that bring code with them, and that it would import only later.
+    /// Modules to import first, since the plugin would import their native code only later.
     pub preload: Vec<String>,
-    /// What its process is kept from.
+    /// Confinement profile of the process.
     pub profile: Profile,
 }
 
-/// What the process of an interpreter is kept from, besides what every plugin is.
+/// Confinement profile of an interpreter's process, beyond that of every plugin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Profile {
-    /// Code comes into it only while it imports; 4 GiB of addresses.
+    /// Code may be mapped only during import; 4 GiB of address space.
     #[default]
     Interpreter,
-    /// Code may come into it at any time; 64 GiB of addresses.
+    /// Code may be mapped at any time; 64 GiB of address space.
     InterpreterOpen,
 }
 
 impl Profile {
-    /// The word for it.
+    /// Name in manifests.
     pub const fn name(self) -> &'static str {
         match self {
             Profile::Interpreter => "interpreter",
@@ -44,7 +44,7 @@ impl Profile {
         }
     }
 
-    /// How much memory a process may address, in bytes.
+    /// Limit of address space, bytes.
     pub(crate) const fn memory(self) -> u64 {
         match self {
             Profile::Interpreter => 4 << 30,
@@ -52,7 +52,7 @@ impl Profile {
         }
     }
 
-    /// Whether no more code comes in once everything is imported.
+    /// True if no code may be mapped after the import.
     pub(crate) const fn seals(self) -> bool {
         matches!(self, Profile::Interpreter)
     }
@@ -64,7 +64,7 @@ impl fmt::Display for Profile {
     }
 }
 
-/// The table as it is written.
+/// Table `[program]` as written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WrittenProgram {
@@ -77,7 +77,7 @@ pub(super) struct WrittenProgram {
 }
 
 impl WrittenProgram {
-    /// The module that is meant.
+    /// Checks the table and converts it.
     pub(super) fn module(&self) -> Result<PythonModule, Refused> {
         let name = self.python.get_ref();
         if !is_word(name) {
@@ -114,7 +114,7 @@ impl WrittenProgram {
     }
 }
 
-/// Whether `import` takes it, of the letters that packages are named by.
+/// True for an ASCII identifier of at most 100 characters.
 pub(crate) fn is_word(name: &str) -> bool {
     let mut letters = name.bytes();
     let begins = |first: u8| first.is_ascii_alphabetic() || first == b'_';

@@ -1,4 +1,4 @@
-//! What a plugin provides: a `[[provides]]` table of its manifest, or the same text as its library writes it.
+//! Drivers and estimators of a plugin, from a `[[provides]]` table of its manifest or the same text from its library.
 
 use std::ops::Range;
 
@@ -12,34 +12,34 @@ use super::usb_id::UsbId;
 use crate::id::PluginId;
 use crate::text::shown;
 
-/// One driver or estimator of a plugin, as far as it is known before any code of it runs.
+/// Driver or estimator of a plugin, as described before any of its code runs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Provided {
     /// A driver.
     Driver {
-        /// Everything that planning needs; its key is the plugin's id, `/`, and the key of the table.
+        /// Data for planning. The key is the plugin's id, `/`, and the key of the table.
         descriptor: Box<Descriptor>,
-        /// Devices that it may open, for listing what is plugged in.
+        /// USB ids of its devices, for listing devices that are plugged in.
         usb: Vec<UsbId>,
     },
     /// An estimator.
     Estimator(EstimatorInfo),
 }
 
-/// An estimator of a plugin.
+/// Description of a plugin's estimator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EstimatorInfo {
-    /// The name by which people choose it: the plugin's id, `/`, and the key of the table.
+    /// Key by which users choose it: the plugin's id, `/`, and the key of the table.
     pub key: taceva_core::DriverKey,
-    /// What it is, in a few words.
+    /// Short title.
     pub title: String,
-    /// What can be set.
+    /// Declared settings.
     pub settings: Vec<ArgSpec>,
 }
 
 impl WrittenProvides {
-    /// The table as it is meant, for a plugin called `id`.
+    /// Checks the table and converts it, for the plugin `id`.
     pub(super) fn provided(mut self, id: &PluginId) -> Result<Provided, Refused> {
         if let Some((key, span)) = self.stranger() {
             let problem = format!("`{key}`: no fact of a {}", self.kind.name());
@@ -87,7 +87,7 @@ impl WrittenProvides {
         })
     }
 
-    /// The first key that says nothing of a device of this kind.
+    /// First key that does not apply to this kind of device.
     fn stranger(&self) -> Option<(&'static str, Range<usize>)> {
         use Kind::{Changer, Force, Lighting, Robot, Sensor};
         fn span<T>(key: &Option<Spanned<T>>) -> Option<Range<usize>> {

@@ -1,4 +1,4 @@
-//! What a manifest may say, and what is refused.
+//! Valid and invalid manifests.
 
 use taceva_core::{ArgKind, ArgValue, DriverKind, Facts, Presence};
 
@@ -110,7 +110,7 @@ fn refused(text: &str) -> String {
     Manifest::parse(text).expect_err(text).to_string()
 }
 
-/// What is said of the whole manifest with `old` replaced by `new`.
+/// Error of the whole manifest with `old` replaced by `new`.
 fn with(old: &str, new: &str) -> String {
     let text = whole();
     assert!(text.contains(old), "{old}");

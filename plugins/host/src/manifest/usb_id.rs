@@ -1,13 +1,13 @@
-//! A device on USB as a manifest names it.
+//! USB id in a manifest.
 
 use serde::Deserialize;
 
-/// A device on USB.
+/// USB vendor and product id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct UsbId {
-    /// The number of its vendor, of 16 bits.
+    /// Vendor id.
     pub vendor: u16,
-    /// The number of the product, of 16 bits.
+    /// Product id.
     pub product: u16,
 }

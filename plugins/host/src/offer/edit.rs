@@ -1,4 +1,4 @@
-//! The text of a manifest, changed to what its library says; comments and order stay.
+//! Update of a manifest's text from its library's offer. Comments and order are kept.
 
 use toml::Value as Plain;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
@@ -8,16 +8,16 @@ use crate::descriptor::{arguments, difference};
 use crate::manifest::{LibraryFile, Manifest, ManifestError, Provided, platform};
 use crate::wire_version::WIRE;
 
-/// What the manifest says and the library does not know.
+/// Keys that only the manifest has.
 const OF_MANIFEST: [&str; 1] = ["usb"];
 
 impl Offer {
-    /// The manifest `text`, changed to what is offered here by `library`; a new one where `text` is empty, whose licence is `license`.
+    /// Updates the manifest `text` to this offer of `library`. If `text` is empty, writes a new manifest with the licence `license`.
     ///
-    /// Comments stay, and so does `usb`, of which a library knows nothing. `needs` stay where the library does not say any.
+    /// Comments and the key `usb`, which libraries do not state, are kept. `needs` are kept if the library states none.
     ///
     /// # Errors
-    /// [`ManifestError`] for text that is no TOML, for what is offered and no manifest can say, and for a new one without a licence.
+    /// [`ManifestError`] if `text` is not TOML, if the offer does not fit a manifest, or if a new manifest lacks a licence.
     pub fn manifest(
         &self,
         text: &str,
@@ -29,7 +29,7 @@ impl Offer {
         })
     }
 
-    /// The same of what is offered by `module`. What is imported before it and what it is kept from stay as they are written.
+    /// Like [`manifest`](Offer::manifest), for the offer of a Python `module`. The preloaded modules and the profile are kept.
     ///
     /// # Errors
     /// As [`manifest`](Offer::manifest).
@@ -105,7 +105,7 @@ impl Offer {
         Ok(())
     }
 
-    /// Refuses a text that is no manifest, or says otherwise than the library.
+    /// Fails if `written` is not a manifest or contradicts the offer.
     fn check(&self, written: &str) -> Result<(), ManifestError> {
         let manifest = Manifest::parse(written)?;
         for table in &self.provides {
@@ -136,7 +136,7 @@ impl Offer {
     }
 }
 
-/// Sets `key` unless it says so already; what stands around the value stays.
+/// Sets `key` unless it already has this value. Comments and spaces around the value are kept.
 fn put(table: &mut Table, key: &str, said: &Item) {
     match table.get_mut(key) {
         Some(item) if is_same(item, said) => {}
@@ -154,7 +154,7 @@ fn put(table: &mut Table, key: &str, said: &Item) {
     }
 }
 
-/// Whether both say the same, however they are written: 60 is 60.0.
+/// True if both values are equal; 60 equals 60.0.
 fn is_same(one: &Item, other: &Item) -> bool {
     fn plain(item: &Item) -> Option<Plain> {
         let mut table = DocumentMut::new();
@@ -194,7 +194,7 @@ fn is_same(one: &Item, other: &Item) -> bool {
         .is_some_and(|(one, other)| same(&one, &other))
 }
 
-/// The needs that the library says; those that are written already keep their place and their comments.
+/// Sets the needs of the library. Those already written keep their position and comments.
 fn needs(manifest: &mut DocumentMut, said: &[String]) {
     match manifest.get_mut("needs").and_then(Item::as_array_mut) {
         Some(written) => {
@@ -215,7 +215,7 @@ fn needs(manifest: &mut DocumentMut, said: &[String]) {
     }
 }
 
-/// The library of this platform, if none is named, and its digest, if one is.
+/// Adds the library of this platform if it is missing. Updates its digest if the manifest has one.
 fn library_of(manifest: &mut DocumentMut, library: &LibraryFile) {
     let platform = platform();
     let tables = manifest
@@ -240,7 +240,7 @@ fn library_of(manifest: &mut DocumentMut, library: &LibraryFile) {
     }
 }
 
-/// The module and the wire that this program speaks.
+/// Sets the module and the wire version of this program.
 fn module_of(manifest: &mut DocumentMut, module: &str) {
     let program = manifest
         .entry("program")
@@ -252,7 +252,7 @@ fn module_of(manifest: &mut DocumentMut, module: &str) {
     put(program, "wire", &value(i64::from(WIRE)));
 }
 
-/// The tables of drivers and estimators, in the order in which the library has them.
+/// Sets the tables of drivers and estimators.
 fn provides(manifest: &mut DocumentMut, offered: Vec<Table>) {
     let written = manifest
         .get("provides")
@@ -260,7 +260,7 @@ fn provides(manifest: &mut DocumentMut, offered: Vec<Table>) {
         .cloned();
     let mut written: Vec<Table> = written.into_iter().flatten().collect();
     let mut tables = ArrayOfTables::new();
-    // Those that stay do so in their order; others come behind them.
+    // Existing tables keep their order; new ones follow.
     let key = |table: &Table| table.get("key").and_then(Item::as_str).map(str::to_owned);
     let mut offered: Vec<Table> = offered;
     offered.sort_by_key(|table| {
@@ -309,7 +309,7 @@ fn args(table: &mut Table, offered: Vec<Table>) {
     }
 }
 
-/// `written`, with what `said` says and nothing else that a library could say.
+/// Updates the table `written` to `said`, keeping keys that only a manifest has.
 fn updated(mut written: Table, said: &Table) -> Table {
     let is_left = |key: &str| said.contains_key(key) || OF_MANIFEST.contains(&key) || key == "args";
     written.retain(|key, _| is_left(key));
@@ -318,7 +318,7 @@ fn updated(mut written: Table, said: &Table) -> Table {
             put(&mut written, key, item);
         }
     }
-    // In the order of the library, so that a text that was compared with what it writes still equals it.
+    // Order of the library, so that a manifest it wrote stays unchanged.
     let own = said.iter().map(|(key, _)| key.to_owned());
     let left = written.iter().map(|(key, _)| key.to_owned());
     let left = left.filter(|key| !said.contains_key(key));

@@ -1,4 +1,4 @@
-//! Unpacking what somebody else packed.
+//! Unpacking of untrusted packages.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
@@ -13,19 +13,19 @@ use crate::library;
 use crate::manifest::{self, Manifest, Sha256Digest, path_fault, platform};
 use crate::search::MANIFEST;
 
-/// Unpacks the plugin in `archive` into `folder`, which is empty: its manifest, its library for this machine and its licences.
+/// Unpacks the manifest, the library for this machine and the licences from `archive` into the empty `folder`.
 ///
-/// The manifest comes first and says what else there may be, then `SHA256SUMS`; every file is compared with its digest. Nothing is written
-/// but plain files below `folder`.
+/// The manifest comes first and determines the other entries; `SHA256SUMS` comes second. Every file is compared with its digest. Only plain
+/// files below `folder` are written.
 ///
 /// # Errors
-/// [`PackageError`] for the first thing that does not belong there: a link, a folder, a path that leads out, a second file of one name, a
-/// file that is too long or that nobody names; and for what is missing, cut off, or has another digest. What was written until then stays.
+/// [`PackageError`] for the first invalid entry: a link, a folder, a path outside `folder`, a duplicate name, or a file that is too long or
+/// unexpected. Also if a file is missing, truncated, or has another digest. Files written before the error remain.
 pub fn unpack(archive: impl Read, folder: &Path) -> Result<(), PackageError> {
     let mut archive = Archive::new(archive);
     let mut promised: Option<Promised> = None;
     let mut seen = BTreeSet::new();
-    // As they are written: names that are carried in other entries are refused with these.
+    // Raw entries, so that entries that carry long names are rejected too.
     let entries = archive.entries().map_err(PackageError::Archive)?;
     for entry in entries.raw(true) {
         let mut entry = entry.map_err(PackageError::Archive)?;
@@ -78,7 +78,7 @@ pub fn unpack(archive: impl Read, folder: &Path) -> Result<(), PackageError> {
     promised.whole(&seen)
 }
 
-/// A plain file whose path stays below the folder.
+/// Fails unless the entry is a plain file with a path below the folder.
 fn is_plain(name: &str, kind: EntryType) -> Result<(), PackageError> {
     if kind != EntryType::Regular {
         let what = match kind {
@@ -102,7 +102,7 @@ fn is_plain(name: &str, kind: EntryType) -> Result<(), PackageError> {
     }
 }
 
-/// What the manifest and the digests say that there is.
+/// Expected contents, from the manifest and the digests.
 struct Promised {
     manifest: Manifest,
     digests: BTreeMap<String, Sha256Digest>,
@@ -118,7 +118,7 @@ impl Promised {
         }
     }
 
-    /// How long the file of that name may be.
+    /// Maximum length of the file `name`, bytes. Fails if no such file is expected.
     fn most(&self, name: &str) -> Result<u64, PackageError> {
         if libraries(&self.manifest).any(|library| library == name) {
             Ok(library::LENGTH_MAX)
@@ -130,7 +130,7 @@ impl Promised {
         }
     }
 
-    /// Compares a file with its digest, and keeps what this machine needs.
+    /// Compares a file with its digest, and keeps it if this machine needs it.
     fn take(
         &mut self,
         name: &str,
@@ -158,7 +158,7 @@ impl Promised {
         }
     }
 
-    /// Whether everything was there.
+    /// Fails if a listed file is missing.
     fn whole(&self, seen: &BTreeSet<String>) -> Result<(), PackageError> {
         if !seen.contains(DIGESTS) {
             return Err(PackageError::entry(DIGESTS, "it is missing"));
@@ -173,7 +173,7 @@ impl Promised {
     }
 }
 
-/// The digests, by name.
+/// Parses the digests, by file name.
 fn digests(text: &str) -> Result<BTreeMap<String, Sha256Digest>, PackageError> {
     let mut digests = BTreeMap::new();
     for (number, line) in text.lines().enumerate() {
@@ -191,14 +191,14 @@ fn digests(text: &str) -> Result<BTreeMap<String, Sha256Digest>, PackageError> {
     Ok(digests)
 }
 
-/// All of an entry, as text.
+/// Reads an entry as text.
 fn text(name: &str, entry: &mut impl Read, length: u64) -> Result<String, PackageError> {
     let mut bytes = Vec::new();
     copy(name, entry, &mut bytes, length)?;
     String::from_utf8(bytes).map_err(|_| PackageError::entry(name, "it is not UTF-8"))
 }
 
-/// Writes a new file; its folders are made, all below `folder`.
+/// Writes a new file below `folder`, creating its parent folders.
 fn write(
     folder: &Path,
     name: &str,
@@ -214,7 +214,7 @@ fn write(
     copy(name, entry, &mut file, length)
 }
 
-/// Copies all of an entry and hashes it.
+/// Copies an entry and returns its digest.
 fn copy(
     name: &str,
     entry: &mut impl Read,

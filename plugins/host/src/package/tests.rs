@@ -1,4 +1,4 @@
-//! What an archive may hold, and what is refused of those that somebody made up.
+//! Valid packages, and invalid forged ones.
 
 use std::path::Path;
 
@@ -32,14 +32,14 @@ scenes = ["dark", "room"]
     )
 }
 
-/// One entry: a name, its kind and its bytes.
+/// Archive entry: name, type and bytes.
 type Part<'a> = (&'a str, EntryType, &'a [u8]);
 
 fn plain<'a>(name: &'a str, bytes: &'a [u8]) -> Part<'a> {
     (name, EntryType::Regular, bytes)
 }
 
-/// An archive of `parts`, whose names are written without any check.
+/// Writes an archive of `parts` without checking their names.
 fn archive(parts: &[Part<'_>]) -> Vec<u8> {
     let mut archive = Builder::new(Vec::new());
     for (name, kind, bytes) in parts {
@@ -63,7 +63,7 @@ fn digests(files: &[(&str, &[u8])]) -> String {
     files.iter().map(line).collect()
 }
 
-/// What comes of the manifest, the digests of the library alone, the library, and `parts`.
+/// Result of unpacking the manifest, the digest of the library alone, the library, and `parts`.
 fn with(parts: &[Part<'_>]) -> Result<(), String> {
     let (manifest, digests) = (manifest(), digests(&[("lib/lamp.so", b"code")]));
     let mut all = vec![
@@ -75,7 +75,7 @@ fn with(parts: &[Part<'_>]) -> Result<(), String> {
     unpacked(&archive(&all))
 }
 
-/// Unpacks into a folder whose surroundings must not change.
+/// Unpacks into a folder and checks that nothing is written beside it.
 fn unpacked(archive: &[u8]) -> Result<(), String> {
     let around = tempfile::tempdir().expect("a folder");
     let folder = around.path().join("folder");
@@ -181,7 +181,7 @@ fn a_file_that_is_too_long_is_refused_before_it_is_read() {
         plain("plugin.toml", manifest.as_bytes()),
         plain("SHA256SUMS", digests.as_bytes()),
     ]);
-    // Without the blocks that end it, and with a header of 100 GiB.
+    // Without the end blocks, and with a header of 100 GiB.
     archive.truncate(archive.len() - 1024);
     let mut header = Header::new_gnu();
     header.as_old_mut().name[..11].copy_from_slice(b"lib/lamp.so");
@@ -279,7 +279,7 @@ fn every_cut_and_every_damaged_byte_of_a_header_is_refused_or_whole_and_never_a_
         let is_there = Path::new(&into).join("lib/lamp.so").exists();
         assert!(taken.is_err() || is_there, "cut at {cut}");
     }
-    // But of the sum itself, of which a digit may become the space that stands for 0.
+    // Except the checksum itself, in which a digit may become a space that also means 0.
     for place in (0..148).chain(156..512) {
         let mut damaged = whole.clone();
         damaged[place] ^= 0x10;

@@ -1,4 +1,4 @@
-//! Packing.
+//! Packing of plugins.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,11 +11,11 @@ use super::{DIGESTS, PackageError, libraries, licences};
 use crate::manifest::Sha256Digest;
 use crate::search::{MANIFEST, Plugin};
 
-/// Writes `plugin` into an archive: its manifest, the digests, every library that the manifest names and that is there, and the licences.
-/// The same plugin gives the same bytes. Gives the names of what is in it.
+/// Packs `plugin` into an archive: the manifest, the digests, every existing library of the manifest, and the licences. The same plugin
+/// gives the same bytes. Returns the names of the entries.
 ///
 /// # Errors
-/// [`PackageError`] for a file that cannot be read, and for one whose path does not fit a header of tar (256 bytes).
+/// [`PackageError`] if a file cannot be read, or its path does not fit a tar header (256 bytes).
 pub fn pack(plugin: &Plugin, into: &mut dyn Write) -> Result<Vec<String>, PackageError> {
     if let Some(module) = plugin.module() {
         let problem = "a package of Python is handed on as a wheel, which `pip wheel` makes";
@@ -30,7 +30,7 @@ pub fn pack(plugin: &Plugin, into: &mut dyn Write) -> Result<Vec<String>, Packag
     let licences =
         licences(&plugin.folder).map_err(|error| PackageError::file(&plugin.folder, error))?;
     names.extend(licences.iter().map(|name| name.display().to_string()));
-    // Read once, so that what is hashed is what is packed.
+    // Read once, so that the hashed bytes are the packed bytes.
     let mut files = Vec::with_capacity(names.len());
     let mut digests = String::new();
     for name in names {

@@ -1,4 +1,4 @@
-//! The digest of a package: of the names and the bytes of its files.
+//! Digest of a Python package, over the names and bytes of its files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,12 +8,12 @@ use sha2::{Digest, Sha256};
 use super::error::PythonError;
 use crate::manifest::Sha256Digest;
 
-/// No package of a plugin has more files, nor more bytes.
+/// Limits of a plugin's package: number of files, and total size in bytes.
 const FILES_MAX: usize = 10_000;
 const BYTES_MAX: u64 = 1 << 30;
 
-/// The digest of everything in `folder` but what Python keeps there of its own, and hidden files. It is of what lies there now: unlike a
-/// library, a package is not copied before it is imported. What else it imports is not part of it.
+/// Digest of all files in `folder` except `__pycache__` and hidden files. Unlike a library, a package is not copied before the import, so
+/// the digest describes its current state. Imported dependencies are not included.
 pub(crate) fn digest(folder: &Path) -> Result<Sha256Digest, PythonError> {
     let mut files = Vec::new();
     list(folder, folder, &mut files)?;
@@ -54,7 +54,7 @@ fn list(whole: &Path, folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Pyt
             continue;
         }
         let path = entry.path();
-        // Where a link leads counts, but a folder that a link leads to is not looked into: it may lead back here.
+        // Follow links to files, but not to folders, which could form a cycle.
         if entry.file_type().map_err(failed)?.is_dir() {
             list(whole, &path, files)?;
         } else if path.is_file() {

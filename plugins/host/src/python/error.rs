@@ -1,4 +1,4 @@
-//! What is wrong with an interpreter or with its environment.
+//! Errors of interpreters and their environments.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use taceva_core::{ErrorKind, shown};
 
 use crate::wire_version::WIRE;
 
-/// Why a plugin in Python cannot be run, or its environment not be asked.
+/// Failure to run a Python plugin or to query its environment.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PythonError {
@@ -16,84 +16,84 @@ pub enum PythonError {
         "it is written in Python, and no interpreter is known: `--python VENV/bin/python` names one for this command, `python = [\"…\"]` below `[plugins]` of ~/.config/taceva/config.toml for every command"
     )]
     NoInterpreter,
-    /// The interpreter is not there, or cannot be started.
+    /// The interpreter is missing or cannot be started.
     #[error(
         "{}: cannot be started: {source}; expected the interpreter of an environment, such as .venv/bin/python, in which `taceva` is installed",
         shown(program)
     )]
     Start {
-        /// The interpreter.
+        /// Path of the interpreter.
         program: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
-    /// Every user of the machine may write to it.
+    /// Every user may write to the interpreter or to a folder above it.
     #[error(
         "{}: every user of this machine may write to {}, expected one that only its owner may",
         shown(program),
         shown(path)
     )]
     WorldWritable {
-        /// The interpreter.
+        /// Path of the interpreter.
         program: PathBuf,
-        /// The file or folder that they may write.
+        /// The writable file or folder.
         path: PathBuf,
     },
-    /// It did not say what it was asked.
+    /// The interpreter did not answer the query.
     #[error(
         "{}: it did not say what lies in its environment: {problem}; expected Python 3.11 or later",
         shown(program)
     )]
     Silent {
-        /// The interpreter.
+        /// Path of the interpreter.
         program: PathBuf,
-        /// What it did instead.
+        /// Description of the fault.
         problem: String,
     },
-    /// The package `taceva` is missing in the environment, or too old for plugins.
+    /// The package `taceva` is missing in the environment or too old for plugins.
     #[error(
         "{}: {problem}; `{} -m pip install taceva=={}` installs it", shown(program), shown(program), env!("CARGO_PKG_VERSION")
     )]
     NoPackage {
-        /// The interpreter.
+        /// Path of the interpreter.
         program: PathBuf,
-        /// What is missing.
+        /// Description of the fault.
         problem: &'static str,
     },
-    /// The user that plugins run as may not read it.
+    /// The user that runs the plugin may not read a required file.
     #[error(
         "a plugin of root runs as user {user}, who may not read {}: it is closed by {}; let every user read it (`chmod o+rx`), make the environment from an interpreter that lies elsewhere, such as /usr/bin/python3, or run `taceva` as another user than root",
         shown(path),
         shown(closed)
     )]
     Closed {
-        /// What is to be read.
+        /// The required file or folder.
         path: PathBuf,
-        /// The file or folder that closes it.
+        /// The file or folder that denies access.
         closed: PathBuf,
-        /// The user.
+        /// User id.
         user: u32,
     },
     /// A file of the plugin cannot be read.
     #[error("{}: {source}", shown(path))]
     File {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
-    /// There is more in the package than any plugin has.
+    /// The package exceeds a size limit.
     #[error("{}: more than {most}", shown(folder))]
     TooMuch {
-        /// The folder of the package.
+        /// Folder of the package.
         folder: PathBuf,
-        /// The limit.
+        /// The exceeded limit.
         most: &'static str,
     },
 }
 
 impl PythonError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub fn kind(&self) -> ErrorKind {
         match self {
             PythonError::NoInterpreter | PythonError::NoPackage { .. } => ErrorKind::NotFound,
@@ -113,7 +113,7 @@ impl PythonError {
     }
 }
 
-/// What is said of a plugin that was written for another version of the wire.
+/// Error message for a plugin that was written for wire version `found`.
 pub(crate) fn other_wire(found: u32) -> String {
     format!(
         "written for version {found} of the wire, this TacEva speaks {WIRE}: `python -m taceva.plugin manifest MODULE --write` writes the version of the package `taceva` that is installed, which must be that of the program ({})",

@@ -1,4 +1,4 @@
-//! An interpreter, and what it says of its environment.
+//! Python interpreter and the contents of its environment.
 
 use std::path::{Path, PathBuf};
 
@@ -7,16 +7,16 @@ use serde::Deserialize;
 use super::error::PythonError;
 use super::run::output;
 
-/// What asks it.
+/// Script that queries the interpreter.
 const ASK: &str = include_str!("ask.py");
-/// How what it says begins; whatever was printed before is not its.
+/// First line of the answer. Output before it is ignored.
 const BEGIN: &str = "# taceva environment\n";
-/// The file of the package that becomes the process of a plugin.
+/// File of the package `taceva` that runs a plugin's process.
 const CHILD: &str = "plugin_child.py";
-/// What says of the machine how many processors it has, which libraries of numbers read.
+/// System files that list the processors, which numeric libraries read.
 const OF_PROCESSORS: [&str; 2] = ["/proc/cpuinfo", "/sys/devices/system/cpu"];
 
-/// An interpreter of Python in whose environment `taceva` is installed.
+/// Python interpreter whose environment has the package `taceva`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Interpreter {
     program: PathBuf,
@@ -26,7 +26,7 @@ pub struct Interpreter {
     lying: Vec<Lying>,
 }
 
-/// A plugin that lies in an environment, found by its entry point.
+/// Plugin in an environment, found by its entry point.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub(crate) struct Lying {
     pub(crate) id: String,
@@ -45,11 +45,11 @@ struct Said {
 }
 
 impl Interpreter {
-    /// The interpreter at `program`, asked what lies in its environment. Nothing of a plugin runs, but what the environment itself runs
-    /// when an interpreter starts does.
+    /// Queries the environment of the interpreter at `program`. Runs no code of plugins, but runs code that the environment itself executes
+    /// at start.
     ///
     /// # Errors
-    /// [`PythonError`] if it cannot be started, says nothing, or `taceva` is not installed in its environment.
+    /// [`PythonError`] if the interpreter cannot be started, does not answer, or has no package `taceva`.
     pub fn ask(program: &Path) -> Result<Interpreter, PythonError> {
         let silent = |problem: String| PythonError::Silent {
             program: program.to_owned(),
@@ -89,33 +89,33 @@ impl Interpreter {
         })
     }
 
-    /// Its file, as it is started.
+    /// Path with which the interpreter is started.
     pub fn program(&self) -> &Path {
         &self.program
     }
 
-    /// The version of Python, such as `3.12.4`.
+    /// Python version, such as `3.12.4`.
     pub fn version(&self) -> &str {
         &self.version
     }
 
-    /// What a process of it reads: its environment, what that was made from, and the package `taceva`.
+    /// Files that a plugin's process reads: the environment, its base installation, the package `taceva`, and lists of processors.
     pub(crate) fn reads(&self) -> Vec<PathBuf> {
         let processors = OF_PROCESSORS.map(PathBuf::from);
         self.readable.iter().cloned().chain(processors).collect()
     }
 
-    /// What the user of a process must be able to read.
+    /// Files that the user of a plugin's process must be able to read.
     pub(crate) fn must_read(&self) -> impl Iterator<Item = &Path> {
         self.readable.iter().map(PathBuf::as_path)
     }
 
-    /// What it is given to become the process of a plugin.
+    /// Script that the interpreter runs as a plugin's process.
     pub(crate) fn child(&self) -> PathBuf {
         self.package.join(CHILD)
     }
 
-    /// The plugins that lie in its environment.
+    /// Plugins in the environment.
     pub(crate) fn lying(&self) -> &[Lying] {
         &self.lying
     }

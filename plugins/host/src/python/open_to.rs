@@ -1,13 +1,14 @@
-//! Whether a user who owns nothing may read something.
+//! Access check for a user who owns nothing.
 
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
-/// Rights of everybody: to look into a folder, and to go through it or read it.
+/// Permission bits for other users: read a file or list a folder, and traverse a folder.
 const READ: u32 = 0o4;
 const GO_THROUGH: u32 = 0o1;
 
-/// What closes `path` to a user who owns nothing: the path itself, or a folder above it. What is not there closes nothing.
+/// Path that denies a user who owns nothing access to `path`: the path itself or a folder above it. `None` if nothing denies it or `path`
+/// does not exist.
 pub(crate) fn closed_by(path: &Path) -> Option<PathBuf> {
     let real = std::fs::canonicalize(path).ok()?;
     let mode = |path: &Path| path.metadata().ok().map(|metadata| metadata.mode());

@@ -1,34 +1,34 @@
-//! The interpreter that this program itself belongs to.
+//! Interpreter in which this program runs.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Alone, without its user's modules, before its environment is looked at, writing no compiled files, printing at once.
+/// Options for isolated mode: no user modules, no `site` import, no bytecode files, unbuffered output.
 const ALONE: [&str; 4] = ["-I", "-S", "-B", "-u"];
 
-/// What an interpreter is given to run `child`.
+/// Arguments for an interpreter that runs `child`.
 pub(crate) fn arguments(child: &Path) -> Vec<OsString> {
     let alone = ALONE.into_iter().map(OsString::from);
     alone.chain([child.as_os_str().to_owned()]).collect()
 }
 
-/// An interpreter, and the file that it runs to become the process of a plugin.
+/// The interpreter, and its script for a plugin's process.
 static OWN: OnceLock<(PathBuf, PathBuf)> = OnceLock::new();
 
-/// Says that this program runs within `interpreter`, in whose environment the package `taceva` lies at `package`: the processes of plugins
-/// are that interpreter again from now on, those of libraries too.
+/// Declares that this program runs in `interpreter`, whose package `taceva` is at `package`. Plugin processes, including those of
+/// libraries, use that interpreter from now on.
 pub fn run_within(interpreter: PathBuf, package: PathBuf) {
-    // A process is one interpreter, however often it says so.
+    // A process has one interpreter, so further calls change nothing.
     let _ = OWN.set((interpreter, package.join("plugin_child.py")));
 }
 
-/// The interpreter that this program runs within, and what it is given to become the process of a plugin.
+/// The interpreter in which this program runs, and its script for a plugin's process; `None` outside Python.
 pub(crate) fn own() -> Option<&'static (PathBuf, PathBuf)> {
     OWN.get()
 }
 
-/// The interpreter of the environment that this program lies in, if it lies in one: that it runs within, or that beside its own file.
+/// Interpreter of this program's environment: the one in which it runs, or the one beside its executable in a virtual environment.
 pub fn beside_this_program() -> Option<PathBuf> {
     if let Some((interpreter, _)) = own() {
         return Some(interpreter.clone());

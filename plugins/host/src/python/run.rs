@@ -1,4 +1,4 @@
-//! Running an interpreter for what it prints.
+//! Runs an interpreter and captures its output.
 
 use std::io::{self, Read};
 use std::path::Path;
@@ -8,14 +8,14 @@ use std::time::{Duration, Instant};
 
 use super::error::PythonError;
 
-/// How long it may take; one that reads its modules from a slow disk takes seconds.
+/// Timeout. Reading modules from a slow disk takes seconds.
 const PATIENCE: Duration = Duration::from_secs(30);
-/// How often it is looked whether it has ended.
+/// Polling interval.
 const PAUSE: Duration = Duration::from_millis(5);
-/// No more of what it prints is read, in bytes.
+/// Maximum output that is kept, bytes.
 const PRINTED_MAX: u64 = 4 << 20;
 
-/// What `program` prints when it is run with `arguments`, in an empty environment.
+/// Runs `program` with `arguments` and no environment variables, and returns its standard output.
 pub(super) fn output(program: &Path, arguments: &[&str]) -> Result<String, PythonError> {
     let start = |source: io::Error| PythonError::Start {
         program: program.to_owned(),
@@ -43,7 +43,7 @@ pub(super) fn output(program: &Path, arguments: &[&str]) -> Result<String, Pytho
         match process.try_wait().map_err(start)? {
             Some(status) => break status,
             None if begun.elapsed() > PATIENCE => {
-                // One that has ended by itself meanwhile cannot be ended any more.
+                // Fails if the process has ended meanwhile.
                 let _ = process.kill();
                 let _ = process.wait();
                 return Err(silent(format!("it took longer than {PATIENCE:?}")));
@@ -66,11 +66,11 @@ pub(super) fn output(program: &Path, arguments: &[&str]) -> Result<String, Pytho
     )))
 }
 
-/// A thread that reads so that the writer never waits.
+/// Starts a thread that reads the pipe, so that the writer never blocks.
 fn reader(mut pipe: impl Read + Send + 'static) -> thread::JoinHandle<Vec<u8>> {
     thread::spawn(move || {
         let mut bytes = Vec::new();
-        // What cannot be read is missing, and told of as such.
+        // After a read error the output is incomplete, which the caller reports.
         let _ = pipe.by_ref().take(PRINTED_MAX).read_to_end(&mut bytes);
         let _ = io::copy(&mut pipe, &mut io::sink());
         bytes

@@ -1,4 +1,4 @@
-//! Plugins that lie in environments of Python, found by the interpreters of these.
+//! Search for plugins in Python environments, through their interpreters.
 
 use std::path::{Path, PathBuf};
 
@@ -7,16 +7,16 @@ use taceva_core::shown;
 use super::{MANIFEST, Place, Reason, Searching};
 use crate::python::{Interpreter, Lying, PythonError};
 
-/// The name of the file that makes a folder a package.
+/// File that makes a folder a package.
 const PACKAGE: &str = "__init__.py";
 
 impl Searching {
-    /// Asks the interpreter at `program`, and looks at what lies in its environment.
+    /// Queries the interpreter at `program` and checks the plugins in its environment.
     pub(super) fn environment(&mut self, program: &Path) {
         let interpreter = match self.asked(program) {
             Ok(interpreter) => interpreter,
             Err(error) => {
-                // A rejection names it already.
+                // The rejection already names the interpreter.
                 let own = format!("{}: ", shown(program));
                 let said = error.to_string();
                 let why = said.strip_prefix(&own).unwrap_or(&said);
@@ -81,7 +81,7 @@ impl Searching {
         }
     }
 
-    /// Takes back what was found in `folder`.
+    /// Removes the plugin `id` that was found in `folder`.
     fn forget(&mut self, id: &str, folder: &Path) {
         let real = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
         for (known, alike) in &mut self.found {
@@ -92,7 +92,7 @@ impl Searching {
         self.found.retain(|_, alike| !alike.is_empty());
     }
 
-    /// Looks at the package that a manifest in `folder` must lie in.
+    /// Checks that `folder` is the package `name`.
     pub(super) fn package(&mut self, folder: &Path, name: &str) -> Result<(), Reason> {
         if folder.file_name().is_none_or(|last| last != name) {
             return Err(Reason::Python(format!(

@@ -1,4 +1,4 @@
-//! Where plugins are looked for.
+//! Search places of plugins.
 
 use std::ffi::{OsStr, OsString};
 use std::fmt;
@@ -6,26 +6,26 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-/// Who named a folder; the first of these is looked at first.
+/// Source of a plugin folder, in search order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Place {
-    /// The command line: `--plugin-dir`.
+    /// Command-line option `--plugin-dir`.
     Given,
-    /// The folder `plugins` beside the scene.
+    /// Folder `plugins` beside the scene.
     Project,
-    /// The variable `TACEVA_PLUGIN_PATH`.
+    /// Environment variable `TACEVA_PLUGIN_PATH`.
     Environment,
-    /// What this user has installed.
+    /// Folder of this user's installed plugins.
     User,
-    /// What is installed for everybody.
+    /// Folders of plugins installed for all users.
     System,
-    /// An environment of Python.
+    /// Python environment.
     Python,
 }
 
 impl Place {
-    /// Every place, in the order in which they are looked at.
+    /// All places, in search order.
     pub const ALL: [Place; 6] = [
         Place::Given,
         Place::Project,
@@ -35,7 +35,7 @@ impl Place {
         Place::Python,
     ];
 
-    /// The word for it.
+    /// Name of the place.
     pub const fn name(self) -> &'static str {
         match self {
             Place::Given => "given",
@@ -54,22 +54,22 @@ impl fmt::Display for Place {
     }
 }
 
-/// The folders to look in: never the current one, unless somebody names it.
+/// Folders to search. The current folder is included only if it is named.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SearchPath {
     pub(super) folders: Vec<(Place, PathBuf)>,
 }
 
-/// The folder in a place that holds plugins.
+/// Subfolder that contains plugins.
 const PLUGINS: &str = "taceva/plugins";
 
 impl SearchPath {
-    /// No folder.
+    /// Creates an empty search path.
     pub fn empty() -> SearchPath {
         SearchPath::default()
     }
 
-    /// The folders of this process: its environment, its user and the system.
+    /// Folders of this process: `TACEVA_PLUGIN_PATH`, the user's folder and the system's folders.
     pub fn of_process() -> SearchPath {
         let variable = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
         let home = variable("HOME").map(PathBuf::from);
@@ -90,20 +90,20 @@ impl SearchPath {
         path
     }
 
-    /// The folders that a variable lists, as `PATH` lists its own.
+    /// Adds the folders in `listed`, separated as in `PATH`.
     #[must_use]
     pub fn environment(self, listed: &OsStr) -> SearchPath {
         let listed: Vec<PathBuf> = std::env::split_paths(listed).collect();
         self.with(Place::Environment, listed)
     }
 
-    /// Also `folders` that somebody named.
+    /// Adds `folders` from the command line.
     #[must_use]
     pub fn given(self, folders: impl IntoIterator<Item = PathBuf>) -> SearchPath {
         self.with(Place::Given, folders)
     }
 
-    /// Also the folder `plugins` beside a scene that lies in `folder`.
+    /// Adds the folder `plugins` beside a scene in `folder`.
     #[must_use]
     pub fn project(self, folder: &Path) -> SearchPath {
         self.with(Place::Project, [folder.join("plugins")])
@@ -112,18 +112,18 @@ impl SearchPath {
     fn with(mut self, place: Place, folders: impl IntoIterator<Item = PathBuf>) -> SearchPath {
         let named = folders.into_iter().map(|folder| (place, folder));
         self.folders.extend(named);
-        // Stable: folders of one place stay in the order in which they were named.
+        // The sort is stable, so folders of one place keep their order.
         self.folders.sort_by_key(|(place, _)| *place);
         self
     }
 
-    /// The folders, in the order in which they are looked at.
+    /// Folders, in search order.
     pub fn folders(&self) -> impl Iterator<Item = (Place, &Path)> {
         (self.folders.iter()).map(|(place, folder)| (*place, folder.as_path()))
     }
 }
 
-/// The file of this user's settings, where one can be: `$XDG_CONFIG_HOME/taceva/config.toml` or `~/.config/taceva/config.toml`.
+/// Settings file of this user: `$XDG_CONFIG_HOME/taceva/config.toml` or `~/.config/taceva/config.toml`. `None` without an absolute folder.
 pub fn user_config_file() -> Option<PathBuf> {
     let variable = |name: &str| -> Option<OsString> {
         std::env::var_os(name).filter(|value| !value.is_empty())

@@ -1,4 +1,4 @@
-//! What was found and is not used, and why.
+//! Rejected plugins and folders, with the reasons.
 
 use std::fmt;
 use std::io;
@@ -12,14 +12,14 @@ use crate::id::PluginId;
 use crate::manifest::{AbiVersion, ManifestError};
 use crate::python::other_wire;
 
-/// A folder or a manifest that is not used.
+/// A rejected folder or manifest.
 #[derive(Debug)]
 pub struct Rejection {
-    /// The manifest, or the folder if it is to blame.
+    /// Path of the manifest, or of the folder if that is the cause.
     pub path: PathBuf,
-    /// Who named the folder.
+    /// Place where it was found.
     pub place: Place,
-    /// Why it is not used.
+    /// Reason of the rejection.
     pub reason: Reason,
 }
 
@@ -29,61 +29,61 @@ impl fmt::Display for Rejection {
     }
 }
 
-/// Why something that was found is not used.
+/// Reason of a rejection.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Reason {
-    /// A folder that is relative, and so would depend on where the program was started.
+    /// The folder is relative, so it would depend on the working directory.
     Relative,
     /// Every user of the machine may write there.
     WorldWritable {
-        /// The file or folder that they may write.
+        /// The writable file or folder.
         path: PathBuf,
     },
-    /// It cannot be read.
+    /// The file or folder cannot be read.
     Unreadable(io::Error),
-    /// What should be a file is none.
+    /// The path is not a regular file.
     NotAFile,
-    /// Not UTF-8, or longer than a manifest.
+    /// The text is not UTF-8 or exceeds the maximum length of a manifest.
     NotText,
-    /// A manifest with a mistake.
+    /// The manifest has a mistake.
     Manifest(ManifestError),
-    /// Written for another major version of the interface.
+    /// The plugin uses another major version of the interface.
     Abi {
-        /// Its version.
+        /// Version of the plugin.
         found: AbiVersion,
     },
-    /// No library for this platform.
+    /// The manifest has no library for this platform.
     Platform {
-        /// This platform.
+        /// Name of this platform.
         platform: String,
-        /// Those it has a library for.
+        /// Platforms with a library.
         has: Vec<String>,
     },
-    /// Its library is not there, or is no file.
+    /// The library is missing or not a file.
     Library {
-        /// As the manifest names it.
+        /// Path of the library.
         library: PathBuf,
-        /// What is wrong with it.
+        /// Description of the fault.
         problem: String,
     },
-    /// An interpreter, an environment or a package of Python that is none for plugins; what is wrong, and what helps.
+    /// An interpreter, an environment or a Python package is unsuitable. The text names the fault and the remedy.
     Python(String),
-    /// A module that was written for another version of the wire.
+    /// The Python module uses another wire version.
     Wire {
-        /// Its version.
+        /// Version of the plugin.
         found: u32,
     },
     /// Another plugin has the same id.
     Duplicate {
-        /// The id.
+        /// The shared id.
         id: PluginId,
-        /// The manifest of the other.
+        /// Manifest of the other plugin.
         other: PathBuf,
     },
 }
 
-/// [`Reason`] without what it is about: for lists, and for scripts.
+/// Kind of a [`Reason`], for lists and scripts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -115,7 +115,7 @@ pub enum ReasonKind {
 }
 
 impl ReasonKind {
-    /// Every kind.
+    /// All kinds.
     pub const ALL: [ReasonKind; 12] = [
         ReasonKind::Relative,
         ReasonKind::WorldWritable,
@@ -131,7 +131,7 @@ impl ReasonKind {
         ReasonKind::Duplicate,
     ];
 
-    /// The word for it.
+    /// Name of the kind.
     pub const fn name(self) -> &'static str {
         match self {
             ReasonKind::Relative => "relative",
@@ -157,7 +157,7 @@ impl fmt::Display for ReasonKind {
 }
 
 impl Reason {
-    /// Its kind.
+    /// Kind of the reason.
     pub fn kind(&self) -> ReasonKind {
         match self {
             Reason::Relative => ReasonKind::Relative,

@@ -1,4 +1,4 @@
-//! What a search finds, and what it refuses.
+//! Plugins that a search finds or rejects.
 
 use std::os::unix::fs::{PermissionsExt, symlink};
 
@@ -28,7 +28,7 @@ fn folder() -> TempDir {
     tempfile::tempdir().expect("a folder")
 }
 
-/// Writes a plugin into `within`/`name`; gives its folder.
+/// Writes a plugin into `within`/`name` and returns its folder.
 fn plugin(within: &Path, name: &str, id: &str) -> PathBuf {
     let folder = within.join(name);
     fs::create_dir(&folder).expect("made");
@@ -45,7 +45,7 @@ fn allow(path: &Path, mode: u32) {
     fs::set_permissions(path, fs::Permissions::from_mode(mode)).expect("ours");
 }
 
-/// The one reason why nothing was found in `folder`.
+/// The only rejection reason in `folder`, which has no valid plugin.
 fn reason(folder: &Path) -> Reason {
     let mut plugins = searched(folder);
     assert!(plugins.is_empty());
@@ -119,7 +119,7 @@ fn of_duplicate_ids_the_one_whose_folder_is_given_is_used_and_the_other_says_so(
         panic!("one is left out: {:?}", plugins.rejections);
     };
     assert_eq!(rejection.reason.kind(), ReasonKind::Duplicate);
-    // What the user's settings prefer goes before what is given.
+    // The user's preference comes before a folder from the command line.
     let plugins = Plugins::search(both.given([given]), std::slice::from_ref(&other));
     assert_eq!(
         plugins.get("org.example.lamp").expect("chosen").folder,

@@ -1,4 +1,4 @@
-//! Whether somebody else could have put something where we look.
+//! Check whether other users can write to a search folder.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,14 +9,14 @@ use std::path::{Path, PathBuf};
 const OTHERS_WRITE: u32 = 0o002;
 const STICKY: u32 = 0o1000;
 
-/// Remembers the folders it was asked about.
+/// Write check with a cache of folders.
 #[derive(Default)]
 pub(super) struct Writable {
     above: BTreeMap<PathBuf, Option<PathBuf>>,
 }
 
 impl Writable {
-    /// What every user may write: `path` itself, or a folder above it in which they could exchange it. `path` has no links in it.
+    /// Path that every user may write: `path` itself, or a folder above it in which they could replace it. `path` has no links.
     pub(super) fn by_all(&mut self, path: &Path) -> io::Result<Option<PathBuf>> {
         if fs::metadata(path)?.permissions().mode() & OTHERS_WRITE != 0 {
             return Ok(Some(path.to_owned()));
@@ -27,7 +27,8 @@ impl Writable {
         }
     }
 
-    /// The same for what lies in `folder`: a folder with the sticky bit lets nobody exchange what is another's.
+    /// Like [`by_all`](Writable::by_all), for entries of `folder`. In a folder with the sticky bit, users cannot replace the entries of
+    /// others.
     fn above(&mut self, folder: &Path) -> io::Result<Option<PathBuf>> {
         if let Some(known) = self.above.get(folder) {
             return Ok(known.clone());

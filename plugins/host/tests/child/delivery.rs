@@ -1,4 +1,4 @@
-//! The simulated bench through a child says what it says without one, bit for bit.
+//! The simulated bench gives bit-identical results with and without a child.
 
 use std::fmt::Write;
 
@@ -84,7 +84,7 @@ fn place(x: f64, z: f64) -> Pose {
     }
 }
 
-/// Everything that a press on a sensor says, numbers by their bits.
+/// All results of a press on a sensor, with bit-exact numbers.
 fn press(session: &dyn Session, sensor: &str) -> String {
     let mut told = String::new();
     let mut note = |what: &dyn std::fmt::Debug| writeln!(told, "{what:?}").expect("a string");
@@ -185,7 +185,7 @@ fn a_thousand_devices_are_opened_and_closed_without_a_trace() {
     let open = || drop(session.sensor(&odd::SENSOR, &args).expect("a sensor"));
     let count = || {
         open();
-        // The thread for what is urgent ends a moment after its device.
+        // The urgent thread ends a moment after its device.
         std::thread::sleep(std::time::Duration::from_millis(50));
         (files(std::process::id()), files(session.child().process()))
     };

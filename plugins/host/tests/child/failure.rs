@@ -1,4 +1,4 @@
-//! A child that fails harms its own devices, and says how.
+//! A failing child affects only its own devices, and the error describes the failure.
 
 use std::error::Error;
 use std::time::{Duration, Instant};

@@ -1,6 +1,6 @@
-//! Devices through a child process: the same bytes as without one, and nothing harmed when it fails.
+//! Devices through a child process: the same bytes as without one, and no harm when it fails.
 //!
-//! This program is its own child, so it has a `main` of its own.
+//! This program is its own child, so it has its own `main`.
 
 #[path = "../support/built_in.rs"]
 mod built_in;
@@ -31,7 +31,7 @@ fn main() -> ExitCode {
     runner::run(&tests)
 }
 
-/// The drivers of the simulated bench, and odd ones.
+/// Drivers of the simulated bench, and odd ones.
 fn served() -> Result<BuiltIn, taceva_core::RegistryError> {
     let mut served = BuiltIn::new()?;
     served.sensors.add(Box::new(odd::OddSensorFactory::new()))?;
@@ -43,10 +43,10 @@ fn served() -> Result<BuiltIn, taceva_core::RegistryError> {
     Ok(served)
 }
 
-/// Long enough for whatever does not hang.
+/// Deadline for calls that do not hang.
 const LONG: Deadline = Deadline::after(Duration::from_secs(20));
 
-/// A child of this program that is waited for as long as `patience` says.
+/// Starts a child of this program with the timeouts `patience`.
 fn child(patience: Patience) -> ChildSession {
     let mut spec = ChildSpec::new("org.example.test", Vec::new());
     spec.patience = patience;

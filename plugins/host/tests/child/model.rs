@@ -1,4 +1,4 @@
-//! Models through a child: made, asked, kept and loaded, with numbers that are the same to the last bit.
+//! Models through a child: made, called, saved and loaded, with bit-identical numbers.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -31,7 +31,7 @@ pub(crate) const TESTS: &[Test] = &[
 
 const SUMS: DriverKey = DriverKey::fixed("odd/sums");
 
-/// Predicts for every channel the sum of the features, times the mean of what it was taught.
+/// Predicts the sum of the features times the mean of the training targets, for each channel.
 struct Sums {
     means: Vec<f64>,
     channels: Channels,
@@ -135,7 +135,7 @@ pub(crate) fn load(
     }))
 }
 
-/// Twenty thousand samples to learn from, more than any message holds.
+/// Training set of 20,000 samples, which exceeds any message.
 struct Lesson {
     features: Features,
     channels: Channels,
@@ -212,7 +212,7 @@ fn a_model_says_the_same_through_a_child() {
     );
 }
 
-/// Counts what it is told, and cancels after the first step.
+/// Counts progress reports, and cancels after the first step.
 #[derive(Default)]
 struct Impatient {
     told: Mutex<BTreeMap<String, u64>>,

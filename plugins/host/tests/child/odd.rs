@@ -12,14 +12,14 @@ use taceva_core::{
 pub(crate) const SENSOR: DriverKey = DriverKey::fixed("odd/sensor");
 pub(crate) const ROBOT: DriverKey = DriverKey::fixed("odd/robot");
 
-/// The frames of the odd sensor: those of a common camera.
+/// Frames of the odd sensor, in the format of a common camera.
 pub(crate) const FRAME: FrameInfo = FrameInfo {
     width: 640,
     height: 480,
     format: PixelFormat::Rgb8,
 };
 
-/// Opens sensors that do at each capture what the argument `does` says.
+/// Opens sensors that do at each capture what the argument `does` names.
 pub(crate) struct OddSensorFactory(Descriptor);
 
 impl OddSensorFactory {
@@ -57,7 +57,7 @@ struct OddSensor {
     bell: Arc<Bell>,
 }
 
-/// Rings once for whoever waits.
+/// Event that wakes one waiting thread.
 #[derive(Default)]
 struct Bell {
     rung: Mutex<bool>,
@@ -70,7 +70,7 @@ impl Bell {
         self.changed.notify_all();
     }
 
-    /// Whether it rang within `wait`; it is quiet again afterwards.
+    /// True if the event occurs within `wait`. Resets the event.
     fn wait(&self, wait: Duration) -> bool {
         let rung = self.rung.lock().expect("whole");
         let (mut rung, _) = self

@@ -1,4 +1,4 @@
-//! What goes round the queue: a halt and an interrupt end a call that blocks, within 50 ms.
+//! Urgent messages bypass the queue: a halt and an interrupt end a blocking call within 50 ms.
 
 use std::time::{Duration, Instant};
 

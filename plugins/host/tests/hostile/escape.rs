@@ -1,4 +1,4 @@
-//! Ways out of the sandbox: open to a program, closed to a plugin, whoever the user is.
+//! Ways out of the sandbox: open to a program, closed to a plugin of any user.
 
 use std::net::{TcpListener, UdpSocket};
 use std::os::unix::process::CommandExt;
@@ -9,7 +9,7 @@ use taceva_host::Patience;
 
 use crate::plugin::{Plugin, capture, sensor};
 
-/// The attempts, in the order of `escapes.h`.
+/// Attempts, in the order of `escapes.h`.
 const ESCAPES: [&str; 18] = [
     "read a foreign file",
     "write outside",
@@ -31,7 +31,7 @@ const ESCAPES: [&str; 18] = [
     "take files of the parent",
 ];
 
-/// What the attempts are aimed at.
+/// Targets of the attempts.
 struct Targets {
     folder: tempfile::TempDir,
     tcp: TcpListener,
@@ -103,7 +103,7 @@ fn every_way_out_is_open_to_a_program_and_closed_to_a_plugin() {
             "an attempt that cannot succeed proves nothing"
         );
     } else {
-        // A user may not mount, and may not trace what is no child of hers where that is forbidden.
+        // A normal user may not mount, nor trace other processes than children where that is restricted.
         assert!(open.len() >= 12, "{open:?}");
     }
     std::fs::remove_file(targets.outside()).expect("it was written");
@@ -118,7 +118,7 @@ fn every_way_out_is_open_to_a_program_and_closed_to_a_plugin() {
     assert!(!targets.outside().exists());
 }
 
-/// Runs the test above again as a user who owns nothing, if this one may become that.
+/// Repeats the test above as a user who owns nothing, if this user may switch to that one.
 #[test]
 fn every_way_out_is_closed_to_a_plugin_of_a_normal_user_too() {
     if !rustix::process::geteuid().is_root() {

@@ -1,4 +1,4 @@
-//! Plugins that misbehave, each in its own way: the host is alive after each, and says what happened.
+//! Plugins that each misbehave in one way: the host survives and reports the fault.
 
 mod escape;
 mod plugin;

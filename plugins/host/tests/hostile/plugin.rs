@@ -13,14 +13,14 @@ use taceva_host::{
 };
 use tempfile::TempDir;
 
-/// Its sensor.
+/// Sensor of the plugin.
 pub(crate) const SENSOR: DriverKey = DriverKey::fixed("org.example.hostile/sensor");
-/// Its robot.
+/// Robot of the plugin.
 pub(crate) const ROBOT: DriverKey = DriverKey::fixed("org.example.hostile/robot");
-/// Its transducer.
+/// Force transducer of the plugin.
 pub(crate) const FORCE: DriverKey = DriverKey::fixed("org.example.hostile/force");
 
-/// The program that is the child.
+/// Program of the child.
 pub(crate) const CHILD: &str = env!("CARGO_BIN_EXE_taceva-host-child");
 
 const FRAME: FrameInfo = FrameInfo {
@@ -48,10 +48,10 @@ axes = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"]
 tare = true
 "#;
 
-/// Long enough for whatever does not hang.
+/// Deadline for calls that do not hang.
 pub(crate) const LONG: Deadline = Deadline::after(Duration::from_millis(200));
 
-/// A plugin that was built: its library and its manifest.
+/// A built plugin: its library and manifest.
 pub(crate) struct Plugin {
     folder: TempDir,
     manifest: Manifest,
@@ -59,7 +59,7 @@ pub(crate) struct Plugin {
 }
 
 impl Plugin {
-    /// One that misbehaves by `way`, or by what `defines` leave out of it.
+    /// Builds a plugin that misbehaves by `way`, or lacks the parts that `defines` omit.
     pub(crate) fn build(way: &str, defines: &[String]) -> Plugin {
         let folder = tempfile::tempdir().expect("a folder");
         let mut header = String::new();
@@ -96,23 +96,23 @@ impl Plugin {
         }
     }
 
-    /// Where it lies.
+    /// Folder of the plugin.
     pub(crate) fn folder(&self) -> &Path {
         self.folder.path()
     }
 
-    /// Where its library lies.
+    /// Path of its library.
     pub(crate) fn library(&self) -> PathBuf {
         self.folder.path().join("libhostile.so")
     }
 
-    /// The library as it is now.
+    /// Reads the library in its current state.
     pub(crate) fn image(&self) -> Result<Image, taceva_host::LoadError> {
         let library = self.manifest.library(&platform()).expect("named");
         Image::read(self.folder.path(), library)
     }
 
-    /// A child in which it is loaded.
+    /// Starts a child that loads the library.
     pub(crate) fn start(
         &self,
         patience: Patience,
@@ -121,7 +121,7 @@ impl Plugin {
         self.start_image(&self.image().expect("a library"), patience, quarantine)
     }
 
-    /// A child in which `image` is loaded.
+    /// Starts a child that loads `image`.
     pub(crate) fn start_image(
         &self,
         image: &Image,
@@ -165,7 +165,7 @@ pub(crate) fn sensor(session: &dyn Session) -> Result<Box<dyn Sensor>, DriverErr
     Ok(sensor)
 }
 
-/// Takes a frame.
+/// Captures a frame.
 pub(crate) fn capture(sensor: &mut dyn Sensor) -> Result<Vec<u8>, DriverError> {
     let mut bytes = vec![0; FRAME.byte_len().expect("small")];
     let into = FrameMut::new(FRAME, &mut bytes).expect("fits");

@@ -1,4 +1,4 @@
-//! Which library is loaded: the one that was hashed, and none that crashed before its user says so.
+//! The loaded library is the hashed one, and a crashed library loads only after its user releases it.
 
 use std::sync::Arc;
 

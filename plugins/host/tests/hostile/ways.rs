@@ -1,4 +1,4 @@
-//! The ways to misbehave, and what the host makes of each.
+//! Kinds of misbehaviour, and the host's reaction to each.
 
 use std::error::Error;
 use std::time::{Duration, Instant};
@@ -8,7 +8,7 @@ use taceva_host::{ChildError, ChildSession, Fate, Patience, Session};
 
 use crate::plugin::{FORCE, LONG, Plugin, ROBOT, capture, sensor};
 
-/// What is done with the plugin.
+/// Action on the plugin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Do {
     /// Only loads it.
@@ -21,27 +21,27 @@ enum Do {
     Interrupt,
     /// Reads the force.
     Read,
-    /// Asks where the robot is.
+    /// Reads the pose of the robot.
     Pose,
-    /// Moves, and halts meanwhile.
+    /// Moves, and halts during the motion.
     Halt,
 }
 
-/// What comes of it; texts are parts of what is said.
+/// Expected result. Texts are parts of the message.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Then {
-    /// It is not served, and its process lives until the host lets it go.
+    /// The plugin is rejected; its process lives until the host ends it.
     Refused(&'static str),
-    /// Its process is gone, like this.
+    /// The process ended, with this fate.
     Gone(&'static str),
-    /// One call fails, and its process lives.
+    /// One call fails, and the process lives.
     Fails(ErrorKind, &'static str),
-    /// Nothing comes of it.
+    /// Nothing happens.
     Nothing,
 }
 use Then::{Fails, Gone, Nothing, Refused};
 
-/// Soon enough for a test, for those who hang.
+/// Short timeouts for hanging plugins.
 const SHORT: Patience = Patience {
     start: Duration::from_millis(1500),
     open: Duration::from_millis(400),
@@ -51,7 +51,7 @@ const SHORT: Patience = Patience {
     end: Duration::from_millis(400),
 };
 
-/// How soon the death of a process must be seen.
+/// Maximum delay until the host notices the end of a process.
 const SEEN: Duration = Duration::from_millis(50);
 
 macro_rules! ways {
@@ -67,7 +67,7 @@ macro_rules! ways {
 ways! {
     a_plugin_that_behaves: "good", Do::Capture => Nothing;
 
-    // Before anything is checked.
+    // Before any check.
     a_constructor_that_crashes: "constructor_segv", Do::Load => Gone("signal 11");
     a_constructor_that_exits: "constructor_exit", Do::Load => Gone("exited by itself with code 0");
     a_constructor_that_aborts: "constructor_abort", Do::Load => Gone("signal 6");
@@ -83,7 +83,7 @@ ways! {
     another_id_than_the_manifest: "good" ["-DOTHER_ID"], Do::Load => Refused("org.example.other");
     a_version_that_lies_nowhere: "good" ["-DID_NOWHERE"], Do::Load => Refused("");
 
-    // While it is initialised and described.
+    // During initialisation and description.
     an_init_that_fails: "init_fails", Do::Load => Refused("no licence was found");
     an_init_that_crashes: "init_segv", Do::Load => Gone("signal 11");
     an_init_that_hangs: "init_hang", Do::Load => Gone("did not start within");
@@ -99,7 +99,7 @@ ways! {
     a_description_that_hangs: "describe_hang", Do::Load => Gone("did not start within");
     a_description_that_crashes: "describe_segv", Do::Load => Gone("signal 11");
 
-    // While a device opens and closes.
+    // During open and close of a device.
     an_open_that_crashes: "open_segv", Do::Open => Gone("signal 11");
     an_open_that_exits: "open_exit", Do::Open => Gone("exited by itself with code 0");
     an_open_that_hangs: "open_hang", Do::Open => Gone("did not open the sensor within 400ms");
@@ -115,7 +115,7 @@ ways! {
     a_close_that_crashes: "close_segv", Do::Open => Gone("signal 11");
     a_close_that_hangs: "close_hang", Do::Open => Gone("did not close the device within 400ms");
 
-    // While a frame is taken.
+    // During a capture.
     a_crash: "capture_segv", Do::Capture => Gone("signal 11");
     an_abort: "capture_abort", Do::Capture => Gone("signal 6");
     an_exit: "capture_exit", Do::Capture => Gone("exited by itself with code 0");
@@ -161,14 +161,14 @@ ways! {
     an_error_written_far_beyond_its_end: "error_overrun", Do::Capture => Gone("");
     a_process_that_is_changed: "changes_the_process", Do::Capture => Fails(ErrorKind::Internal, "it could not");
 
-    // While others wait.
+    // During calls of other threads.
     an_interrupt_that_hangs: "interrupt_hang", Do::Interrupt => Gone("did not close the device within 400ms");
     an_interrupt_that_crashes: "interrupt_segv", Do::Interrupt => Gone("signal 11");
     a_halt_that_hangs: "halt_hang", Do::Halt => Gone("did not halt within 200ms");
     a_robot_that_never_arrives: "robot_never_arrives", Do::Halt => Fails(ErrorKind::Interrupted, "halted");
     a_robot_that_ignores_halts: "robot_ignores_halts", Do::Halt => Gone("after an interrupt");
 
-    // Numbers that are none.
+    // Invalid numbers.
     a_force_that_is_no_number: "wrench_nan", Do::Read => Fails(ErrorKind::DeviceFault, "NaN");
     a_torque_that_is_infinite: "wrench_infinite", Do::Read => Fails(ErrorKind::DeviceFault, "inf");
     a_stamp_that_stands_still: "stamp_stale", Do::Read => Nothing;
@@ -186,7 +186,7 @@ ways! {
     a_deinit_that_hangs: "deinit_hang", Do::Load => Nothing;
 }
 
-/// Lets a plugin misbehave, and looks at what came of it and whether everybody else is unharmed.
+/// Lets a plugin misbehave, and checks the result and that other plugins are unharmed.
 fn check(way: &str, defines: &[&str], action: Do, expected: Then) {
     let other = Plugin::build("good", &[]);
     let other = other.start(Patience::default(), None).expect("a good one");
@@ -196,7 +196,7 @@ fn check(way: &str, defines: &[&str], action: Do, expected: Then) {
     let plugin = Plugin::build(way, &defines);
     let is_late = matches!(expected, Gone(how) if how.contains("within") || how.contains("after"))
         || way.contains("hang")
-        // Which waits until it has arrived.
+        // An interrupt waits until it has arrived.
         || action == Do::Interrupt;
     let patience = if is_late { SHORT } else { Patience::default() };
     let began = Instant::now();
@@ -245,7 +245,7 @@ fn of_call(
         (Gone(how), done) => {
             let fate = fate.or_else(|| end_of(session));
             let fate = fate.expect("its process is gone");
-            // Whoever closes a device is told nothing: what it says is how the process ended.
+            // Closing a device returns no error; only the fate of the process shows the fault.
             let said = done.err().map(|error| {
                 assert_eq!(error.kind(), ErrorKind::Disconnected, "{error}");
                 let gone = error.source().and_then(|source| source.downcast_ref());
@@ -262,7 +262,7 @@ fn of_call(
     }
 }
 
-/// How the process ends that is about to, as one does whose device was closed and whose thread ends badly.
+/// Waits up to 5 s for the end of a process that is about to end, such as after its device was closed.
 fn end_of(session: &ChildSession) -> Option<Fate> {
     let began = Instant::now();
     while began.elapsed() < Duration::from_secs(5) {

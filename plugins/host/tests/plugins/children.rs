@@ -1,4 +1,4 @@
-//! A plugin in its child, as a host has it: what it logs, what it finds, and how it is isolated.
+//! A plugin in its child: log lines, discovery and isolation.
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
@@ -11,7 +11,7 @@ use crate::fixture::Fixture;
 
 type Lines = Arc<Mutex<Vec<String>>>;
 
-/// A host whose children are the program for that, and what it was told.
+/// Creates a host with the child program; also returns its log lines.
 fn host(fixture: &Fixture) -> (Arc<PluginHost>, Lines) {
     let children = Children {
         program: Some(PathBuf::from(env!("CARGO_BIN_EXE_taceva-host-child"))),
@@ -32,7 +32,7 @@ fn eye(host: &Arc<PluginHost>) -> Box<dyn Factory<dyn Sensor>> {
     eyes.swap_remove(0)
 }
 
-/// The lines, once there are so many.
+/// Waits for `count` log lines and returns all.
 fn told(lines: &Lines, count: usize) -> Vec<String> {
     let begun = Instant::now();
     loop {
@@ -126,7 +126,7 @@ fn a_flood_of_lines_is_cut_and_counted_and_stops_nobody() {
     drop(open.unwrap_or_else(|error| panic!("{error}")));
     let seconds = usize::try_from(begun.elapsed().as_secs()).expect("short");
     let told = lines.lock().expect("whole").clone();
-    // A line beside those that pass may say how many did not.
+    // Each passed line may be followed by one with the number of dropped lines.
     assert!(
         told.len() < 2 * (110 + 20 * seconds),
         "{} lines",
@@ -181,7 +181,7 @@ fn one_that_looks_for_ever_costs_its_time_once_and_is_named() {
         words.contains("did not look for devices within 10s"),
         "{words}"
     );
-    // Its process is gone, so the next who asks learns that at once.
+    // The process has ended, so the next call fails at once.
     let begun = Instant::now();
     assert!(eye(&host).discover().is_err());
     assert!(

@@ -1,4 +1,4 @@
-//! A device of each kind by the helpers for C++, built with every warning an error, and held to every promise.
+//! Devices of each kind, built with the C++ helpers and every warning as an error, pass all suites.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use crate::fixture::cpp;
 
-/// The plugin of `tests/cpp/NAME.cpp` in a folder; `None` where there is no compiler of C++.
+/// Builds the plugin `tests/cpp/NAME.cpp` in a folder; `None` without a C++ compiler.
 pub(crate) fn built(name: &str) -> Option<TempDir> {
     cpp(name, &children())
 }

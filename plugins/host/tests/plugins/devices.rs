@@ -1,4 +1,4 @@
-//! Devices of a plugin in this process, as anybody else's.
+//! Devices of a plugin in this process behave like any others.
 
 use std::sync::Arc;
 use std::thread;
@@ -115,7 +115,7 @@ fn a_blocked_capture_ends_within_50_ms_of_an_interrupt_and_the_sensor_stays_usab
     let error = eye.capture_within(Duration::from_millis(5));
     assert_eq!(error, ErrorKind::Timeout);
     drop(eye);
-    // It outlives the device harmlessly.
+    // The handle may outlive the device.
     interrupt.interrupt();
 }
 
@@ -325,7 +325,7 @@ fn listing_opens_no_library() {
     let drivers = plugins.iter().flat_map(|plugin| plugin.manifest.drivers());
     let kinds: Vec<DriverKind> = drivers.map(Descriptor::kind).collect();
     assert_eq!((plugins.len(), kinds.len()), (20, 80));
-    // Other tests of this program open theirs, but none of them lies in this folder.
+    // Other tests open libraries of their own, but none in this folder.
     let maps = std::fs::read_to_string("/proc/self/maps").expect("readable");
     assert!(!maps.contains(&folder.path().display().to_string()));
 }

@@ -1,4 +1,4 @@
-//! An estimator of a plugin: fitted, asked, kept and loaded back.
+//! Estimator of a plugin: fitted, called, saved and loaded.
 
 use taceva_core::{
     Args, Channel, Channels, ErrorKind, FeatureShape, Features, ModelError, Progress, Saved,

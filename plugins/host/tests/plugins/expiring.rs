@@ -1,4 +1,4 @@
-//! A robot of a plugin whose motion expires stands by itself once the process of its plugin is killed; one on its way to a place does not.
+//! A plugin's robot stops an expiring motion once the plugin's process is killed. An ordinary motion to a target continues.
 
 use std::io::{BufRead, BufReader, ErrorKind as IoErrorKind};
 use std::net::{TcpListener, TcpStream};
@@ -11,11 +11,11 @@ use taceva_host::{PluginConfig, PluginHost, Plugins, SearchPath};
 
 use crate::cpp::{built, children};
 
-/// How late a machine that tests may look.
+/// Allowance for a busy test machine.
 const SLACK: Duration = Duration::from_millis(60);
 const LOOKING: Duration = Duration::from_millis(2);
 
-/// The controller of an arm along one axis: it takes a speed, which holds for 200 ms, or a place.
+/// Controller of an arm along one axis. It accepts a speed, which lasts 200 ms, or a target position.
 #[derive(Clone, Default)]
 struct Controller(Arc<Mutex<State>>);
 
@@ -27,7 +27,7 @@ struct State {
 }
 
 impl Controller {
-    /// Listens for the plugin; the port.
+    /// Listens for the plugin and returns the port.
     fn listening(&self) -> u16 {
         let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
         let port = listener.local_addr().expect("bound").port();
@@ -43,7 +43,7 @@ impl Controller {
         self.0.lock().expect("whole")
     }
 
-    /// Goes on whether or not anybody says anything, and whether or not somebody is still there.
+    /// Simulates the arm, even without commands or a connection.
     fn control(&self, stream: TcpStream) {
         stream.set_read_timeout(Some(LOOKING)).expect("a time");
         let mut lines = BufReader::new(stream);
@@ -56,7 +56,7 @@ impl Controller {
                     line.clear();
                 }
                 Err(error) if error.kind() == IoErrorKind::WouldBlock => {}
-                // Killed with something unread.
+                // Killed with unread data.
                 Err(_) => thread::sleep(LOOKING),
             }
             let mut state = self.state();
@@ -87,7 +87,7 @@ impl State {
     }
 }
 
-/// For how long the arm moves on whose plugin is killed on its way; `None` where there is no compiler of C++.
+/// Time that the arm keeps moving after its plugin is killed; `None` without a C++ compiler.
 fn goes_on_without_its_plugin(is_expiring: bool) -> Option<Duration> {
     const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));
     let folder = built("expiring")?;

@@ -1,4 +1,4 @@
-//! The plugin `../fixture/plugin.c`, built with macros that each make it wrong in one way.
+//! The plugin `../fixture/plugin.c`, built with macros that each add one defect.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -75,7 +75,7 @@ key = "mean"
 title = "mean"
 "#;
 
-/// The plugin of `../cpp/NAME.cpp` in a folder, with the manifest that its library gives; `None` where there is no compiler of C++.
+/// Builds the plugin `../cpp/NAME.cpp` in a folder, with the manifest from its library; `None` without a C++ compiler.
 pub(crate) fn cpp(name: &str, children: &Children) -> Option<TempDir> {
     let folder = tempfile::tempdir().expect("a folder");
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -119,13 +119,13 @@ pub(crate) fn cpp(name: &str, children: &Children) -> Option<TempDir> {
     Some(folder)
 }
 
-/// A folder with the plugin in it.
+/// Folder with the plugin.
 pub(crate) struct Fixture {
     folder: TempDir,
 }
 
 impl Fixture {
-    /// The plugin built with `macros`; `None`, with a word about it, where there is no compiler of C.
+    /// Builds the plugin with `macros`; `None`, with a note, without a C compiler.
     pub(crate) fn built(macros: &[&str]) -> Option<Fixture> {
         let folder = tempfile::tempdir().expect("a folder");
         let plugins = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -154,7 +154,7 @@ impl Fixture {
         Some(fixture)
     }
 
-    /// The same plugin linked with a library that lies beside it, which it looks for where it lies itself.
+    /// Links the plugin with a second library in the same folder, found by `$ORIGIN`.
     pub(crate) fn with_neighbour(self) -> Fixture {
         let folder = self.folder.path();
         let plugins = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -229,7 +229,7 @@ impl Fixture {
         InProcess::open(&library).expect("it has no rig")
     }
 
-    /// A host that trusts the plugin, and what it has logged.
+    /// Creates a host that trusts the plugin; also returns its log lines.
     pub(crate) fn trusted(&self) -> (Arc<PluginHost>, Arc<Mutex<Vec<String>>>) {
         let mut config = PluginConfig::default();
         config.trusted_now.insert(self.plugin().manifest.id);

@@ -1,4 +1,4 @@
-//! A plugin in C, built here in many ways: right ones give devices, wrong ones a message that says what is wrong.
+//! A C plugin, built in many variants: valid ones give devices, invalid ones an error that names the fault.
 
 #[cfg(target_os = "linux")]
 mod children;

@@ -1,5 +1,5 @@
-//! Every word of what a plugin may need, by a plugin that tries: not allowed, it is refused with the line that allows it; allowed, it gets
-//! there. All other words are allowed meanwhile, so that none of them opens what another is for.
+//! Each need, tested by a plugin that uses it. Without permission it is denied with the command that allows it; with permission it
+//! succeeds. All other needs are allowed meanwhile, so that none grants the access of another.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -17,17 +17,17 @@ use taceva_needs::{Need as Missing, skip};
 use tempfile::TempDir;
 
 const ID: &str = "org.example.reach";
-/// The number of a character device that anybody may open who may see its file: `fuse`.
+/// Device number of a character device that any user may open: `fuse`.
 const OPENED_BY_ANYBODY: (u32, u32) = (10, 229);
 
-/// The plugin, and what there is to be reached.
+/// The plugin and its needs.
 struct Reach {
     folder: TempDir,
     needs: Vec<String>,
 }
 
 impl Reach {
-    /// The plugin, which needs `needs`; `None` where there is no compiler of C.
+    /// Builds the plugin with `needs`; `None` without a C compiler.
     fn built(needs: &[String]) -> Option<Reach> {
         let folder = tempfile::tempdir().expect("a folder");
         let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -93,7 +93,7 @@ optional = true
         })
     }
 
-    /// Opens the lamp with `arguments` where `allowed` is allowed; the error in words.
+    /// Opens the lamp with `arguments` and the needs in `allowed`. The error is a message.
     fn opened(&self, arguments: &str, allowed: &BTreeSet<Need>) -> Result<(), String> {
         let path = SearchPath::empty().given([self.folder.path().to_owned()]);
         let mut config = PluginConfig::default();
@@ -111,13 +111,13 @@ optional = true
         opened.map(drop).map_err(|error| error.to_string())
     }
 
-    /// All that it needs, but `one`.
+    /// All needs except `one`.
     fn all_but(&self, one: &str) -> BTreeSet<Need> {
         let others = self.needs.iter().filter(|need| *need != one);
         others.map(|need| need.parse().expect("a need")).collect()
     }
 
-    /// Expects that `arguments` are refused without `need`, for which the line is printed that makes the next try succeed.
+    /// Checks that `arguments` are denied without `need`, and that the suggested command makes the next try succeed.
     fn proves(&self, need: &str, arguments: &str) {
         let mut allowed = self.all_but(need);
         let why = self.opened(arguments, &allowed);
@@ -128,7 +128,7 @@ optional = true
         let (words, _) = line
             .split_once(" --plugin-dir ")
             .expect("it is not installed");
-        // As a shell reads it.
+        // Remove the shell quotes.
         let word = words.trim_matches('\'');
         assert_eq!(word, need, "{why}");
         allowed.insert(word.parse().expect("a need"));
@@ -137,7 +137,7 @@ optional = true
     }
 }
 
-/// A file that is removed when it is dropped.
+/// File that is removed on drop.
 struct Removed(PathBuf);
 
 impl Drop for Removed {
@@ -146,7 +146,7 @@ impl Drop for Removed {
     }
 }
 
-/// A device file for everybody; `None` where this user may make none.
+/// Creates a device file for all users; `None` if this user may not.
 fn device(path: &str) -> Option<Removed> {
     let (major, minor) = OPENED_BY_ANYBODY;
     let mode = Mode::from_raw_mode(0o666);
@@ -194,7 +194,7 @@ fn connections_messages_and_waiting_are_given_word_by_word() {
     reach.proves(&words[1], &format!("way=udp;port={message}"));
     reach.proves(&words[2], &format!("way=listen;port={wait}"));
     reach.proves("usb", "way=usb");
-    // With all of it another port stays closed, and nobody is told to allow what is not declared.
+    // With all needs another port stays closed, and no permission is suggested for undeclared needs.
     let other = TcpListener::bind("127.0.0.1:0").expect("a port");
     let other = other.local_addr().expect("bound").port();
     let all = reach.all_but("");
@@ -286,7 +286,7 @@ fn a_serial_port_is_given_and_by_that_word_nothing_that_is_none() {
         };
         reach.proves(&need, &format!("way=device;path={port}"));
     }
-    // A user may allow less than is asked for.
+    // A user may allow a part of a need.
     let Some(reach) = Reach::built(&["serial:/dev/pts/*".to_owned()]) else {
         return;
     };
@@ -294,7 +294,7 @@ fn a_serial_port_is_given_and_by_that_word_nothing_that_is_none() {
     reach
         .opened(&format!("way=device;path={port}"), &BTreeSet::from([one]))
         .unwrap_or_else(|why| panic!("{why}"));
-    // What is there is a device, and no port.
+    // The file is a device but not a port.
     let path = format!("/dev/taceva-serial-{}", std::process::id());
     let Some(_device) = device(&path) else {
         return;
@@ -306,7 +306,7 @@ fn a_serial_port_is_given_and_by_that_word_nothing_that_is_none() {
     let why = reach.opened(&format!("way=device;path={path}"), &reach.all_but(""));
     let why = why.expect_err("no port");
     assert!(why.contains("no serial port"), "{why}");
-    // By a star it stays closed.
+    // With a star it stays closed.
     let Some(reach) = Reach::built(&["serial:/dev/taceva-*".to_owned()]) else {
         return;
     };

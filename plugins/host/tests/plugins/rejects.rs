@@ -1,4 +1,4 @@
-//! Every way in which a plugin can be wrong ends as a message that says so, and this process goes on.
+//! Every defect of a plugin gives a message that names it, and this process survives.
 
 use std::fs;
 use std::io::{Seek, SeekFrom, Write};
@@ -10,7 +10,7 @@ use crate::fixture::{ARM, EYE, Fixture, WRIST};
 
 const SECOND: Deadline = Deadline::after(std::time::Duration::from_secs(1));
 
-/// Why the plugin built with `macros` is not loaded.
+/// Error of loading the plugin built with `macros`; `None` without a C compiler.
 fn load(macros: &[&str]) -> Option<(LoadProblem, String)> {
     let fixture = Fixture::built(macros)?;
     why(&fixture)
@@ -73,7 +73,7 @@ fn a_library_that_looks_for_another_beside_itself_is_told_that_it_has_no_folder(
     );
 }
 
-/// Why the sensor of the plugin built with `macros` does not open.
+/// Error of opening the sensor of the plugin built with `macros`; `None` without a C compiler.
 fn open(macros: &[&str]) -> Option<(ErrorKind, String)> {
     let fixture = Fixture::built(macros)?;
     let error = fixture.session().sensor(&EYE, &Args::default()).map(|_| ());
@@ -102,7 +102,7 @@ not_opened!(a_handle_that_is_null: ["NULL_HANDLE"], Abi, "its handle is NULL");
 not_opened!(a_table_that_is_null: ["NULL_TABLE"], Abi, "the table is NULL");
 not_opened!(an_ability_that_is_promised_and_absent: ["NO_EXTENSIONS"], Abi, "taceva.sensor.lighting/1");
 
-/// Why the plugin built with `macros` gives no frame, and that it can be asked again.
+/// Error of a capture by the plugin built with `macros`, which repeats on a second call; `None` without a C compiler.
 fn capture(macros: &[&str]) -> Option<(ErrorKind, String)> {
     let fixture = Fixture::built(macros)?;
     let mut eye = fixture
@@ -240,7 +240,7 @@ fn a_file_that_is_swapped_after_it_was_hashed() {
     assert!(library.is_ok(), "what was hashed is what is loaded");
 }
 
-/// Why the manifest with `old` replaced by `new` is not used.
+/// Reason of the rejection of the manifest with `old` replaced by `new`; `None` without a C compiler.
 fn not_listed(old: &str, new: &str) -> Option<(ReasonKind, String)> {
     let fixture = Fixture::built(&[])?.with_manifest(old, new);
     let plugins = fixture.found();

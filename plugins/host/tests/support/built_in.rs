@@ -1,4 +1,4 @@
-//! The drivers that are linked into a program, as a session: what a child serves when no library is loaded.
+//! Linked drivers of a program as a session, which a child serves if no library is loaded.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -8,22 +8,22 @@ use taceva_core::{
 };
 use taceva_host::{FitRequest, Offer, Saved, SavedRegressor, Session};
 
-/// The drivers that are linked into this program, and the one rig of this process.
+/// Linked drivers of this program, and the only rig of this process.
 pub(crate) struct BuiltIn {
     pub(crate) sensors: Registry<dyn Sensor>,
     pub(crate) robots: Registry<dyn Robot>,
     pub(crate) force_transducers: Registry<dyn ForceTransducer>,
     pub(crate) lightings: Registry<dyn Lighting>,
     pub(crate) changers: Registry<dyn Changer>,
-    /// Its estimators.
+    /// Function that fits an estimator.
     pub(crate) fit: fn(&DriverKey, &FitRequest<'_>) -> Made,
-    /// Its models.
+    /// Function that loads a model.
     pub(crate) load: fn(&DriverKey, &Saved<'_>) -> Made,
     rig: Mutex<Rig>,
 }
 
 impl BuiltIn {
-    /// The drivers that crates submitted.
+    /// Collects the drivers that crates submitted.
     pub(crate) fn new() -> Result<BuiltIn, RegistryError> {
         Ok(BuiltIn {
             sensors: Registry::builtin()?,

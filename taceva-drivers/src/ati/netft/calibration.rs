@@ -1,4 +1,4 @@
-//! What a count is worth: the page of the box that says so.
+//! Calibration of a box, read from its configuration page.
 
 use std::io::{Read, Write};
 use std::net::SocketAddr;
@@ -10,14 +10,14 @@ use thiserror::Error;
 use crate::link::{LinkError, connect};
 use crate::text::shown;
 
-/// N and N·mm a count.
+/// Force per count, N, and torque per count, N·mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Calibration {
     pub(super) force_n: f64,
     pub(super) torque_nmm: f64,
 }
 
-/// Why it is not known what a count is worth.
+/// Failure to read the calibration.
 #[derive(Debug, Error)]
 pub(super) enum CalibrationError {
     #[error(transparent)]
@@ -36,7 +36,7 @@ pub(super) enum CalibrationError {
 }
 
 impl CalibrationError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             CalibrationError::Link(error) => error.kind(),
@@ -46,11 +46,11 @@ impl CalibrationError {
 }
 
 const PAGE: &str = "/netftapi2.xml";
-/// No box writes a longer page.
+/// Maximum length of the page, bytes.
 const PAGE_MAX: u64 = 256 << 10;
 const PATIENCE: Duration = Duration::from_secs(3);
 
-/// Units of force that boxes can be set to, and N a unit.
+/// Force units of the box, each with its value in N.
 const FORCES: [(&str, f64); 5] = [
     ("N", 1.0),
     ("kN", 1_000.0),
@@ -58,7 +58,7 @@ const FORCES: [(&str, f64); 5] = [
     ("klbf", 4_448.221_615_260_5),
     ("kgf", 9.806_65),
 ];
-/// Units of torque that boxes can be set to, and N·mm a unit.
+/// Torque units of the box, each with its value in N·mm.
 const TORQUES: [(&str, f64); 6] = [
     ("Nm", 1_000.0),
     ("Nmm", 1.0),
@@ -69,7 +69,7 @@ const TORQUES: [(&str, f64); 6] = [
 ];
 
 impl Calibration {
-    /// Asks the box at `host` by its page.
+    /// Reads the calibration from the page of the box at `host`.
     pub(super) fn ask(host: &str, port: u16) -> Result<Calibration, CalibrationError> {
         let (mut stream, address) = connect(host, port)?;
         let failed = |source| CalibrationError::Page { address, source };
@@ -90,7 +90,7 @@ impl Calibration {
         Calibration::read(&page)
     }
 
-    /// What the page says.
+    /// Parses the page.
     fn read(page: &str) -> Result<Calibration, CalibrationError> {
         let force = per_count(
             page,
@@ -111,7 +111,7 @@ impl Calibration {
     }
 }
 
-/// What a count is worth, by the counts a unit and the unit on the page.
+/// Value of a count: the value of the page's unit divided by its counts per unit.
 fn per_count(
     page: &str,
     [counts, unit]: [&'static str; 2],
@@ -135,7 +135,7 @@ fn per_count(
     Ok(worth / count)
 }
 
-/// What stands between the marks of `key`; nothing if there are none.
+/// Trimmed content of the first element `key`; empty if there is none.
 fn entry<'a>(page: &'a str, key: &str) -> &'a str {
     let between = page
         .split_once(&format!("<{key}>"))

@@ -16,15 +16,15 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 /// Opens ATI's Net F/T boxes, and others that send their records (RDT): `ati/netft:host=192.168.1.1`.
 ///
 /// # The physical contract
-/// - Forces and torques are those of the transducer's own axes, in N and N·mm. What a count is worth is asked for when it is opened, by the
-///   page `/netftapi2.xml` of the box.
-/// - A reading is the newest that came. Datagrams of other senders are not taken; one that is torn, comes twice or was overtaken is no reading.
-/// - A gage at the end of its range is `OutOfRange`, every other error of the box `DeviceFault`.
-/// - Zero is the mean of 0.25 s, taken off on this side; the bias of the box is left as it is.
+/// - Forces and torques are in the transducer's own axes, in N and N·mm. The value of a count is read at open from the page
+///   `/netftapi2.xml` of the box.
+/// - A reading is the newest record received. Datagrams of other senders are ignored. Torn, duplicate and overtaken records are dropped.
+/// - A saturated gage is `OutOfRange`; every other error of the box is `DeviceFault`.
+/// - Zero is the mean of 0.25 s, subtracted by the driver. The bias of the box stays unchanged.
 ///
 /// # What confirmed it
-/// An emulated box on which the driver passes its suite; the public client `NetFT` 2.0.1 reads it too. **Not verified without the device**: the
-/// bits of the status, of which two are read, and devices of other makers that send the same records.
+/// The driver passes its suite on an emulated box, which the public client `NetFT` 2.0.1 reads too. **Not verified without the device**:
+/// the status bits, of which the driver reads two, and devices of other makers that send the same records.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -39,10 +39,10 @@ pub struct NetftFactory {
 }
 
 impl NetftFactory {
-    /// The driver.
+    /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<NetftFactory, DescriptorError> {
         let arguments = [
             ArgSpec::text("host").help("name or address of the box"),

@@ -1,16 +1,16 @@
-//! Requests and records of the raw data transfer, in network order. Nothing here reads a socket.
+//! Encoding of requests and records of the raw data transfer, big-endian. No I/O.
 
-/// What the box can be asked.
+/// Request to the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Request {
-    /// To send no more.
+    /// Stop sending.
     Stop,
-    /// To send until it is asked to stop.
+    /// Send until stopped.
     Start,
 }
 
 impl Request {
-    /// The request as it is sent.
+    /// Encodes the request.
     pub(super) fn bytes(self) -> [u8; 8] {
         let command = match self {
             Request::Stop => 0,
@@ -22,37 +22,37 @@ impl Request {
     }
 }
 
-/// One reading, as it came.
+/// One reading in raw counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Record {
-    /// Counts up by one a record sent.
+    /// Sequence number, increased by one per record sent.
     pub(super) number: u32,
     pub(super) status: Status,
     /// Fx, Fy, Fz, Tx, Ty, Tz.
     pub(super) counts: [i32; 6],
 }
 
-/// What the box says of a reading; 0 is well.
+/// Status word of a reading; 0 means no error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Status(pub(super) u32);
 
 impl Status {
-    /// Whether a gage is at the end of its range, so that the force is clipped.
+    /// True if a gage is saturated, so that the force is clipped.
     pub(super) fn is_saturated(self) -> bool {
         self.0 & 0x0002_0000 != 0
     }
 
-    /// Whether there is any error, by the bit that says so of all of them.
+    /// True if the summary error bit is set.
     pub(super) fn has_error(self) -> bool {
         self.0 & 0x8000_0000 != 0
     }
 }
 
-/// Bytes of a record.
+/// Size of a record, bytes.
 pub(super) const RECORD: usize = 36;
 
 impl Record {
-    /// The records in a datagram: one, or several behind each other; none if it has another length.
+    /// Parses the records of a datagram. Empty if its length is not a multiple of [`RECORD`].
     pub(super) fn all(datagram: &[u8]) -> Vec<Record> {
         let records = datagram.chunks_exact(RECORD);
         if !records.remainder().is_empty() {
@@ -74,7 +74,7 @@ impl Record {
     }
 }
 
-/// How much later one record is than another: negative for one that came out of order.
+/// Difference of two sequence numbers with wrap-around; negative if `record` is older.
 pub(super) fn later_by(record: u32, than: u32) -> i32 {
     record.wrapping_sub(than).cast_signed()
 }

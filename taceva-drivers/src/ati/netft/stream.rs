@@ -1,4 +1,4 @@
-//! The socket of a box: requests out, records in, with a thread of its own that reads.
+//! Socket to a box: sends requests; a separate thread reads records.
 
 use std::io;
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, ToSocketAddrs, UdpSocket};
@@ -10,7 +10,7 @@ use std::time::Duration;
 use super::record::{RECORD, Record, Request, later_by};
 use crate::link::{LinkError, Mailbox, monotonic};
 
-/// A socket that takes records from one box.
+/// A socket that receives records of one box.
 #[derive(Debug)]
 pub(super) struct RecordStream {
     socket: UdpSocket,
@@ -19,21 +19,21 @@ pub(super) struct RecordStream {
     reader: Option<JoinHandle<()>>,
 }
 
-/// A record with what went wrong on the way until it came.
+/// A record with the count of lost records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Counted {
     pub(super) record: Record,
-    /// Records that are missing so far, by the numbers of those that came.
+    /// Records lost so far, by their sequence numbers.
     pub(super) missing: u64,
 }
 
-/// How often the thread that reads looks whether it is over.
+/// Interval at which the reader thread checks for its end.
 const LOOK: Duration = Duration::from_millis(50);
-/// No box puts more records into one datagram.
+/// Maximum number of records in a datagram.
 const RECORDS_MAX: usize = 64;
 
 impl RecordStream {
-    /// A socket that exchanges datagrams with `port` of `host` alone, and posts what comes.
+    /// Opens a socket to `port` of `host` alone and posts received records.
     pub(super) fn open(
         host: &str,
         port: u16,
@@ -52,7 +52,7 @@ impl RecordStream {
         };
         let refused = |source| LinkError::Connect { address, source };
         let socket = UdpSocket::bind(own).map_err(refused)?;
-        // From now on datagrams of others do not arrive.
+        // A connected socket receives only datagrams of this address.
         socket.connect(address).map_err(refused)?;
         socket.set_read_timeout(Some(LOOK)).map_err(refused)?;
         let reading = socket.try_clone().map_err(refused)?;
@@ -74,7 +74,7 @@ impl RecordStream {
         })
     }
 
-    /// Sends a request, which no box answers.
+    /// Sends a request. The box does not reply.
     pub(super) fn send(&self, request: Request) -> Result<(), LinkError> {
         let sent = self.socket.send(&request.bytes());
         sent.map(drop).map_err(|source| LinkError::Broken {
@@ -94,9 +94,9 @@ impl Drop for RecordStream {
     }
 }
 
-/// Posts every record until it is over, or nobody is there any more.
+/// Posts every record until `is_over` is set or the socket fails.
 fn read(socket: &UdpSocket, is_over: &AtomicBool, posting: &Mailbox<Counted>) -> io::Result<()> {
-    // A byte more, so that a longer datagram is no whole number of records.
+    // One extra byte, so that an oversized datagram is not a multiple of the record size.
     let mut bytes = [0; RECORDS_MAX * RECORD + 1];
     let mut last: Option<u32> = None;
     let mut missing = 0;
@@ -115,10 +115,10 @@ fn read(socket: &UdpSocket, is_over: &AtomicBool, posting: &Mailbox<Counted>) ->
         for record in Record::all(&bytes[..count]) {
             let step = last.map_or(1, |last| later_by(record.number, last));
             if step <= 0 && step > -REORDERED_MAX {
-                // It was overtaken, or comes twice.
+                // Overtaken or duplicate.
                 continue;
             }
-            // What is far back is no late record but a box that counts anew.
+            // A much older number means that the box restarted its count.
             missing += u64::try_from(step - 1).unwrap_or(0);
             last = Some(record.number);
             came += 1;
@@ -131,5 +131,5 @@ fn read(socket: &UdpSocket, is_over: &AtomicBool, posting: &Mailbox<Counted>) ->
     Ok(())
 }
 
-/// A network does not mix records up over more than this.
+/// Maximum distance of a reordered record.
 const REORDERED_MAX: i32 = 1_000;

@@ -1,4 +1,4 @@
-//! The box as a force transducer.
+//! Force transducer over a Net F/T box.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,17 +15,17 @@ use super::stream::{Counted, RecordStream};
 use crate::link::{LinkError, Mailbox, Seen};
 use crate::zero::{HostZero, READ};
 
-/// How a box is reached.
+/// Connection options.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct NetftOptions {
     pub(super) host: String,
     pub(super) port: u16,
     pub(super) page_port: u16,
-    /// What it measures is clipped at this force, in N.
+    /// Measuring range, N; `None` if unknown.
     pub(super) force_max_n: Option<f64>,
 }
 
-/// A transducer that is connected.
+/// A connected transducer.
 #[derive(Debug)]
 pub(super) struct Transducer {
     options: NetftOptions,
@@ -34,9 +34,9 @@ pub(super) struct Transducer {
     stream: RecordStream,
     zero: HostZero,
     is_running: bool,
-    /// The number that the box gave the last reading.
+    /// Sequence number of the last reading.
     sequence: Option<u64>,
-    /// The number of the last record that was given.
+    /// Mailbox number of the last record returned.
     last: u64,
 }
 
@@ -49,7 +49,7 @@ fn failed(
 }
 
 impl Transducer {
-    /// Asks a box what its counts are worth; nothing is sent to its stream yet.
+    /// Reads the calibration of a box and opens its socket. Sends no request to start readings.
     pub(super) fn open(options: NetftOptions) -> Result<Transducer, DriverError> {
         let doing = "connect to the box";
         let calibration = Calibration::ask(&options.host, options.page_port)
@@ -98,7 +98,7 @@ impl Transducer {
         Ok(seen)
     }
 
-    /// What a record says in our units, the zero of the box in it.
+    /// Converts a record to N and N·mm, including the zero offset of the box.
     fn wrench(&self, record: &Record) -> Result<Wrench, DriverError> {
         let Status(bits) = record.status;
         if record.status.is_saturated() {

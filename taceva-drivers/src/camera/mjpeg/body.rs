@@ -1,34 +1,34 @@
-//! The body of an answer, taken out of its chunks where it comes in some. Nothing here reads a socket.
+//! Decoder of an HTTP body, plain or chunked. No I/O.
 
 use thiserror::Error;
 
-/// Takes the bytes of a body from those of the connection.
+/// Extracts the body from the bytes of a connection.
 #[derive(Debug)]
 pub(super) enum Body {
-    /// As they come.
+    /// Without transfer encoding.
     Plain,
-    /// In chunks, each behind its length.
+    /// Chunked transfer encoding.
     Chunked(Chunks),
 }
 
-/// Where in the chunks it stands.
+/// Position within chunked data.
 #[derive(Debug, Default)]
 pub(super) struct Chunks {
-    /// A line that is not whole yet.
+    /// Incomplete line.
     line: Vec<u8>,
-    /// Bytes of the chunk that are to come.
+    /// Bytes left in the current chunk.
     left: usize,
-    /// Whether the empty line behind a chunk is to come.
+    /// True if the line end after a chunk is expected.
     is_behind: bool,
     has_ended: bool,
 }
 
-/// Chunks that are none.
+/// Invalid chunked encoding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("its answer announces chunks, and does not come in chunks")]
 pub(super) struct ChunkError;
 
-/// The length of a chunk is written in fewer letters.
+/// Maximum length of a chunk-size line, bytes.
 const LINE_MAX: usize = 256;
 
 impl Body {
@@ -40,10 +40,10 @@ impl Body {
         }
     }
 
-    /// Hands the bytes of the body in `bytes` to `take`; what comes behind the last chunk is none.
+    /// Passes the body's bytes in `bytes` to `take`. Bytes after the last chunk are ignored.
     ///
     /// # Errors
-    /// [`ChunkError`] where a length should stand and none does.
+    /// [`ChunkError`] if a chunk length is expected but missing.
     pub(super) fn push(
         &mut self,
         bytes: &[u8],
@@ -58,7 +58,7 @@ impl Body {
         }
     }
 
-    /// Whether the last chunk has come.
+    /// True once the last chunk has arrived.
     pub(super) fn has_ended(&self) -> bool {
         matches!(self, Body::Chunked(chunks) if chunks.has_ended)
     }
@@ -100,7 +100,7 @@ impl Chunks {
             };
         }
         let length = line.split(';').next().unwrap_or_default().trim();
-        // `from_str_radix` takes a sign, which no length has.
+        // `from_str_radix` accepts a sign, which is invalid here.
         if !length.chars().all(|digit| digit.is_ascii_hexdigit()) {
             return Err(ChunkError);
         }

@@ -1,4 +1,4 @@
-//! The stream as a sensor.
+//! Sensor over an MJPEG stream.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -17,25 +17,25 @@ use crate::camera::preset::Preset;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, Seen};
 
-/// A camera that streams.
+/// A connected streaming camera.
 #[derive(Debug)]
 pub(super) struct Camera {
     url: Url,
-    /// What comes, whichever connection it comes over.
+    /// Received images, kept across reconnections.
     pictures: Arc<Mailbox<Picture>>,
-    /// Ends with the sensor.
+    /// Current connection, closed with the sensor.
     stream: Stream,
     frames: Pictures,
     is_running: bool,
-    /// The number of the last picture that was given.
+    /// Mailbox number of the last image returned.
     last: u64,
-    /// The picture that was given last, once one was.
+    /// Last image returned; `None` before the first.
     given: Option<Arc<[u8]>>,
-    /// Pictures that came while nobody asked, or too late.
+    /// Images that were replaced before they were captured.
     missed: u64,
 }
 
-/// How long a camera may take to send its first picture, by which its size is known.
+/// Timeout for the first image, which determines the size.
 const FIRST: Duration = Duration::from_secs(3);
 
 fn failed(
@@ -52,7 +52,7 @@ fn connected(url: &Url, pictures: &Arc<Mailbox<Picture>>) -> Result<Stream, Driv
 }
 
 impl Camera {
-    /// Connects to a camera and looks at its first picture.
+    /// Connects to a camera and waits for its first image.
     pub(super) fn open(url: Url, preset: Option<&Preset>) -> Result<Camera, DriverError> {
         let pictures = Arc::new(Mailbox::default());
         let stream = connected(&url, &pictures)?;
@@ -88,7 +88,7 @@ impl Camera {
     }
 }
 
-/// The next picture, or why there is none.
+/// Waits for the next image.
 fn next(
     pictures: &Mailbox<Picture>,
     after: u64,
@@ -110,7 +110,7 @@ impl Sensor for Camera {
             return Ok(());
         }
         if self.pictures.has_ended() {
-            // The camera was gone, and may be back.
+            // Reconnect to a camera that was lost.
             self.pictures.begin_again();
             match connected(&self.url, &self.pictures) {
                 Ok(stream) => self.stream = stream,

@@ -16,17 +16,17 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(MjpegFactory::new()?)));
 /// Opens cameras that stream JPEG (or PNG) over HTTP: `camera/mjpeg:url=http://192.168.1.20:8080/?action=stream`.
 ///
 /// # The physical contract
-/// - Opening connects and waits for a first picture, which decides size and format of every frame; one of another size is an error of that
-///   frame. The connection lasts until the sensor is dropped; `start` makes it anew where the camera was gone.
-/// - A frame is the newest that came; pictures that nobody asked for in time are missed. It is stamped with the time at which its first bytes
-///   came, on the monotonic clock: exposure and compression in the camera lie before that, and are no part of it.
-/// - Nothing of the camera is set: exposure, gain, white balance and focus must be fixed where it is served.
-/// - Only plain HTTP without a password is spoken, and no redirection is followed.
+/// - Opening connects and waits for a first image, which determines the size and format of every frame. A frame of another size is an error
+///   of that frame. The connection lasts until the sensor is dropped; `start` reconnects to a lost camera.
+/// - A frame is the newest image received; images not captured in time are missed. Its stamp is the arrival time of its first bytes, on the
+///   monotonic clock. Exposure and compression in the camera happen earlier and are not included.
+/// - The driver sets nothing: exposure, gain, white balance and focus must be fixed at the camera's server.
+/// - Only plain HTTP without a password is supported. Redirections are not followed.
 ///
 /// # What confirmed it
-/// ffmpeg as a server (`-f mpjpeg -listen 1`) is a test, and so are streams as `ustreamer` and `mjpg-streamer` write them (boundary in the header
-/// or in the body, with and without lengths, in chunks); on an emulated camera that writes each of them the driver passes its suite. **Not
-/// verified without the device**: its latency, and what it sets by itself.
+/// Tests use ffmpeg as a server (`-f mpjpeg -listen 1`), and streams in the formats of `ustreamer` and `mjpg-streamer`. These have the
+/// boundary in the header or in the body, with and without lengths, chunked. The driver passes its suite on an emulated camera with each
+/// format. **Not verified without the device**: its latency, and its automatic settings.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -41,10 +41,10 @@ pub struct MjpegFactory {
 }
 
 impl MjpegFactory {
-    /// The driver.
+    /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<MjpegFactory, DescriptorError> {
         let arguments = [
             ArgSpec::text("url").help("where the stream is: http://host:port/path"),

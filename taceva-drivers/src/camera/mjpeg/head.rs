@@ -1,20 +1,20 @@
-//! The head of an answer of HTTP. Nothing here reads a socket.
+//! Parser of an HTTP response head. No I/O.
 
 use taceva_core::ErrorKind;
 use thiserror::Error;
 
 use crate::text::shown;
 
-/// What of the head decides how the body is read.
+/// Fields of the head that determine the decoding of the body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Head {
-    /// What stands between two pictures, where the head says it; without hyphens before it.
+    /// Multipart boundary without leading hyphens; `None` if the head has none.
     pub(super) boundary: Option<String>,
-    /// Whether the body comes in chunks.
+    /// True if the body is chunked.
     pub(super) is_chunked: bool,
 }
 
-/// An answer that is no stream.
+/// Response that is not a stream.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum HeadError {
     #[error("it answers with no HTTP: `{}`", shown(.line))]
@@ -26,7 +26,7 @@ pub(super) enum HeadError {
 }
 
 impl HeadError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             HeadError::Refused { code: 404, .. } => ErrorKind::NotFound,
@@ -39,13 +39,13 @@ impl HeadError {
     }
 }
 
-/// A longer head is none.
+/// Maximum length of a head, bytes.
 pub(super) const HEAD_MAX: usize = 16 << 10;
-/// No more of a foreign line is shown.
+/// Maximum length of a quoted line, bytes.
 const SHOWN: usize = 80;
 
 impl Head {
-    /// The head that `bytes` begin with, and its length; `None` until it is whole.
+    /// Parses the head at the front of `bytes` and returns its length. `None` while it is incomplete.
     pub(super) fn read(bytes: &[u8]) -> Result<Option<(Head, usize)>, HeadError> {
         let is_http = |bytes: &[u8]| {
             let length = bytes.len().min(5);
@@ -97,7 +97,7 @@ impl Head {
     }
 }
 
-/// The length of a head with the empty line behind it, whichever way its lines end.
+/// Length of a head including the empty line, with either kind of line end; `None` while it is incomplete.
 pub(super) fn end_of_head(bytes: &[u8]) -> Option<usize> {
     let ends = |mark: &[u8]| {
         let found = bytes.windows(mark.len()).position(|window| window == mark);
@@ -109,7 +109,7 @@ pub(super) fn end_of_head(bytes: &[u8]) -> Option<usize> {
         .min()
 }
 
-/// The boundary in a type such as `multipart/x-mixed-replace; boundary="--frame"`, without the hyphens that some servers write into it.
+/// Boundary of a content type such as `multipart/x-mixed-replace; boundary="--frame"`, without leading hyphens, which some servers add.
 fn boundary(content_type: &str) -> Option<String> {
     let mut parameters = content_type.split(';').skip(1);
     let found = parameters.find_map(|parameter| {

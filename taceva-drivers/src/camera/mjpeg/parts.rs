@@ -1,35 +1,35 @@
-//! Pictures out of the body of a stream. Nothing here reads a socket.
+//! Splits the body of a stream into images. No I/O.
 
 use thiserror::Error;
 
 use super::head::end_of_head;
 use crate::text::shown;
 
-/// Cuts what comes, in pieces of any size, into pictures.
+/// Splits bytes that arrive in pieces of any size into images.
 #[derive(Debug)]
 pub(super) struct Parts {
     waiting: Vec<u8>,
-    /// Two hyphens and the boundary; `None` until the body itself has said it.
+    /// Two hyphens and the boundary; `None` until it is known from the body.
     delimiter: Option<Vec<u8>>,
     within: Within,
-    /// How far the present part was searched for its end.
+    /// Offset up to which the current part was searched for its end.
     searched: usize,
-    /// Parts that did not end where they said, and were left out.
+    /// Parts dropped because their length was wrong.
     broken: u64,
 }
 
-/// Where in the body it stands.
+/// Position within the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Within {
     /// Before a delimiter.
     Between,
-    /// In the lines behind one.
+    /// In the head of a part.
     Head,
-    /// In a picture, of so many bytes if its head said it.
+    /// In an image, with the announced length in bytes if there is one.
     Picture(Option<usize>),
 }
 
-/// A body that is no stream of pictures.
+/// Body that is not a stream of images.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum PartError {
     #[error("a picture of {found} bytes, expected at most {PICTURE_MAX}")]
@@ -44,14 +44,14 @@ pub(super) enum PartError {
     Type { found: String },
 }
 
-/// No camera sends a larger picture.
+/// Maximum size of an image, bytes.
 const PICTURE_MAX: usize = 64 << 20;
 const PART_HEAD_MAX: usize = 8 << 10;
-/// A boundary is at most 70 letters; before the first one there may be some text.
+/// Maximum number of bytes before the first boundary, which may follow some text. A boundary has at most 70 characters.
 const SEARCHED_MAX: usize = 8 << 10;
 
 impl Parts {
-    /// Parts between lines of two hyphens and `boundary`, or of what the first line with hyphens says where that is not known.
+    /// Creates a splitter for `boundary`. If it is `None`, the first line that begins with two hyphens sets the delimiter.
     pub(super) fn new(boundary: Option<&str>) -> Parts {
         Parts {
             waiting: Vec::new(),
@@ -62,25 +62,25 @@ impl Parts {
         }
     }
 
-    /// Takes bytes of the body.
+    /// Appends bytes of the body.
     pub(super) fn push(&mut self, bytes: &[u8]) {
         self.waiting.extend_from_slice(bytes);
     }
 
-    /// Whether a part has begun whose end has not come.
+    /// True if a part is incomplete.
     pub(super) fn is_within_part(&self) -> bool {
         self.within != Within::Between
     }
 
-    /// How many parts did not end where they said.
+    /// Number of parts dropped because their length was wrong.
     pub(super) fn broken(&self) -> u64 {
         self.broken
     }
 
-    /// The next whole picture, if it has come.
+    /// Returns the next complete image; `None` until it has arrived.
     ///
     /// # Errors
-    /// [`PartError`], from then on for ever: the connection must be closed.
+    /// [`PartError`], which is permanent: the connection must be closed.
     pub(super) fn next(&mut self) -> Result<Option<Vec<u8>>, PartError> {
         loop {
             match self.within {
@@ -111,7 +111,7 @@ impl Parts {
                     if self.is_at_delimiter() {
                         return Ok(Some(picture));
                     }
-                    // It lied about its length: the next delimiter is looked for in it too, so that one part is lost and no more.
+                    // The announced length is wrong. Search this part for the next delimiter too, so that only one part is lost.
                     self.broken += 1;
                     self.waiting.splice(..0, picture);
                 }
@@ -133,7 +133,7 @@ impl Parts {
         }
     }
 
-    /// Goes behind the next delimiter; `false` if it has not come.
+    /// Skips past the next delimiter; `false` until it has arrived.
     fn find_delimiter(&mut self) -> Result<bool, PartError> {
         if self.delimiter.is_none() {
             self.delimiter = self.first_delimiter()?;
@@ -148,7 +148,7 @@ impl Parts {
                 Ok(true)
             }
             None => {
-                // Nothing before the beginning of one that is not whole is needed.
+                // Keep only bytes that may be the start of a delimiter.
                 let kept = self.waiting.len().min(delimiter.len());
                 self.waiting.drain(..self.waiting.len() - kept);
                 Ok(false)
@@ -156,7 +156,7 @@ impl Parts {
         }
     }
 
-    /// The first line that begins with two hyphens.
+    /// Delimiter from the first line that begins with two hyphens; `None` until it has arrived.
     fn first_delimiter(&self) -> Result<Option<Vec<u8>>, PartError> {
         let searched = &self.waiting[..self.waiting.len().min(SEARCHED_MAX)];
         let mut lines = searched.split_inclusive(|byte| *byte == b'\n');
@@ -172,7 +172,7 @@ impl Parts {
         }
     }
 
-    /// Where `delimiter` stands; what was searched in vain is not searched again.
+    /// Finds `delimiter`. Remembers the search position, so bytes are scanned once.
     fn search(&mut self, delimiter: &[u8]) -> Option<usize> {
         let from = self.searched.min(self.waiting.len());
         let found = self.waiting[from..]
@@ -184,7 +184,7 @@ impl Parts {
         found.map(|at| from + at)
     }
 
-    /// Whether what is left begins with the end of a line and a delimiter, as far as it has come.
+    /// True if the rest begins with a line end and a delimiter, as far as it has arrived.
     fn is_at_delimiter(&self) -> bool {
         let delimiter = self.delimiter.as_deref().unwrap_or_default();
         let rest = self.waiting.trim_ascii_start();
@@ -195,16 +195,16 @@ impl Parts {
     }
 }
 
-/// Bytes behind a picture that are looked at before it counts as whole: the end of its line. One that ends as its format does is not kept
-/// waiting for them, since some servers send them before the next picture only.
+/// Bytes after an image that must arrive before its length is trusted: the line end. An image with its format's end marker does not wait
+/// for them, since some servers send them only before the next image.
 const ENDING: usize = 2;
 
-/// Whether the end marker of JPEG or PNG stands at the end.
+/// True if the image ends with the end marker of JPEG or PNG.
 fn ends_as_pictures_do(picture: &[u8]) -> bool {
     picture.ends_with(b"\xff\xd9") || picture.ends_with(b"IEND\xaeB`\x82")
 }
 
-/// The length that the head of a part announces.
+/// Length announced by the head of a part, bytes; `None` if there is none.
 fn announced(lines: &str) -> Result<Option<usize>, PartError> {
     let mut length = None;
     for (name, value) in lines.lines().filter_map(|line| line.split_once(':')) {
@@ -225,7 +225,7 @@ fn announced(lines: &str) -> Result<Option<usize>, PartError> {
     }
 }
 
-/// A picture without the hyphens and the end of line that belong to the delimiter behind it.
+/// Strips the hyphens and the line end that belong to the next delimiter.
 fn without_ending(picture: &[u8]) -> &[u8] {
     let hyphens = picture
         .iter()

@@ -1,4 +1,4 @@
-//! A connection to a camera: a thread that reads, and the newest picture for whoever asks.
+//! Connection to a camera: a reader thread posts the newest image.
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -16,23 +16,23 @@ use super::url::Url;
 use crate::link::mailbox::Ending;
 use crate::link::{LinkError, Mailbox, connect, monotonic};
 
-/// A picture as it was sent, and when its first bytes came, on the monotonic clock.
+/// An image as sent, with the arrival time of its first bytes on the monotonic clock.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
     pub(super) bytes: Arc<[u8]>,
     pub(super) began: Duration,
-    /// Parts of the stream so far that did not end where they said.
+    /// Parts of the stream with a wrong length so far.
     pub(super) broken: u64,
 }
 
-/// A camera that was asked for its stream.
+/// An open stream of a camera.
 #[derive(Debug)]
 pub(super) struct Stream {
     stream: TcpStream,
     reader: Option<JoinHandle<()>>,
 }
 
-/// Why there is no stream.
+/// Failure to open a stream.
 #[derive(Debug, Error)]
 pub(super) enum StreamError {
     #[error(transparent)]
@@ -47,7 +47,7 @@ pub(super) enum StreamError {
 }
 
 impl StreamError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             StreamError::Link(error) => error.kind(),
@@ -57,11 +57,11 @@ impl StreamError {
     }
 }
 
-/// How long a camera may take to begin its answer.
+/// Timeout for the response.
 const ANSWER: Duration = Duration::from_secs(3);
 
 impl Stream {
-    /// Asks for the stream at `url`, whose pictures are posted to `pictures`.
+    /// Requests the stream at `url` and posts its images to `pictures`.
     pub(super) fn open(url: &Url, pictures: &Arc<Mailbox<Picture>>) -> Result<Stream, StreamError> {
         let (mut stream, address) = connect(&url.host, url.port)?;
         let broken = |source: io::Error| LinkError::Broken { address, source };
@@ -87,7 +87,7 @@ impl Stream {
 
 impl Drop for Stream {
     fn drop(&mut self) {
-        // The thread that reads ends with the stream.
+        // The shutdown ends the reader thread.
         let _ = self.stream.shutdown(Shutdown::Both);
         if let Some(reader) = self.reader.take() {
             let _ = reader.join();
@@ -95,7 +95,7 @@ impl Drop for Stream {
     }
 }
 
-/// The head of the answer, and what came behind it.
+/// Reads the head of the response; also returns the bytes after it.
 fn read_head(stream: &mut TcpStream, address: SocketAddr) -> Result<(Head, Vec<u8>), StreamError> {
     let mut waiting = Vec::new();
     let mut bytes = [0; 4096];
@@ -122,7 +122,7 @@ fn read_head(stream: &mut TcpStream, address: SocketAddr) -> Result<(Head, Vec<u
     }
 }
 
-/// Posts every picture until none can come any more, and says why.
+/// Posts every image until the stream ends, and returns the reason.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,
@@ -161,7 +161,7 @@ fn read(
             }
         }
         if let Some((bytes, first)) = newest {
-            // One that began where another ended has its time from its own end.
+            // An image whose first bytes came with an earlier image is stamped at its end.
             last_began = if first > last_began { first } else { at };
             let picture = Picture {
                 bytes: bytes.into(),

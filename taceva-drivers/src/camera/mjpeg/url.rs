@@ -1,4 +1,4 @@
-//! Where a stream is.
+//! URL of a stream.
 
 use std::str::FromStr;
 
@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::text::shown;
 
-/// An address such as `http://192.168.1.20:8080/?action=stream`.
+/// URL such as `http://192.168.1.20:8080/?action=stream`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Url {
     pub(super) host: String,
@@ -15,7 +15,7 @@ pub(super) struct Url {
     pub(super) path: String,
 }
 
-/// Text that is no address of a stream.
+/// Invalid URL of a stream.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("`url`: `{}`: {problem}; expected `http://host:port/path`", shown(.text))]
 pub(super) struct UrlError {
@@ -31,7 +31,7 @@ impl FromStr for Url {
             text: text.to_owned(),
             problem,
         };
-        // What is written into a request must not end its line.
+        // The URL is written into a request line, so it must not end that line.
         if text.contains(|letter: char| letter.is_control() || letter == ' ') {
             return Err(wrong("it holds a space or a control character"));
         }
@@ -78,7 +78,7 @@ impl FromStr for Url {
 }
 
 impl Url {
-    /// The request for the stream.
+    /// HTTP request for the stream.
     pub(super) fn request(&self) -> String {
         let Url { host, port, path } = self;
         let host = if host.contains(':') {

@@ -1,4 +1,4 @@
-//! A camera of this machine as a sensor.
+//! Sensor over a local camera.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -19,41 +19,41 @@ use crate::camera::crop::Crop;
 use crate::camera::jpeg::Pictures;
 use crate::link::{Mailbox, Seen};
 
-/// How a camera is opened.
+/// Options for opening a camera.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct V4l2Options {
     pub(super) device: String,
     pub(super) width: u32,
     pub(super) height: u32,
-    /// The ways in which pictures may be sent, the best first.
+    /// Accepted pixel formats, best first.
     pub(super) pixels: Vec<FourCc>,
     pub(super) rate_hz: Option<f64>,
     pub(super) crop: Crop,
     pub(super) fixed: Fixed,
 }
 
-/// A camera that is open.
+/// An open camera.
 #[derive(Debug)]
 pub(super) struct LocalCamera {
     options: V4l2Options,
     pictures: Arc<Mailbox<Picture>>,
-    /// The camera while it gives no pictures; `None` once it is lost, and while it gives some.
+    /// The camera while it is not streaming; `None` while it streams.
     camera: Option<Camera>,
     reader: Option<Reader>,
     frames: Frames,
     settings: BTreeMap<String, String>,
-    /// The number of the last picture that was given.
+    /// Mailbox number of the last image returned.
     last: u64,
-    /// Pictures that came while nobody asked, or that did not come at all.
+    /// Images that were replaced before they were captured, or never arrived.
     missed: u64,
 }
 
 const OPEN: &str = "open the camera";
-/// How long a camera may take to send its first picture, by which the kind of a file is known.
+/// Timeout for the first image, which determines the format of JPEG files.
 const FIRST: Duration = Duration::from_secs(3);
 
 impl LocalCamera {
-    /// Opens a camera, sets its format and fixes it; where pictures are files it looks at one.
+    /// Opens a camera, sets its format and fixes its controls. For JPEG, captures one image to determine the frame format.
     pub(super) fn open(options: V4l2Options) -> Result<LocalCamera, DriverError> {
         let (mut camera, given) = options.connect()?;
         let settings = options.fixed.apply(&mut camera)?;
@@ -88,7 +88,7 @@ impl LocalCamera {
 
     fn begin(&mut self) -> Result<(), DriverError> {
         if self.pictures.has_ended() {
-            // The camera was gone, and may be back.
+            // Reopen a camera that was lost.
             self.reader = None;
             self.camera = None;
             self.pictures.begin_again();
@@ -101,7 +101,7 @@ impl LocalCamera {
                 camera
             }
         };
-        // Another program may have turned them meanwhile.
+        // Another program may have changed the controls.
         self.settings = self.options.fixed.apply(&mut camera)?;
         let stream = Stream::start(camera).map_err(refused(START))?;
         (self.last, self.missed) = (self.pictures.posted(), 0);
@@ -118,7 +118,7 @@ impl LocalCamera {
 }
 
 impl V4l2Options {
-    /// The camera with the first of the ways to send pictures that it knows.
+    /// Opens the camera with the first pixel format that it supports.
     fn connect(&self) -> Result<(Camera, GivenFormat), DriverError> {
         let mut camera = Camera::open(&self.device).map_err(refused(OPEN))?;
         let mut unknown = None;
@@ -150,7 +150,7 @@ impl V4l2Options {
     }
 }
 
-/// The first picture that is whole, and the camera, which gives none any more.
+/// Captures the first undamaged image and stops the stream.
 fn first_picture(camera: Camera) -> Result<(Camera, Vec<u8>), DriverError> {
     let mut stream = Stream::start(camera).map_err(refused(OPEN))?;
     let began = crate::link::monotonic();

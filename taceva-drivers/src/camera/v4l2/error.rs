@@ -1,14 +1,14 @@
-//! Errors of the camera with their reasons.
+//! Errors of the driver.
 
 use super::kernel::V4l2Error;
 use taceva_core::{DriverError, ErrorKind};
 
 use super::KEY;
 
-/// What a camera does when it is started.
+/// Operation name of the start, for errors.
 pub(super) const START: &str = "start the camera";
 
-/// What kind of failure an error of a camera is.
+/// Kind of a camera's error.
 pub(super) fn kind_of(error: &V4l2Error) -> ErrorKind {
     match error {
         V4l2Error::Open { source, .. } => match source.kind() {
@@ -24,7 +24,7 @@ pub(super) fn kind_of(error: &V4l2Error) -> ErrorKind {
     }
 }
 
-/// An error of the camera with its reason.
+/// Creates an error with a reason.
 pub(super) fn failed(
     kind: ErrorKind,
     doing: &'static str,
@@ -33,7 +33,7 @@ pub(super) fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
-/// What a call to the kernel that failed was for.
+/// Converts an error of the kernel interface that occurred while `doing`.
 pub(super) fn refused(doing: &'static str) -> impl Fn(V4l2Error) -> DriverError {
     move |error| failed(kind_of(&error), doing, error)
 }

@@ -22,24 +22,24 @@ use crate::text::shown;
 
 submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 
-/// Opens cameras of this machine (Linux), such as those in DIGIT and GelSight Mini: `camera/v4l2:device=/dev/video0;preset=digit`.
+/// Opens local cameras (Linux), such as those in DIGIT and GelSight Mini: `camera/v4l2:device=/dev/video0;preset=digit`.
 ///
 /// # The physical contract
-/// - Opening sets size, kind of pictures and rate, and refuses a camera that gives others, with what it offers. Where pictures are JPEG files it
-///   looks at one.
-/// - Exposure, gain, white balance and focus are **fixed**: what the camera sets by itself is switched off when it is opened and whenever it is
-///   started, the values that are asked for are set and read back, the others stay as they are. What was read back is kept with a recording. A
-///   camera that goes on setting one by itself is refused, or flagged with `automatic=keep`.
-/// - A frame is the newest that came, with the kernel's own time of it on the monotonic clock; what was missed is counted by the camera's numbers. One
-///   that is damaged, short or of another size is an error of that frame. A camera that is unplugged is `Disconnected`; `start` opens it anew.
-/// - Two programs do not have one camera: the second gets an error that it is in use.
-/// - A light of the sensor stays as it is.
+/// - Opening sets size, pixel format and rate. A camera that does not support them is rejected with the list of what it offers. For JPEG,
+///   opening captures one image.
+/// - Exposure, gain, white balance and focus are **fixed**. Automatic control is switched off at open and at every start; requested values
+///   are set and read back; others stay unchanged. The values read back are stored with a recording. A camera that keeps automatic control
+///   on is rejected, or flagged with `automatic=keep`.
+/// - A frame is the newest image received, with the kernel's time stamp on the monotonic clock. Missed images are counted by the camera's
+///   numbers. A damaged, short or wrongly sized image is an error of that frame. An unplugged camera is `Disconnected`; `start` reopens it.
+/// - A camera serves one program. A second program gets an error that the camera is in use.
+/// - The sensor's lighting stays unchanged.
 ///
 /// # What confirmed it
-/// The kernel's emulated camera `vivid` in a virtual machine (`taceva-wire`, test `kernel`): pixels of YUYV against its colour bars, the suite, gain,
-/// a second program, unplugging. `vivid` gives uncompressed pixels alone, and of the controls that this driver fixes it has gain and its automatic:
-/// the test sees it refuse `pixels=mjpeg`, `exposure_ms`, `white_balance_k` and `focus`. **Not verified without the device**: JPEG pictures through
-/// this interface (their decoder is that of `camera/mjpeg`), exposure, white balance and focus, the presets, and any latency.
+/// The kernel's emulated camera `vivid` in a virtual machine (`taceva-wire`, test `kernel`): YUYV pixels against its colour bars, the
+/// suite, gain, a second program, unplugging. `vivid` gives only uncompressed pixels and, of the fixed controls, only gain and automatic
+/// gain. The test checks that it rejects `pixels=mjpeg`, `exposure_ms`, `white_balance_k` and `focus`. **Not verified without the device**:
+/// JPEG through this interface (decoded as in `camera/mjpeg`), exposure, white balance and focus, the presets, and any latency.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -55,16 +55,16 @@ pub struct V4l2Factory {
     descriptor: Descriptor,
 }
 
-/// The size of pictures where nobody says otherwise.
+/// Default image size, pixels.
 const USUAL: [u32; 2] = [640, 480];
-/// No picture has longer sides, as no file of one may.
+/// Maximum side of an image, pixels, as for image files.
 const SIDE_MAX: i64 = 16_384;
 
 impl V4l2Factory {
-    /// The driver.
+    /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<V4l2Factory, DescriptorError> {
         let side = |key: &str, help: &str| {
             ArgSpec::whole(key, 2, SIDE_MAX)
@@ -121,7 +121,7 @@ impl Factory<dyn Sensor> for V4l2Factory {
 }
 
 impl V4l2Options {
-    /// What is known of the camera before it is opened.
+    /// Facts of the camera before it is opened.
     fn facts(&self) -> SensorFacts {
         let sent = FrameInfo {
             width: self.width,
@@ -129,7 +129,7 @@ impl V4l2Options {
             format: PixelFormat::Rgb8,
         };
         let mut facts = SensorFacts::default();
-        // Of a file only the first one says whether it is gray.
+        // Only the first JPEG file shows whether the camera is gray.
         facts.frame = (self.pixels == [FourCc::YUYV]).then(|| self.crop.of(sent));
         facts.camera = Some([self.width, self.height]);
         facts.rate = self.rate_hz.map(Hertz);
@@ -167,7 +167,7 @@ fn options(args: &Args) -> V4l2Options {
     }
 }
 
-/// The cameras of a machine whose root folder is `root`, in the order of their files.
+/// Cameras of the machine with root folder `root`, sorted by device file.
 fn cameras_in(root: &Path) -> Vec<Found> {
     let class = root.join("sys/class/video4linux");
     let entries = fs::read_dir(&class).into_iter().flatten();
@@ -180,7 +180,7 @@ fn cameras_in(root: &Path) -> Vec<Found> {
         let text = fs::read_to_string(class.join(name).join(file)).unwrap_or_default();
         text.trim().to_owned()
     };
-    // The further files of one camera give what is no picture.
+    // Further device files of a camera give no images.
     let first = names.iter().filter(|name| read(name, "index") == "0");
     let found = first.map(|name| {
         let path = format!("/dev/{name}");
@@ -205,7 +205,7 @@ fn cameras_in(root: &Path) -> Vec<Found> {
     found.collect()
 }
 
-/// The name of a camera that stays the same when it is plugged in anew.
+/// Path of a camera that survives replugging; `None` if there is none.
 fn stable_name(root: &Path, name: &str) -> Option<String> {
     let folder = root.join("dev/v4l/by-id");
     let mut links: Vec<_> = fs::read_dir(&folder).ok()?.flatten().collect();
@@ -216,7 +216,7 @@ fn stable_name(root: &Path, name: &str) -> Option<String> {
     };
     let link = links.into_iter().find(leads_there)?;
     let link = link.file_name().into_string().ok()?;
-    // A name with a separator of arguments would be cut there.
+    // A `;` would end the argument.
     (!link.contains(';')).then(|| format!("/dev/v4l/by-id/{link}"))
 }
 

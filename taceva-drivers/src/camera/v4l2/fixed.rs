@@ -1,4 +1,4 @@
-//! What must not change while a sensor is measured: exposure, gain, white balance and focus, fixed and read back.
+//! Controls that must not change during a measurement: exposure, gain, white balance and focus. They are fixed and read back.
 
 use std::collections::BTreeMap;
 
@@ -7,34 +7,34 @@ use taceva_core::{ArgSpec, ArgValue, Args, DriverError, ErrorKind};
 
 use super::error::{failed, refused};
 
-/// What the caller wants of a camera; what is absent stays as it is, and is read back.
+/// Requested values of the controls. An absent value leaves the control unchanged; it is still read back.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Fixed {
     exposure_ms: Option<f64>,
     gain: Option<i32>,
     white_balance_k: Option<i32>,
     focus: Option<i32>,
-    /// Whether a camera that sets something by itself may go on with it.
+    /// True if a camera may keep automatic control on.
     keeps_automatic: bool,
 }
 
-/// One of the four.
+/// One of the four controls.
 struct Knob {
     name: &'static str,
-    /// The control of the camera that sets it by itself, and the value with which it does not.
+    /// Automatic control of the camera, and its value for off.
     automatic: (ControlId, i32),
     control: ControlId,
     wanted: Option<i32>,
-    /// What the number that a caller reads is of the number that the camera counts.
+    /// Factor from the camera's unit to the displayed unit.
     unit: f64,
 }
 
 const FIX: &str = "fix the camera";
-/// ms of the unit in which a camera counts exposure.
+/// Unit of exposure, ms.
 const EXPOSURE_MS: f64 = 0.1;
 
 impl Fixed {
-    /// The arguments that fix a camera.
+    /// Arguments that fix the controls.
     pub(super) fn arguments() -> [ArgSpec; 5] {
         let whole = |key: &str, help: &str| {
             ArgSpec::whole(key, 0, i64::from(i32::MAX))
@@ -54,7 +54,7 @@ impl Fixed {
         ]
     }
 
-    /// What `args` ask for.
+    /// Reads the requested values from `args`.
     pub(super) fn of(args: &Args) -> Fixed {
         let whole = |key| match args.get(key) {
             Some(&ArgValue::Whole(number)) => i32::try_from(number).ok(),
@@ -107,11 +107,11 @@ impl Fixed {
         ]
     }
 
-    /// Fixes what can be fixed, and returns how it is, as it was read back: `exposure_ms` = `15.7`.
+    /// Fixes the controls and returns the values read back, such as `exposure_ms` = `15.7`.
     ///
     /// # Errors
-    /// `Unsupported` for what the camera does not have or does not let go of, `OutOfRange` for a value that it does not take, `DeviceFault` where
-    /// it takes another.
+    /// `Unsupported` for a missing control or one that stays automatic, `OutOfRange` for a value outside the range, `DeviceFault` if the
+    /// camera sets another value.
     pub(super) fn apply(
         &self,
         camera: &mut Camera,
@@ -133,7 +133,7 @@ impl Knob {
     ) -> Result<(), DriverError> {
         let name = self.name;
         if self.let_go(camera, keeps_automatic)? {
-            // What it is now says nothing of the next picture.
+            // With automatic control the current value does not hold for the next image.
             found.insert(format!("{name}_automatic"), "true".to_owned());
             return match self.wanted {
                 None => Ok(()),
@@ -168,7 +168,7 @@ impl Knob {
         Ok(())
     }
 
-    /// Whether the camera sets it by itself, after it was asked not to.
+    /// Switches automatic control off unless it is kept. True if it is still on.
     fn let_go(&self, camera: &mut Camera, keeps: bool) -> Result<bool, DriverError> {
         let (automatic, off) = self.automatic;
         if camera.control(automatic).map_err(refused(FIX))?.is_none() {
@@ -222,7 +222,7 @@ impl Knob {
     }
 
     fn shown(&self, value: i32) -> String {
-        // Counted in tenths, so that 15.7 is not written as its nearest binary number.
+        // Formatted in tenths, to avoid the nearest binary number of 15.7.
         match self.unit < 1.0 {
             true => format!("{}.{}", value / 10, value % 10),
             false => value.to_string(),

@@ -1,4 +1,4 @@
-//! How frames are made of the pictures of a camera: of rows of pixels, or of files.
+//! Conversion of camera images, rows of pixels or files, to frames.
 
 use super::kernel::{FourCc, GivenFormat, PictureFormat};
 use taceva_core::{DriverError, ErrorKind, FrameInfo, FrameMut, PixelFormat};
@@ -10,23 +10,23 @@ use crate::camera::CAPTURE;
 use crate::camera::crop::Crop;
 use crate::camera::jpeg::Pictures;
 
-/// How frames are made of pictures.
+/// Converter of camera images to frames.
 #[derive(Debug)]
 pub(super) enum Frames {
-    /// Of rows of pixels.
+    /// Images as rows of pixels.
     Rows {
         given: GivenFormat,
         matrix: Matrix,
         sent: FrameInfo,
-        /// A row of them, where a part of it is kept.
+        /// Buffer for one converted row, before the crop.
         row: Vec<u8>,
     },
-    /// Of files.
+    /// Images as files.
     Files(Pictures),
 }
 
 impl Frames {
-    /// Rows of pixels, as the camera gives them.
+    /// Creates a converter of rows in the camera's format.
     pub(super) fn rows(given: GivenFormat) -> Frames {
         let PictureFormat { width, height, .. } = given.picture;
         let sent = FrameInfo {
@@ -42,7 +42,7 @@ impl Frames {
         }
     }
 
-    /// Of the frames, where `crop` is cut off.
+    /// Format of the frames after `crop`.
     pub(super) fn info(&self, crop: Crop) -> FrameInfo {
         match self {
             Frames::Rows { sent, .. } => crop.of(*sent),
@@ -50,7 +50,7 @@ impl Frames {
         }
     }
 
-    /// Refuses a camera that sends its pictures otherwise than before.
+    /// Fails if the camera's format has changed.
     pub(super) fn check(&self, found: &GivenFormat) -> Result<(), DriverError> {
         let is_same = match self {
             Frames::Rows { given, .. } => given == found,
@@ -66,10 +66,10 @@ impl Frames {
         Err(failed(ErrorKind::Protocol, START, why))
     }
 
-    /// Writes a picture into a frame of [`info`](Frames::info); so many were missed before.
+    /// Converts an image into a frame of [`info`](Frames::info). `missed` counts earlier losses for the error.
     ///
     /// # Errors
-    /// `Protocol` for a picture that is damaged, short or of another size.
+    /// `Protocol` for an image that is damaged, short or of another size.
     pub(super) fn make(
         &mut self,
         picture: &Picture,
@@ -89,7 +89,7 @@ impl Frames {
             } => {
                 let size = |number: u32| usize::try_from(number).unwrap_or(usize::MAX);
                 let (stride, whole) = (size(given.stride), 3 * size(sent.width));
-                // The last row may end with its last pixel.
+                // The last row may lack padding.
                 let least = stride * (size(sent.height) - 1) + 2 * size(sent.width);
                 if stride < 2 * size(sent.width) || picture.bytes.len() < least {
                     let why = format!(
@@ -120,7 +120,7 @@ mod tests {
 
     use super::*;
 
-    /// Pictures of 4 by 2 pixels whose rows are 12 bytes apart: 8 of pixels, 4 of nothing.
+    /// Images of 4 by 2 pixels with a row stride of 12 bytes: 8 of pixels, 4 of padding.
     fn frames() -> Frames {
         Frames::rows(GivenFormat {
             picture: PictureFormat {
@@ -150,7 +150,7 @@ mod tests {
         Ok(pixels)
     }
 
-    /// Grays 10 to 13 and 20 to 23, and what is none of them between the rows.
+    /// Grays 10 to 13 and 20 to 23, with other values between the rows.
     fn grays() -> Vec<u8> {
         let row = |first: u8| [first, 128, first + 1, 128, first + 2, 128, first + 3, 128];
         [&row(10)[..], &[255; 4], &row(20)[..]].concat()
@@ -182,7 +182,7 @@ mod tests {
                 "{message}"
             );
         }
-        // More than is needed is padding.
+        // Surplus bytes are padding.
         let long = [grays(), vec![0; 100]].concat();
         assert!(made(&mut frames(), &long, Crop::NONE).is_ok());
     }

@@ -1,6 +1,6 @@
-//! Cameras of Linux by the kernel's own interface (Video4Linux, version 2), on 64-bit addresses with the low byte first.
+//! Linux cameras by the kernel's own interface (Video4Linux, version 2), on 64-bit little-endian machines.
 //!
-//! `unsafe` stands in `ioctls.rs` and `frame_memory.rs` alone.
+//! Only `ioctls.rs` and `frame_memory.rs` contain `unsafe`.
 //!
 //! ```rust,no_run
 //! use std::time::Duration;

@@ -1,4 +1,4 @@
-//! A thread that takes the pictures of a camera as they come.
+//! Thread that reads the images of a camera.
 
 use std::io;
 use std::sync::Arc;
@@ -12,28 +12,28 @@ use super::error::kind_of;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
 
-/// A picture as it was sent.
+/// An image as sent.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
     pub(super) bytes: Arc<[u8]>,
-    /// When the kernel says that it was taken, on the monotonic clock.
+    /// Kernel time stamp on the monotonic clock; `None` if it is unusable.
     pub(super) taken: Option<Duration>,
-    /// Pictures so far that the camera called damaged.
+    /// Images marked as damaged so far.
     pub(super) damaged: u64,
 }
 
-/// Reads until it is dropped, or until the camera is gone.
+/// Reader thread, which ends when it is dropped or the camera is gone.
 #[derive(Debug)]
 pub(super) struct Reader {
     is_over: Arc<AtomicBool>,
     thread: Option<JoinHandle<Camera>>,
 }
 
-/// How often the thread looks whether it is over.
+/// Interval at which the thread checks for its end.
 const LOOK: Duration = Duration::from_millis(50);
 
 impl Reader {
-    /// Posts every picture of `stream`, the missing ones counted with it.
+    /// Posts every image of `stream`, counting missed ones.
     pub(super) fn start(stream: Stream, posting: &Arc<Mailbox<Picture>>) -> io::Result<Reader> {
         let is_over = Arc::new(AtomicBool::new(false));
         let (over, posting) = (Arc::clone(&is_over), Arc::clone(posting));
@@ -46,7 +46,7 @@ impl Reader {
         })
     }
 
-    /// Ends it; `None` for a camera that was lost on the way.
+    /// Ends the thread and returns the camera; `None` if the thread panicked.
     pub(super) fn stop(mut self) -> Option<Camera> {
         self.is_over.store(true, Ordering::Release);
         self.thread.take()?.join().ok()

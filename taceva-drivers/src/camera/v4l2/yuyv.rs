@@ -1,11 +1,11 @@
-//! Pixels of YUYV: two bytes each, the brightness of each and the colour of two together.
+//! YUYV pixels: two bytes each, one luminance per pixel and one colour per pair.
 
 use super::kernel::Coding;
 
-/// What a byte of each kind adds to a colour, in 65,536ths: exact to less than a hundredth of a step.
+/// Colour matrix in units of 1/65,536, exact to less than 0.01 step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Matrix {
-    /// What brightness begins at.
+    /// Luminance of black.
     black: i32,
     brightness: i32,
     red_of_v: i32,
@@ -15,13 +15,13 @@ pub(super) struct Matrix {
 }
 
 const ONE: f64 = 65_536.0;
-/// Steps of brightness and of colour in the limited range, of 255.
+/// Steps of luminance and colour in the limited range, out of 255.
 const STEPS_BRIGHTNESS: f64 = 219.0;
 const STEPS_COLOUR: f64 = 224.0;
 const STEPS: f64 = 255.0;
 
 impl Matrix {
-    /// The matrix of a coding, by the weights of red and blue in brightness (ITU-R BT.601 and BT.709).
+    /// Matrix of a coding, from the weights of red and blue in luminance (ITU-R BT.601 and BT.709).
     pub(super) fn of(coding: Coding) -> Matrix {
         let (red, blue) = match coding {
             Coding::Limited601 | Coding::Full601 => (0.299, 0.114),
@@ -49,7 +49,7 @@ impl Matrix {
         }
     }
 
-    /// Writes a row of pixels as red, green and blue; what `row` has too much is passed over.
+    /// Converts a row to RGB. Surplus bytes of `row` are ignored.
     pub(super) fn row(self, row: &[u8], into: &mut [u8]) {
         for (pair, pixels) in row.chunks_exact(4).zip(into.chunks_mut(6)) {
             let &[y0, u, y1, v] = pair else { continue };
@@ -66,7 +66,7 @@ impl Matrix {
     }
 }
 
-/// The nearest step of a colour.
+/// Rounds and clamps to a colour step.
 fn step(value: i32) -> u8 {
     let rounded = (value + (1 << 15)) >> 16;
     u8::try_from(rounded.clamp(0, 255)).unwrap_or(0)

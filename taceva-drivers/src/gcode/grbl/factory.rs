@@ -13,18 +13,19 @@ use crate::gcode::present::adapters;
 
 submit_builtin!(dyn Robot, || Ok(Box::new(GrblFactory::new()?)));
 
-/// Opens machines with GRBL 1.1 on a serial line: `gcode/grbl:port=/dev/ttyUSB0`.
+/// Opens machines with GRBL 1.1 on a serial port: `gcode/grbl:port=/dev/ttyUSB0`.
 ///
 /// # The physical contract
-/// - Places are those of the **machine's own frame** (`MPos`), in mm; it has three axes and does not turn. It must report them (`$10=1`).
-/// - Opening takes the line for itself alone, which resets many boards; nothing moves. A machine in alarm is not moved: a person resets and
-///   homes it.
+/// - Positions are in the **machine's own frame** (`MPos`), in mm. The machine has three axes and does not rotate. It must report these
+///   positions (`$10=1`).
+/// - Opening locks the serial port, which resets many boards; nothing moves. A machine in alarm is not moved: a person resets and homes it.
 /// - A move is one `G53 G1`. It ends once the machine is idle within 0.02 mm of the target.
-/// - A halt is the byte `!`, which the machine takes at once and slows down for. `clear_halt` resets it once it stands, which loses no place.
+/// - A halt is the byte `!`, on which the machine decelerates at once. `clear_halt` resets the machine once it is at rest, which keeps its
+///   position.
 ///
 /// # What confirmed it
-/// An emulated machine on a pseudo-terminal, on which the driver passes its suite; its dialect is that of GRBL's documents, and no firmware has
-/// spoken to the driver. **Not verified without the device**: how soon it stands, and boards that reset otherwise.
+/// The driver passes its suite on an emulated machine on a pseudo-terminal. The emulated dialect follows GRBL's documents; no firmware has
+/// been tested. **Not verified without the device**: how soon it stops, and boards that reset otherwise.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -39,10 +40,10 @@ pub struct GrblFactory {
 }
 
 impl GrblFactory {
-    /// The driver.
+    /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<GrblFactory, DescriptorError> {
         let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec = DescriptorSpec::new(KEY, "a machine with GRBL", DriverSource::Real, facts);

@@ -1,30 +1,30 @@
-//! What the machine says, a line each. Nothing here reads a port.
+//! Parser of the machine's lines. No I/O.
 
 use crate::gcode::link::{Answer, Heard};
 
-/// What the machine does at one moment.
+/// Status of the machine at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Status {
     pub(super) state: State,
-    /// The place of the tip in the frame of the machine, in mm; not checked to be numbers.
+    /// Position of the tip in the machine's frame, mm; may contain NaN.
     pub(super) place_mm: [f64; 3],
 }
 
-/// What it does.
+/// State of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
     Idle,
     Running,
-    /// Held, still slowing down.
+    /// Held, still decelerating.
     Slowing,
     /// Held, at rest.
     Held,
     Alarm,
-    /// Doors, checks, homing and sleep.
+    /// Door, check mode, homing and sleep.
     Other,
 }
 
-/// What a line says.
+/// Parses a line.
 pub(super) fn read(line: &str) -> Heard<Status> {
     let number = |text: &str| text.parse::<u16>().unwrap_or(0);
     if line == "ok" {
@@ -43,7 +43,7 @@ pub(super) fn read(line: &str) -> Heard<Status> {
 }
 
 impl Status {
-    /// A status such as `<Idle|MPos:1.000,2.000,-3.000|FS:0,0>`.
+    /// Parses a status such as `<Idle|MPos:1.000,2.000,-3.000|FS:0,0>`.
     fn read(line: &str) -> Option<Status> {
         let inner = line.strip_prefix('<')?.strip_suffix('>')?;
         let mut fields = inner.split('|');
@@ -56,7 +56,7 @@ impl Status {
             _ => State::Other,
         };
         let place = fields.find_map(|field| field.strip_prefix("MPos:"))?;
-        // Further axes are none of an indenter's.
+        // Further axes do not move the indenter.
         let numbers: Option<Vec<f64>> = place
             .split(',')
             .take(3)
@@ -96,7 +96,7 @@ mod tests {
             Heard::answer(Answer::Fault("ALARM 3".to_owned())),
             Heard::NOTHING,
             status(State::Alarm, [0.0; 3]),
-            // Places in another frame say nothing without its origin.
+            // Positions in another frame are useless without its origin.
             Heard::NOTHING,
         ];
         for piece in [1, 2, 7, text.len()] {

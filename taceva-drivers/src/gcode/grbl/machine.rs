@@ -1,4 +1,4 @@
-//! The machine as a robot.
+//! Robot over a GRBL machine.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,7 +15,7 @@ use crate::gcode::link::SerialLink;
 use crate::gcode::stop::Stop;
 use crate::link::{Seen, monotonic};
 
-/// A machine that is connected.
+/// A connected machine.
 #[derive(Debug)]
 pub(super) struct Machine {
     pub(super) link: SerialLink<Status>,
@@ -23,12 +23,12 @@ pub(super) struct Machine {
     options: SerialOptions,
 }
 
-/// Bytes that the machine takes at once.
+/// Real-time commands.
 const ASK_STATUS: &[u8] = b"?";
 pub(super) const HOLD: &[u8] = b"!";
 const RESET: &[u8] = &[0x18];
 
-/// An error of the machine with its reason.
+/// Creates an error with a reason.
 pub(super) fn failed(
     kind: ErrorKind,
     doing: &'static str,
@@ -37,17 +37,17 @@ pub(super) fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
-/// How long a machine may take after its line was opened, which resets many, until it answers.
+/// Timeout for the first answer after opening, which resets many boards.
 const AWAKE: Duration = Duration::from_secs(4);
-/// How long an answer may take.
+/// Timeout for an answer.
 pub(super) const ANSWER: Duration = Duration::from_millis(500);
-/// How often a machine that does not answer is asked again: one that wakes up loses what comes.
+/// Interval of queries while the machine wakes up, during which it drops input.
 const AGAIN: Duration = Duration::from_millis(250);
-/// The least time between two looks of a caller that has run out of it.
+/// Minimum timeout of a query, for callers past their deadline.
 const GLANCE: Duration = Duration::from_millis(50);
 
 impl Machine {
-    /// Opens the line and waits until the machine answers; nothing moves.
+    /// Opens the serial port and waits until the machine answers. Nothing moves.
     pub(super) fn open(options: SerialOptions) -> Result<Machine, DriverError> {
         let link = SerialLink::open(&KEY, &options.port, options.baud, read)?;
         let stop = Arc::new(Stop::new(KEY, link.writer().clone(), HOLD));
@@ -65,7 +65,7 @@ impl Machine {
         Ok(machine)
     }
 
-    /// What the machine does now.
+    /// Queries the current status.
     pub(super) fn look(&mut self, patience: Duration) -> Result<Seen<Status>, DriverError> {
         let doing = "ask where the machine is";
         let statuses = self.link.statuses();
@@ -74,7 +74,7 @@ impl Machine {
             .writer()
             .send(ASK_STATUS)
             .map_err(|error| failed(ErrorKind::Disconnected, doing, error))?;
-        // Whoever has no time left is answered all the same, if the machine answers at once.
+        // A caller past its deadline still gets an immediate answer.
         statuses.next(after, patience.max(GLANCE)).map_err(|none| {
             none.while_waiting(&KEY, doing, || {
                 format!(
@@ -84,14 +84,14 @@ impl Machine {
         })
     }
 
-    /// Throws away what a machine at rest still has to do, so that it is idle.
+    /// Discards the pending commands of a machine at rest, so that it becomes idle.
     pub(super) fn empty(&mut self, doing: &'static str) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         loop {
             let state = self.look(ANSWER)?.what.state;
             match state {
                 State::Idle => return Ok(()),
-                // At rest nothing is lost by a reset; on the way the place would be.
+                // A reset at rest keeps the position; a reset during motion loses it.
                 State::Held => {
                     let reset = self.link.writer().send(RESET);
                     reset.map_err(|error| failed(ErrorKind::Disconnected, doing, error))?;
@@ -140,7 +140,7 @@ impl Robot for Machine {
     }
 
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
-        // First, so that a halt which comes meanwhile stays.
+        // Release first, so that a concurrent halt is kept.
         self.stop.release();
         self.empty("end the halt")
     }

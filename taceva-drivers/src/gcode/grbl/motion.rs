@@ -1,4 +1,4 @@
-//! One straight motion, from the look before it to the rest after it.
+//! One straight motion, from the first status to rest.
 
 use std::time::Duration;
 
@@ -10,15 +10,15 @@ use super::machine::{ANSWER, HOLD, Machine, alarm, failed};
 use crate::gcode::limits::{MOVE, short_mm, straight};
 use crate::link::monotonic;
 
-/// How near the target a motion ends: a step of most machines is 0.01 mm or less.
+/// Tolerance at the target, mm. A step of most machines is at most 0.01 mm.
 const NEAR_MM: f64 = 0.02;
-/// A motion that the machine took has begun after this time.
+/// Time after which an accepted motion has begun.
 const BEGUN: Duration = Duration::from_millis(100);
-/// How often the machine is asked while it moves; it is not made for more.
+/// Interval of status queries during a motion; the machine supports no more.
 const LOOK_EVERY: Duration = Duration::from_millis(20);
 
 impl Machine {
-    /// Moves the tip to `target` and returns once it rests there, or stands elsewhere and why.
+    /// Moves the tip to `target` and returns once it rests there. An error says why it stopped elsewhere.
     pub(super) fn go(
         &mut self,
         target: Pose,
@@ -33,7 +33,7 @@ impl Machine {
             return Err(failed(ErrorKind::Timeout, MOVE, "no time to move at all"));
         }
         match self.look(ANSWER)?.what.state {
-            // Whatever alarm was said before, a person has ended it.
+            // A person has ended any earlier alarm.
             State::Idle => self.link.forget(),
             State::Alarm => return Err(alarm(MOVE)),
             state => {
@@ -43,9 +43,9 @@ impl Machine {
         }
         let ended = self.follow(&target, speed, until);
         if let Err(error) = &ended {
-            // Held twice is held once; a stop that could not be sent says so by a line that is gone.
+            // A second hold is harmless. If it cannot be sent, the link is broken, which is reported elsewhere.
             let _ = self.link.writer().send(HOLD);
-            // A motion that was given up is no halt: the next one is accepted. A halt is ended by whoever made it.
+            // A timed-out motion is not a halt, so the next one is accepted. Only the caller of a halt ends it.
             let given_up = error.kind() == ErrorKind::Timeout;
             let _ = match given_up && !self.stop.is_halted() {
                 true => self.empty(MOVE),
@@ -61,7 +61,7 @@ impl Machine {
         speed: Speed,
         until: Duration,
     ) -> Result<Stamp, DriverError> {
-        // In mm, to a place in the frame of the machine, at mm a minute.
+        // In mm and mm/min, in the machine's frame.
         let line = format!("G21 G90 G94 G53 {}", straight(&target.position, speed));
         self.link
             .command(&line, ANSWER, drop)
@@ -101,7 +101,7 @@ impl Machine {
         }
     }
 
-    /// Waits until a machine that was held stands, or cannot be seen.
+    /// Waits until a held machine is at rest or does not answer.
     fn rest(&mut self) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         while monotonic() < until {

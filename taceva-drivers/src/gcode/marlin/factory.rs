@@ -13,24 +13,24 @@ use crate::gcode::present::adapters;
 
 submit_builtin!(dyn Robot, || Ok(Box::new(MarlinFactory::new()?)));
 
-/// Opens printers with Marlin 2 on a serial line: `gcode/marlin:port=/dev/ttyACM0`.
+/// Opens printers with Marlin 2 on a serial port: `gcode/marlin:port=/dev/ttyACM0`.
 ///
 /// # The physical contract
-/// - Places are those of `M114`, in mm, in the frame that homing gave it: **home it before**, which this program never does. It has three axes
-///   and does not turn.
-/// - Opening takes the line for itself alone, which resets many boards; nothing moves. Firmware without `EMERGENCY_PARSER` is refused: a stop would
-///   wait behind the motion that it is to stop.
-/// - A move is one `G1` and the wait `M400` behind it. It ends once the wait is answered and `M114` is within 0.02 mm of the target. On its way
-///   the printer does not tell where it is. One that says nothing for 5 s counts as gone: its firmware needs `HOST_KEEPALIVE_FEATURE`, which it has
-///   unless somebody took it out.
-/// - A halt is `M410`, by which the motors stand **without slowing down**: from more than a few mm/s a printer may lose steps, and with them its
-///   place. Move slowly, and home it after a halt at speed. `clear_halt` sends nothing that moves.
+/// - Positions are those of `M114`, in mm, in the frame set by homing: **home it first**, which this program never does. The printer has
+///   three axes and does not rotate.
+/// - Opening locks the serial port, which resets many boards; nothing moves. Firmware without `EMERGENCY_PARSER` is rejected, since a stop
+///   would wait for the end of the motion.
+/// - A move is one `G1` followed by the wait `M400`. It ends once the wait is answered and `M114` is within 0.02 mm of the target. The
+///   printer reports no position during the move. After 5 s without output it counts as gone. Its firmware therefore needs
+///   `HOST_KEEPALIVE_FEATURE`, which is on by default.
+/// - A halt is `M410`, which stops the motors **without deceleration**. Above a few mm/s a printer may lose steps, and with them its
+///   position. Move slowly, and home it after a halt at speed. `clear_halt` sends no motion.
 /// - An `Error:` of the firmware ends a move with `DeviceFault`; a person resets it.
 ///
 /// # What confirmed it
-/// An emulated printer on a pseudo-terminal, on which the driver passes its suite, and the virtual printer of OctoPrint 1.11.8, which answers `M114`,
-/// `M115`, `M118`, `G1` and `M400` (it knows no `M410`, and makes its moves in a tenth of their time: it proves the dialect alone). **Not verified
-/// without the device**: every time, how a printer stands after `M410`, and which places it has then.
+/// The driver passes its suite on an emulated printer on a pseudo-terminal. The virtual printer of OctoPrint 1.11.8 answers `M114`, `M115`,
+/// `M118`, `G1` and `M400`. It does not know `M410` and makes its moves in a tenth of their time, so it confirms only the dialect. **Not
+/// verified without the device**: all timing, how a printer stops after `M410`, and its position afterwards.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -45,10 +45,10 @@ pub struct MarlinFactory {
 }
 
 impl MarlinFactory {
-    /// The driver.
+    /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<MarlinFactory, DescriptorError> {
         let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec = DescriptorSpec::new(KEY, "a printer with Marlin", DriverSource::Real, facts);

@@ -1,16 +1,16 @@
-//! What the printer says, a line each. Nothing here reads a port.
+//! Parser of the printer's lines. No I/O.
 
 use crate::gcode::link::{Answer, Heard};
 
-/// Where the printer says that its tip is, or is going to be, in mm; not checked to be numbers.
+/// Reported position of the tip, current or planned, mm; may contain NaN.
 pub(super) type Place = [f64; 3];
 
-/// What stands before a number that the printer was asked to repeat.
+/// Prefix of a number that the printer is asked to echo.
 pub(super) const MARK: &str = "taceva mark ";
 
-/// What a line says.
+/// Parses a line.
 pub(super) fn read(line: &str) -> Heard<Place> {
-    // Some give the place behind the `ok`, on one line.
+    // Some printers report the position after `ok` on the same line.
     if let Some(behind) = line.strip_prefix("ok")
         && (behind.is_empty() || behind.starts_with(' '))
     {
@@ -44,12 +44,12 @@ fn answer(line: &str) -> Option<Answer> {
         let (name, value) = capability.split_once(':')?;
         return Some(Answer::Can(name.to_owned(), value == "1"));
     }
-    // `Error:` and the `!!` of others: it was stopped, and says so once.
+    // `Error:`, or `!!` of other firmware: the printer stopped and reports it once.
     let why = line.strip_prefix("Error:").or(line.strip_prefix("!!"))?;
     Some(Answer::Fault(format!("`{}`", why.trim())))
 }
 
-/// A place such as `X:1.00 Y:2.00 Z:-3.00 E:0.00 Count X:80 Y:160 Z:-1200`.
+/// Parses a position such as `X:1.00 Y:2.00 Z:-3.00 E:0.00 Count X:80 Y:160 Z:-1200`.
 fn place(line: &str) -> Option<Place> {
     let number = |word: Option<&str>, axis: &str| -> Option<f64> {
         word?.strip_prefix(axis)?.strip_prefix(':')?.parse().ok()

@@ -1,4 +1,4 @@
-//! The printer as a robot.
+//! Robot over a Marlin printer.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,31 +15,31 @@ use crate::gcode::link::{Answer, CommandError, SerialLink};
 use crate::gcode::stop::Stop;
 use crate::link::{Seen, monotonic};
 
-/// A printer that is connected.
+/// A connected printer.
 #[derive(Debug)]
 pub(super) struct Printer {
     pub(super) link: SerialLink<Place>,
     pub(super) stop: Arc<Stop>,
     options: SerialOptions,
-    /// The last number that it was asked to repeat.
+    /// Last number that the printer was asked to echo.
     mark: u32,
 }
 
-/// Ends every motion at once, where the printer takes it while it moves.
+/// Command that ends every motion at once, if the printer accepts it during a motion.
 pub(super) const QUICK_STOP: &[u8] = b"M410\n";
-/// The capability without which a stop waits behind the motion that it is to stop.
+/// Capability without which a stop waits for the end of the motion.
 const STOPS_AT_ONCE: &str = "EMERGENCY_PARSER";
 const CONNECT: &str = "connect to the printer";
 const LOOK: &str = "ask where the printer is";
-/// How long a printer may take after its line was opened, which resets many, until it answers.
+/// Timeout for the first answer after opening, which resets many boards.
 const AWAKE: Duration = Duration::from_secs(10);
-/// How long an answer may take.
+/// Timeout for an answer.
 pub(super) const ANSWER: Duration = Duration::from_millis(800);
-/// The least time between two looks of a caller that has run out of it.
+/// Minimum timeout of a query, for callers past their deadline.
 const GLANCE: Duration = Duration::from_millis(100);
 
 impl Printer {
-    /// Opens the line and waits until the printer answers; nothing moves.
+    /// Opens the serial port and waits until the printer answers. Nothing moves.
     pub(super) fn open(options: SerialOptions) -> Result<Printer, DriverError> {
         let link = SerialLink::open(&KEY, &options.port, options.baud, read)?;
         let stop = Arc::new(Stop::new(KEY, link.writer().clone(), QUICK_STOP));
@@ -50,7 +50,7 @@ impl Printer {
             mark: 0,
         };
         let until = monotonic() + AWAKE;
-        // One that wakes up loses what comes.
+        // A printer that wakes up drops input.
         while let Err(error) = printer.agree(ANSWER) {
             if !matches!(error, CommandError::Silent { .. }) || monotonic() >= until {
                 return Err(error.met(&KEY, CONNECT));
@@ -72,7 +72,7 @@ impl Printer {
         Ok(printer)
     }
 
-    /// Makes sure that the next answer is one to the next command: those that are still under way are passed over.
+    /// Synchronises commands and answers: skips the answers to earlier commands.
     pub(super) fn agree(&mut self, patience: Duration) -> Result<(), CommandError> {
         self.mark = self.mark.wrapping_add(1);
         let command = format!("M118 {MARK}{}", self.mark);
@@ -91,7 +91,7 @@ impl Printer {
         }
     }
 
-    /// Where the printer says that its tip is: at rest where it is, on its way where it is going to be.
+    /// Queries the position of the tip: current at rest, planned during a motion.
     pub(super) fn look(&mut self, patience: Duration) -> Result<Seen<Place>, DriverError> {
         let after = self.link.statuses().posted();
         let patience = patience.max(GLANCE);
@@ -133,9 +133,9 @@ impl Robot for Printer {
     }
 
     fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        // First, so that a halt which comes meanwhile stays.
+        // Release first, so that a concurrent halt is kept.
         self.stop.release();
-        // A printer that was stopped may still work on what it has taken before.
+        // A stopped printer may still work on earlier commands.
         self.agree(deadline.remaining().max(GLANCE))
             .map_err(|error| error.met(&KEY, "end the halt"))
     }

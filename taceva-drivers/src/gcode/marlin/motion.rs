@@ -1,4 +1,4 @@
-//! One straight motion, from the look before it to the rest after it.
+//! One straight motion, from the first command to rest.
 
 use std::time::Duration;
 
@@ -10,15 +10,15 @@ use crate::gcode::limits::{MOVE, short_mm, straight};
 use crate::gcode::link::{Answer, CommandError};
 use crate::link::monotonic;
 
-/// How near the target a motion ends: printers write places to 0.01 mm.
+/// Tolerance at the target, mm. Printers report positions to 0.01 mm.
 const NEAR_MM: f64 = 0.02;
-/// How often it is looked whether a motion was halted.
+/// Interval at which a motion checks for a halt.
 const LOOK_EVERY: Duration = Duration::from_millis(10);
-/// A printer that works on something says so every two seconds; one that says nothing for longer is gone.
+/// Maximum time without output. A busy printer reports every two seconds.
 const SILENT: Duration = Duration::from_secs(5);
-/// How long a printer that was stopped may take to answer again.
+/// Timeout for answers after a stop.
 const SETTLED: Duration = Duration::from_secs(3);
-/// Waits until the motion has ended.
+/// Command that waits for the end of the motion.
 const WAIT: &str = "M400";
 
 fn failed(kind: ErrorKind, why: String) -> DriverError {
@@ -26,7 +26,7 @@ fn failed(kind: ErrorKind, why: String) -> DriverError {
 }
 
 impl Printer {
-    /// Moves the tip to `target` and returns once it rests there, or stands elsewhere and why.
+    /// Moves the tip to `target` and returns once it rests there. An error says why it stopped elsewhere.
     pub(super) fn go(
         &mut self,
         target: Pose,
@@ -45,9 +45,9 @@ impl Printer {
         }
         let ended = self.follow(&target, speed, until);
         if ended.is_err() {
-            // Stopped twice is stopped once; a stop that could not be sent says so by a line that is gone.
+            // A second stop is harmless. If it cannot be sent, the link is broken, which is reported elsewhere.
             let _ = self.link.writer().send(QUICK_STOP);
-            // A motion that was given up is no halt: the next one is accepted, once what was said of this one has passed.
+            // A timed-out motion is not a halt, so the next one is accepted once answers to this one are skipped.
             let _ = self.agree(SETTLED);
         }
         ended
@@ -60,7 +60,7 @@ impl Printer {
         until: Duration,
     ) -> Result<Stamp, DriverError> {
         let refused = |error: CommandError| error.met(&KEY, MOVE);
-        // In mm, to a place in the frame of the printer, at mm a minute.
+        // In mm and mm/min, in the printer's frame.
         for command in ["G21", "G90", &straight(&target.position, speed)] {
             self.link.command(command, ANSWER, drop).map_err(refused)?;
         }
@@ -96,7 +96,7 @@ impl Printer {
             return Err(self.stop.halted());
         }
         let short_mm = short_mm(rests.what, &target.position);
-        // NaN is no distance either.
+        // NaN fails too.
         if short_mm.is_nan() || short_mm > NEAR_MM {
             let why = format!(
                 "it came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"

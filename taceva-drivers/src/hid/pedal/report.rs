@@ -1,19 +1,19 @@
-//! Whether a report says that the pedal is held. Nothing here reads a device.
+//! Decoder of pedal reports. No I/O.
 
-/// Which bits of a report are the pedal's.
+/// Bits of a report that belong to the pedal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Bits {
-    /// The number of the report, which is its first byte; `None` where reports have none.
+    /// Report number, which is the first byte; `None` if reports are not numbered.
     pub(super) report: Option<u8>,
-    /// The byte, counted from 0 behind that number; `None` for any of them.
+    /// Index of the byte after that number, from 0; `None` for any byte.
     pub(super) byte: Option<usize>,
-    /// The bits of that byte.
+    /// Mask within the byte.
     pub(super) mask: u8,
 }
 
 impl Bits {
-    /// Whether a report says that the pedal is held: one of its bits is set. `None` for a report of something else, or one that is too short to
-    /// say it: a switch that is not understood is not held.
+    /// True if a report says that the pedal is held: one of its bits is set. `None` for another report number. A report that is too short
+    /// counts as released.
     pub(super) fn held(self, report: &[u8]) -> Option<bool> {
         let body = match self.report {
             Some(number) => match report {

@@ -1,4 +1,4 @@
-//! A pedal as an enabling switch.
+//! Enabling switch over a pedal.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,19 +15,20 @@ use crate::hid::selection::Selection;
 use crate::link::Mailbox;
 use crate::{OpenError, Selector};
 
-/// A pedal that is open: `hid/pedal:usb=0c45:7403`, or with `;byte=2` where not every bit of its reports is the pedal's.
+/// An open pedal: `hid/pedal:usb=0c45:7403`, or with `;byte=2` if other bits of its reports are unrelated.
 ///
 /// # The physical contract
-/// - It must be named by `usb`, `serial` or `device`: what a pedal is no device says of itself, and a mouse that moves must not count as one.
-/// - It is held while one of its bits is set in its reports; whoever watches it halts the robot once it is released, unplugged or not
-///   understood. Until its first report it counts as released: it is pressed after it was opened.
-/// - A pedal sends a report when it changes and is silent otherwise: one whose electronics died while it was held cannot be distinguished from one
-///   that is held. **It is no safety function**; the switch of the robot's own safety circuit is.
-/// - Pedals that act as keyboards go on typing their letter into whatever window is in front.
+/// - The device must be selected by `usb`, `serial` or `device`. Pedals do not identify themselves, and a moving mouse must not count as
+///   one.
+/// - The pedal is held while one of its bits is set. The watching code halts the robot once it is released, unplugged or not understood.
+///   Until its first report it counts as released, so press it after opening.
+/// - A pedal reports only changes, so a pedal whose electronics fail while it is held still counts as held. **It is no safety function**;
+///   the switch of the robot's own safety circuit is.
+/// - Pedals that act as keyboards keep typing their letter into the focused window.
 ///
 /// # What confirmed it
-/// Linux' own HID layer: a pedal made by `uhid` in a virtual machine (`taceva-wire`, test `kernel`). **Not verified without the device**: which
-/// bits a model sets.
+/// The HID layer of Linux: a pedal emulated by `uhid` in a virtual machine (`taceva-wire`, test `kernel`). **Not verified without the
+/// device**: the bits that a model sets.
 ///
 /// ```
 /// use taceva_core::EnablingSwitch;
@@ -47,10 +48,10 @@ pub struct Pedal {
 }
 
 impl Pedal {
-    /// The key of its driver.
+    /// Key of the driver.
     pub const KEY: DriverKey = KEY;
 
-    /// The arguments of a pedal, as they stand behind the colon of its selector.
+    /// Arguments of a pedal's selector.
     pub fn arguments() -> Vec<ArgSpec> {
         let mut arguments = Selection::arguments().to_vec();
         arguments.extend([
@@ -67,10 +68,10 @@ impl Pedal {
         arguments
     }
 
-    /// Opens the pedal that `selector` asks for.
+    /// Opens the pedal of `selector`.
     ///
     /// # Errors
-    /// [`OpenError`] for another driver than `hid/pedal`, for arguments that a pedal does not take, and for a device that does not open.
+    /// [`OpenError`] for another driver than `hid/pedal`, for invalid arguments, and for a device that does not open.
     pub fn open(selector: &Selector) -> Result<Pedal, OpenError> {
         let doing = "open the pedal";
         let failed = |kind, why: Box<dyn std::error::Error + Send + Sync>| {
@@ -122,7 +123,7 @@ impl Pedal {
 
 impl EnablingSwitch for Pedal {
     fn is_held(&self) -> Result<bool, DriverError> {
-        // Taken first: a release that comes behind it is seen by the next who asks, or below.
+        // Read first: a later release is seen below or by the next call.
         let was_released = self.was_released.swap(false, Ordering::AcqRel);
         match self.held.next(0, Duration::ZERO) {
             Ok(seen) => Ok(seen.what && !was_released),

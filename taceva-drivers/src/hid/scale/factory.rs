@@ -13,21 +13,21 @@ use crate::hid::selection::{Present, Selection};
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(ScaleFactory::new()?)));
 
-/// Opens scales on the USB that speak HID's page of weighing devices (Dymo, Mettler PS60 and their like): `hid/scale`.
+/// Opens USB scales with the HID usage page of weighing devices (Dymo, Mettler PS60 and similar): `hid/scale`.
 ///
 /// # The physical contract
-/// - What rests on the scale presses with its weight, times 9.80665 N a kilogram: Fz, above 0 where it presses. It measures nothing else.
-/// - It is for **recordings by hand** (`taceva capture`), where a person presses slowly: a scale filters, and sends some weights a second. `rate`
-///   says how many; by its usual 2 Hz a plan with a robot is refused, for nothing would stop the robot in time.
-/// - Opening and starting send nothing to it. A weight is stamped with the time at which its report came.
-/// - A scale that is overloaded is `OutOfRange`; one that lost its zero, wants to be calibrated or reports a fault is `DeviceFault`; one that
-///   was unplugged is `Disconnected`, and is opened anew.
-/// - Zero is the mean of what came within 0.25 s, taken off on this side; the scale's own key zeroes it too.
+/// - A load presses with its weight, 9.80665 N per kilogram: Fz, positive when pressing. No other component is measured.
+/// - Intended for **recordings by hand** (`taceva capture`), where a person presses slowly: a scale filters, and sends a few weights per
+///   second. `rate` states how many. At the default of 2 Hz a plan with a robot is rejected, since nothing would stop the robot in time.
+/// - Opening and starting send nothing. A weight is stamped with the arrival time of its report.
+/// - An overloaded scale is `OutOfRange`. A lost zero, a required calibration or a fault is `DeviceFault`. An unplugged scale is
+///   `Disconnected` and must be reopened.
+/// - Zero is the mean of the weights within 0.25 s, subtracted by the driver. The scale's own key zeroes it too.
 ///
 /// # What confirmed it
-/// Linux' own HID layer: a scale made by `uhid` in a virtual machine, on which the driver passes its suite (`taceva-wire`, test `kernel`). The
-/// numbers of states and units are those of HID's usage tables. **Not verified without the device**: how often a scale sends, how long it
-/// filters, whether it sends weights in other units than its display shows.
+/// The HID layer of Linux: the driver passes its suite on a scale emulated by `uhid` in a virtual machine (`taceva-wire`, test `kernel`).
+/// Numbers of states and units are from the HID usage tables. **Not verified without the device**: how often a scale sends, how long it
+/// filters, and whether it sends other units than it displays.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -42,10 +42,10 @@ pub struct ScaleFactory {
 }
 
 impl ScaleFactory {
-    /// The driver.
+    /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<ScaleFactory, DescriptorError> {
         let arguments = [ArgSpec::number("rate", 0.1, 20.0)
             .unit("Hz")
@@ -90,7 +90,7 @@ impl Factory<dyn ForceTransducer> for ScaleFactory {
     }
 
     fn discover(&self) -> Result<Vec<Found>, DriverError> {
-        // A machine without devices of this kind, or that does not list them, has none to find.
+        // A machine without HID devices, or without a list of them, has no scales.
         let present = Present::all().unwrap_or_default();
         let scales = present.iter().filter(|present| present.has_usage(SCALE));
         Ok(scales.map(|scale| scale.found(KEY)).collect())

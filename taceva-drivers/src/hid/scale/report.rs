@@ -1,34 +1,34 @@
-//! What a scale says, as the usage page 0x8D of HID ("weighing devices") has it. Nothing here reads a device.
+//! Decoder of scale reports, HID usage page 0x8D ("weighing devices"). No I/O.
 
 use taceva_core::ErrorKind;
 use thiserror::Error;
 
-/// The number of the report that holds a weight: `03 status unit exponent low high`.
+/// Number of the weight report: `03 status unit exponent low high`.
 const WEIGHT_REPORT: u8 = 3;
-/// A weight is never written with more zeros.
+/// Maximum absolute exponent.
 const EXPONENT_MAX: i8 = 9;
-/// N a kilogram: the standard acceleration of free fall, by which scales are adjusted but for their place, up to 0.3 %.
+/// Standard gravity, N/kg. Scales are adjusted to it, except for local differences of up to 0.3 %.
 const N_KG: f64 = 9.806_65;
 const KG_G: f64 = 1e-3;
-/// Grams of the international pound, and of an ounce.
+/// Grams per international pound, and per ounce.
 const G_POUND: f64 = 453.592_37;
 const G_OUNCE: f64 = G_POUND / 16.0;
 
-/// A weight that a scale vouches for.
+/// A valid weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Weight {
-    /// Below 0 where something pulls.
+    /// Mass, g; negative under tension.
     pub(super) grams: f64,
 }
 
 impl Weight {
-    /// The force with which it rests on the scale, in N.
+    /// Force on the scale, N.
     pub(super) fn newtons(self) -> f64 {
         self.grams * KG_G * N_KG
     }
 }
 
-/// Why a report holds no weight that counts.
+/// Cause for a report without a valid weight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub(super) enum WeightError {
     #[error("the scale reports a fault")]
@@ -52,7 +52,7 @@ pub(super) enum WeightError {
 }
 
 impl WeightError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(super) fn kind(self) -> ErrorKind {
         match self {
             WeightError::Overloaded => ErrorKind::OutOfRange,
@@ -67,7 +67,7 @@ impl WeightError {
     }
 }
 
-/// The weight in a report; `None` for a report of something else.
+/// Parses a report; `None` for another report number.
 pub(super) fn read(report: &[u8]) -> Option<Result<Weight, WeightError>> {
     match *report {
         [WEIGHT_REPORT, status, unit, exponent, low, high, ..] => {
@@ -80,7 +80,7 @@ pub(super) fn read(report: &[u8]) -> Option<Result<Weight, WeightError>> {
 }
 
 fn weight(status: u8, unit: u8, exponent: i8, count: u16) -> Result<Weight, WeightError> {
-    // The sign stands in the status alone.
+    // Only the status contains the sign.
     let sign = match status {
         1 => return Err(WeightError::Fault),
         // At zero, in motion, at rest.
@@ -103,7 +103,7 @@ fn weight(status: u8, unit: u8, exponent: i8, count: u16) -> Result<Weight, Weig
         return Err(WeightError::Exponent(exponent));
     }
     let count = f64::from(count);
-    // Divided, so that 12.4 is the number that people write.
+    // Division gives the nearest number to a decimal such as 12.4.
     let scaled = match exponent {
         0.. => count * 10_f64.powi(i32::from(exponent)),
         _ => count / 10_f64.powi(-i32::from(exponent)),
@@ -153,7 +153,7 @@ mod tests {
     fn reports_of_something_else_and_noise_are_passed_over() {
         assert_eq!(read(&[]), None);
         assert_eq!(read(&[1, 4, 2, 0, 124, 0]), None);
-        // Every report of up to seven bytes with each first four: never a panic, never a number that is none.
+        // All reports of up to seven bytes with each first four: never a panic, never NaN.
         for seed in 0_u64..200_000 {
             let mixed = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29) ^ seed;
             let bytes = mixed.to_le_bytes();

@@ -1,4 +1,4 @@
-//! A scale as a force transducer.
+//! Force transducer over a scale.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,17 +14,17 @@ use crate::hid::selection::Selection;
 use crate::link::Mailbox;
 use crate::zero::{HostZero, READ};
 
-/// The usage of a scale, by its page.
+/// Usage page and usage of a scale.
 pub(super) const SCALE: (u16, u16) = (0x8d, 0x20);
 
-/// A scale that is open.
+/// An open scale.
 #[derive(Debug)]
 pub(super) struct Transducer {
     weights: Arc<Mailbox<Result<Weight, WeightError>>>,
     _listener: Listener,
     zero: HostZero,
     is_running: bool,
-    /// The number of the last weight that was given.
+    /// Mailbox number of the last weight returned.
     last: u64,
 }
 
@@ -37,7 +37,7 @@ fn failed(
 }
 
 impl Transducer {
-    /// Opens the scale that is selected; nothing is sent to it.
+    /// Opens the selected scale. Sends nothing to it.
     pub(super) fn open(
         selection: &Selection,
         force_max_n: Option<f64>,
@@ -58,7 +58,7 @@ impl Transducer {
         })
     }
 
-    /// The next load, and when it was heard of.
+    /// Waits for the next load; also returns its arrival time.
     fn next(&mut self, patience: Duration) -> Result<(Wrench, Duration), DriverError> {
         if !self.is_running {
             return Err(failed(

@@ -22,10 +22,10 @@ pub struct ReplayFactory {
 }
 
 impl ReplayFactory {
-    /// The driver.
+    /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<ReplayFactory, DescriptorError> {
         let arguments = [
             ArgSpec::path("folder").help("the folder of the frames, PNG or JPEG"),

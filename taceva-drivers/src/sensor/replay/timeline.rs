@@ -1,9 +1,9 @@
-//! When each frame of a recording comes, round after round.
+//! Due times of a recording's frames, over all rounds.
 
-/// The times of a recording's frames, shifted, and repeated if it begins again. Frames are counted through all rounds.
+/// Frame times of a recording, shifted, and repeated if it restarts. Frames are numbered over all rounds.
 #[derive(Debug)]
 pub(super) struct Timeline {
-    /// At least one, strictly increasing.
+    /// Times of one round, s: at least one, strictly increasing.
     times_s: Vec<f64>,
     repeat: bool,
     shift_s: f64,
@@ -18,17 +18,17 @@ impl Timeline {
         }
     }
 
-    /// Moves every frame by `by_s`.
+    /// Shifts all frames by `by_s`.
     pub(super) fn shift(&mut self, by_s: f64) {
         self.shift_s += by_s;
     }
 
-    /// Where in the recording the frame counted `frame` stands.
+    /// Position within the recording of frame number `frame`.
     pub(super) fn position(&self, frame: usize) -> usize {
         frame % self.times_s.len()
     }
 
-    /// When the frame counted `frame` comes; `None` after the end.
+    /// Due time of frame number `frame`, s; `None` after the end.
     pub(super) fn time_s(&self, frame: usize) -> Option<f64> {
         let round = frame / self.times_s.len();
         #[expect(
@@ -39,7 +39,7 @@ impl Timeline {
         (self.repeat || round == 0).then(|| begins_s + self.times_s[self.position(frame)])
     }
 
-    /// The newest frame that has come by `now_s`, or the first if none has.
+    /// Number of the newest frame that is due by `now_s`, or of the first if none is.
     pub(super) fn newest(&self, now_s: f64) -> usize {
         let frames = self.times_s.len();
         let elapsed_s = now_s - self.shift_s - self.times_s[0];
@@ -60,7 +60,7 @@ impl Timeline {
             .saturating_add(come.saturating_sub(1))
     }
 
-    /// How long the recording lasts: its last frame as long as the one before, a single frame a second.
+    /// Duration of a round, s. The last frame lasts as long as the one before; a single frame lasts 1 s.
     fn round_s(&self) -> f64 {
         match self.times_s.as_slice() {
             [first, .., before, last] => (last - first) + (last - before),

@@ -1,4 +1,4 @@
-//! The connection to a box: commands out, answers and readings in, with a thread of its own that reads.
+//! Connection to a box: writes commands; a separate thread reads answers and readings.
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -15,7 +15,7 @@ use super::frame::{Message, Messages, Reading};
 use crate::link::{LinkError, Mailbox, connect, monotonic};
 use crate::text::shown;
 
-/// Why a command had no effect.
+/// Failure of a command.
 #[derive(Debug, Error)]
 pub(super) enum CommandError {
     #[error(transparent)]
@@ -27,7 +27,7 @@ pub(super) enum CommandError {
 }
 
 impl CommandError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             CommandError::Link(error) => error.kind(),
@@ -37,7 +37,7 @@ impl CommandError {
     }
 }
 
-/// A box that is connected.
+/// Link to a connected box.
 #[derive(Debug)]
 pub(super) struct BoxLink {
     stream: TcpStream,
@@ -47,17 +47,17 @@ pub(super) struct BoxLink {
     reader: Option<JoinHandle<()>>,
 }
 
-/// A reading with what went wrong on the way until it came.
+/// A reading with the counts of losses so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Counted {
     pub(super) reading: Reading,
-    /// Frames that are missing so far, by the numbers of those that came.
+    /// Frames lost so far, by their numbers.
     pub(super) missing: u64,
-    /// Bytes so far that were no message.
+    /// Bytes skipped so far because they were no message.
     pub(super) lost_bytes: u64,
 }
 
-/// What the writing of a command may take before the box counts as gone.
+/// Timeout for writing a command.
 const WRITING: Duration = Duration::from_millis(500);
 
 impl BoxLink {
@@ -86,12 +86,12 @@ impl BoxLink {
         })
     }
 
-    /// The readings that come.
+    /// Mailbox of the readings.
     pub(super) fn readings(&self) -> &Arc<Mailbox<Counted>> {
         &self.readings
     }
 
-    /// Sends `command`, and waits for nothing.
+    /// Sends `command` without waiting.
     pub(super) fn send(&mut self, command: Command) -> Result<(), LinkError> {
         let address = self.address;
         self.stream
@@ -99,14 +99,14 @@ impl BoxLink {
             .map_err(|source| LinkError::Broken { address, source })
     }
 
-    /// Sends `command` and waits until the box has said yes.
+    /// Sends `command` and waits for a positive answer.
     pub(super) fn command(
         &mut self,
         command: Command,
         patience: Duration,
     ) -> Result<(), CommandError> {
         let began = Instant::now();
-        // Answers to earlier commands say nothing of this one.
+        // Discard answers to earlier commands.
         while self.lines.try_recv().is_ok() {}
         self.send(command)?;
         loop {
@@ -134,7 +134,7 @@ impl BoxLink {
 impl Drop for BoxLink {
     fn drop(&mut self) {
         let _ = self.send(Command::Stop);
-        // The thread that reads ends with the stream.
+        // The shutdown ends the reader thread.
         let _ = self.stream.shutdown(Shutdown::Both);
         if let Some(reader) = self.reader.take() {
             let _ = reader.join();
@@ -142,7 +142,7 @@ impl Drop for BoxLink {
     }
 }
 
-/// Hands over what comes until nothing can come any more, and says why.
+/// Posts readings and sends answers until the connection ends, and returns the reason.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,
@@ -165,11 +165,11 @@ fn read(
         while let Some(message) = messages.next() {
             match message {
                 Message::Line(line) => {
-                    // A stream that begins anew counts from where it likes.
+                    // A restarted stream begins with any number.
                     last = None;
                     let _ = lines.send(line);
                 }
-                // A frame that comes twice is no new reading.
+                // A duplicate frame is ignored.
                 Message::Reading(reading) if last == Some(reading.number) => {}
                 Message::Reading(reading) => {
                     if let Some(last) = last {

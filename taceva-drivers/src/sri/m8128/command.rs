@@ -1,28 +1,28 @@
-//! Commands of the box: text with `AT+` before it. Nothing here reads or writes a socket.
+//! Commands of the box: text with the prefix `AT+`. No I/O.
 
 use super::frame::Check;
 
-/// What the box can be asked.
+/// Command to the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Command {
-    /// To send so many readings a second.
+    /// Set the rate, Hz.
     Rate(u16),
-    /// The same for older boxes.
+    /// Set the rate, Hz, on older boxes.
     OldRate(u16),
-    /// How frames are checked.
+    /// Set the checksum of frames.
     Check(Check),
-    /// To send the six channels in engineering units, one reading a frame, not smoothed.
+    /// Send six channels in engineering units, one reading per frame, without smoothing.
     Units,
-    /// To begin to send.
+    /// Start sending.
     Start,
-    /// To end that.
+    /// Stop sending.
     Stop,
-    /// To call the present load zero.
+    /// Set the current load to zero.
     Zero,
 }
 
 impl Command {
-    /// The command as it is sent.
+    /// Encodes the command as a line.
     pub(super) fn line(self) -> String {
         let text = match self {
             Command::Rate(hz) => format!("SMPF={hz}"),
@@ -37,7 +37,7 @@ impl Command {
         format!("AT+{text}\r\n")
     }
 
-    /// The word that its answer repeats.
+    /// Word that the answer repeats.
     fn word(self) -> &'static str {
         match self {
             Command::Rate(_) => "SMPF",
@@ -49,7 +49,7 @@ impl Command {
         }
     }
 
-    /// Whether `line` answers it, and if so, whether with yes.
+    /// True for a positive answer in `line`, false for a negative one; `None` if it answers another command.
     pub(super) fn answered_by(self, line: &str) -> Option<bool> {
         let answer = line.strip_prefix("ACK+")?.strip_prefix(self.word())?;
         let is_whole_word = answer

@@ -14,21 +14,22 @@ use crate::arguments::optional_number;
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 
-/// Opens interface boxes M8128 (and siblings with the same commands) of SRI: `sri/m8128:host=192.168.0.108`.
+/// Opens interface boxes M8128 of SRI, and others with the same commands: `sri/m8128:host=192.168.0.108`.
 ///
 /// # The physical contract
-/// - Forces and torques are those of the transducer's own axes, in N and N·mm, as its certificate has them; which of them presses into the
-///   gel is a matter of how it is mounted, and of the rig.
-/// - Opening changes nothing in the box; starting sets rate, check and units, and lets it send.
-/// - A reading is the newest that came. Frames are checked by their sum (`check=crc32`: by CRC32, with the polynomial of zlib) and their number: a
-///   damaged or repeated one is no reading; where the place is lost, two frames with numbers in order are needed to find it. A number that is none is a `DeviceFault` of that reading.
-/// - Zero is the mean of 0.25 s, taken off on this side; `zero=box` lets the box do it, which takes seconds.
-/// - `force_max_n` from the certificate makes a clipped force an error; without it none is known.
+/// - Forces and torques are in the transducer's own axes, in N and N·mm, as in its certificate. The axis that presses into the gel depends
+///   on the mounting in the rig.
+/// - Opening changes nothing in the box. Starting sets rate, checksum and units, and starts the readings.
+/// - A reading is the newest frame received. Frames are checked by their checksum (`check=crc32`: CRC32 with the polynomial of zlib) and
+///   their number. Damaged and repeated frames are dropped. After a loss of synchronisation, two frames with consecutive numbers restore
+///   it. A value that is not finite is a `DeviceFault` of that reading.
+/// - Zero is the mean of 0.25 s, subtracted by the driver. With `zero=box` the box zeroes itself, which takes seconds.
+/// - `force_max_n` from the certificate makes a clipped force an error. Without it, clipping goes undetected.
 ///
 /// # What confirmed it
-/// Two published frames, whose numbers and sums are a test here, and an emulated box on which the driver passes its suite; there is no public
-/// client. **Not verified without the device**: the answer to a stop, zero in the box, the unit of torque (N·m unless `torque=N mm`), and
-/// frames with CRC32, whose polynomial and order of bytes one public driver alone tells.
+/// Two published frames, whose values and checksums are tested, and an emulated box on which the driver passes its suite. There is no
+/// public client. **Not verified without the device**: the answer to a stop, zero in the box, the unit of torque (N·m unless `torque=N
+/// mm`), and frames with CRC32. The CRC's polynomial and byte order come from a single public driver.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -44,14 +45,14 @@ pub struct M8128Factory {
     descriptor: Descriptor,
 }
 
-/// The unit of torque of the box, as the argument names it, and N·mm of it.
+/// Torque units of the box, by argument value, each with its value in N·mm.
 const TORQUES: [(&str, f64); 2] = [("N m", 1000.0), ("N mm", 1.0)];
 
 impl M8128Factory {
-    /// The driver.
+    /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<M8128Factory, DescriptorError> {
         let arguments = [
             ArgSpec::text("host").help("name or address of the box"),
@@ -125,7 +126,7 @@ fn options(args: &Args) -> M8128Options {
     }
 }
 
-/// The nearest whole number of Hz.
+/// Rounds to whole Hz.
 fn whole(rate_hz: f64) -> u16 {
     #[expect(
         clippy::cast_possible_truncation,

@@ -1,52 +1,52 @@
-//! What the box sends: numbered frames of six numbers, and lines that answer commands, in one stream. Nothing here reads a socket.
+//! Decoder of the box's stream: numbered frames of six values, and lines that answer commands. No I/O.
 
 /// One message of the box.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Message {
     /// A reading.
     Reading(Reading),
-    /// The answer to a command, without the end of the line.
+    /// Answer to a command, without the line end.
     Line(String),
 }
 
-/// Six numbers, as they came.
+/// Reading of six raw values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reading {
-    /// Counts up by one a frame, and begins again behind 65535.
+    /// Sequence number, increased by one per frame, wrapping after 65535.
     pub(super) number: u16,
-    /// Fx, Fy, Fz, then Mx, My, Mz, in the units of the box; not checked to be numbers.
+    /// Fx, Fy, Fz, Mx, My, Mz, in the units of the box; may contain NaN.
     pub(super) values: [f32; 6],
 }
 
-/// Cuts what comes, in pieces of any size, into messages, and finds its place again where bytes were lost.
+/// Splits bytes that arrive in pieces of any size into messages, and resynchronises after lost bytes.
 #[derive(Debug, Default)]
 pub(super) struct Messages {
     waiting: Vec<u8>,
-    /// Whether the last message was whole, so that the next begins where it ended.
+    /// True if the last message was complete, so that the next begins at its end.
     is_in_place: bool,
-    /// Bytes that were passed over because they were no message.
+    /// Bytes skipped because they were no message.
     lost: u64,
 }
 
 const MARK: [u8; 2] = [0xaa, 0x55];
-/// Bytes of six numbers.
+/// Size of the six values, bytes.
 const DATA: usize = 24;
-/// Mark, length and number stand before the numbers.
+/// Size of the head, bytes: mark, length and number.
 const HEAD: usize = 6;
-/// How the numbers are checked, which the length of a frame tells.
+/// Supported checksums. The length of a frame tells which is used.
 const CHECKS: [Check; 2] = [Check::Sum, Check::Crc32];
 
-/// What stands behind the numbers of a frame.
+/// Checksum after the values of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Check {
-    /// The sum of their bytes, which misses two that changed places.
+    /// Sum of the bytes, which misses swapped bytes.
     Sum,
-    /// CRC-32 with the polynomial of zlib, the low byte first.
+    /// CRC-32 with the polynomial of zlib, little-endian.
     Crc32,
 }
 
 impl Check {
-    /// Its bytes.
+    /// Size of the checksum, bytes.
     const fn length(self) -> usize {
         match self {
             Check::Sum => 1,
@@ -54,18 +54,18 @@ impl Check {
         }
     }
 
-    /// The bytes of a whole frame with one reading.
+    /// Size of a complete frame with one reading, bytes.
     const fn frame(self) -> usize {
         HEAD + DATA + self.length()
     }
 
-    /// What the length says of such a frame: number, numbers and check.
+    /// Length field of such a frame, which covers number, values and checksum.
     fn stated(self) -> [u8; 2] {
         let length = u16::try_from(self.frame() - 4).expect("a length of two bytes");
         length.to_be_bytes()
     }
 
-    /// Whether `check` is that of `data`.
+    /// True if `check` is the checksum of `data`.
     fn holds(self, data: &[u8], check: &[u8]) -> bool {
         match self {
             Check::Sum => check == [data.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte))],
@@ -73,33 +73,33 @@ impl Check {
         }
     }
 }
-/// How answers to commands begin.
+/// Prefix of answers to commands.
 const ANSWER: &[u8] = b"ACK+";
-/// A longer line is none.
+/// Maximum length of a line, bytes.
 const LINE_MAX: usize = 512;
 
-/// What stands at the beginning of some bytes.
+/// Classification of the first bytes of a buffer.
 enum Start {
-    /// A message, and how long it is.
+    /// A complete message and its length in bytes.
     Whole(Message, usize),
-    /// The beginning of one.
+    /// An incomplete message.
     Unfinished,
-    /// Something else.
+    /// No message.
     Foreign,
 }
 
 impl Messages {
-    /// Takes bytes that came.
+    /// Appends received bytes.
     pub(super) fn push(&mut self, bytes: &[u8]) {
         self.waiting.extend_from_slice(bytes);
     }
 
-    /// How many bytes were no message, so far.
+    /// Number of bytes skipped so far.
     pub(super) fn lost(&self) -> u64 {
         self.lost
     }
 
-    /// The next whole message, if it has come.
+    /// Returns the next complete message; `None` until it has arrived.
     pub(super) fn next(&mut self) -> Option<Message> {
         let mut at = 0;
         let found = loop {
@@ -109,7 +109,7 @@ impl Messages {
                     self.is_in_place = true;
                     break Some(message);
                 }
-                // Two frames are needed, and the second has not come.
+                // Two frames are needed, and the second has not arrived.
                 Start::Whole(_, length) if self.waiting.len() < at + 2 * length => break None,
                 Start::Unfinished => break None,
                 Start::Whole(..) | Start::Foreign => {
@@ -123,8 +123,8 @@ impl Messages {
         found
     }
 
-    /// Whether `message`, which ends at `end`, is one: where the place was lost, a frame that the next one continues, since its mark and even
-    /// its check may stand by chance within the numbers of another.
+    /// True if `message`, which ends at `end`, can be trusted. Out of sync, a frame counts only if the next frame continues its number:
+    /// mark and checksum can occur by chance within other values.
     fn is_trusted(&self, message: &Message, end: usize) -> bool {
         let Message::Reading(reading) = message else {
             return true;
@@ -182,7 +182,7 @@ fn start_of(bytes: &[u8]) -> Start {
     Start::Whole(Message::Reading(Reading { number, values }), frame.len())
 }
 
-/// Whether `bytes` begin as `head` does, as far as they go.
+/// True if `bytes` match the front of `head` as far as both go.
 fn begins(bytes: &[u8], head: &[u8]) -> bool {
     let length = bytes.len().min(head.len());
     bytes[..length] == head[..length]
@@ -193,7 +193,7 @@ mod tests {
     use super::*;
     use crate::link::hexadecimal;
 
-    /// The frame in the manual's own example.
+    /// Frame of the example in the manual.
     const GOLDEN: &str = "AA55 001B C4C7 016AF4C0 EF7D33C0 4962C9C0 A25CC6BD A6198FBD AFDA693E 6E";
 
     fn frame(number: u16, values: [f32; 6]) -> Vec<u8> {
@@ -203,7 +203,7 @@ mod tests {
         [&head[..], &number.to_be_bytes()[..], &data[..], &[sum][..]].concat()
     }
 
-    /// The same frame with a check of four bytes.
+    /// The same frame with a checksum of four bytes.
     fn frame_crc32(number: u16, values: [f32; 6]) -> Vec<u8> {
         let mut frame = frame(number, values);
         frame.pop();
@@ -215,7 +215,7 @@ mod tests {
     #[test]
     fn frames_with_crc32_are_read_beside_those_with_a_sum_and_two_bytes_that_changed_places_are_noticed()
      {
-        // The check value of this CRC, as everybody publishes it.
+        // Published check value of this CRC.
         assert!(Check::Crc32.holds(b"123456789", &[0x26, 0x39, 0xf4, 0xcb]));
         let whole = [
             frame_crc32(8, [1.0; 6]),
@@ -307,7 +307,7 @@ mod tests {
         }
     }
 
-    /// Numbers whose bytes hold a whole head of a frame.
+    /// Values whose bytes contain a complete frame head.
     fn treacherous() -> [f32; 6] {
         let head = f32::from_le_bytes([0xaa, 0x55, 0x00, 0x1b]);
         [head, 0.5, head, -0.5, head, 0.25]
@@ -337,7 +337,7 @@ mod tests {
         messages.push(&stream);
         assert_eq!(numbers(&all(&mut messages)), [0, 1, 3, 4, 5]);
         assert_eq!(messages.lost(), 31);
-        // Bytes between two frames, and a frame that is cut off.
+        // Bytes between two frames, and a truncated frame.
         let torn = [
             frame(6, [0.0; 6]),
             b"noise".to_vec(),

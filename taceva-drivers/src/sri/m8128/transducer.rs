@@ -1,4 +1,4 @@
-//! The box as a force transducer.
+//! Force transducer over an SRI box.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,48 +15,48 @@ use super::frame::{Check, Reading};
 use crate::link::Seen;
 use crate::zero::{HostZero, READ, ZERO};
 
-/// How a box is read.
+/// Options of a box.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct M8128Options {
     pub(super) host: String,
     pub(super) port: u16,
     pub(super) rate_hz: u16,
     pub(super) check: Check,
-    /// What it measures is clipped at this force, in N.
+    /// Measuring range, N; `None` if unknown.
     pub(super) force_max_n: Option<f64>,
-    /// N·mm a unit of torque of the box.
+    /// Value of the box's torque unit, N·mm.
     pub(super) torque_unit_nmm: f64,
     pub(super) zero: Zero,
 }
 
-/// Who calls a load zero.
+/// Place of the zeroing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Zero {
-    /// This program, by the mean of some readings.
+    /// The driver, by the mean of some readings.
     Host,
     /// The box, which must not send meanwhile.
     Box,
 }
 
-/// A transducer that is connected.
+/// A connected transducer.
 #[derive(Debug)]
 pub(super) struct Transducer {
     link: BoxLink,
     options: M8128Options,
-    /// What is taken off every reading.
+    /// Zero offset, subtracted from every reading.
     zero: HostZero,
     is_running: bool,
-    /// The number that the box gave the last reading.
+    /// Sequence number of the last reading.
     sequence: Option<u64>,
-    /// The number of the last reading that was given.
+    /// Mailbox number of the last reading returned.
     last: u64,
 }
 
-/// How long the box may take to answer a command.
+/// Timeout for an answer.
 const ANSWER: Duration = Duration::from_millis(800);
-/// How long it is waited for the answer to a stop, which not every box gives.
+/// Timeout for the answer to a stop, which some boxes omit.
 const STOPPED: Duration = Duration::from_millis(150);
-/// How long the box may take to find its zero.
+/// Timeout for zeroing in the box.
 const ZEROED: Duration = Duration::from_secs(4);
 
 fn failed(
@@ -68,7 +68,7 @@ fn failed(
 }
 
 impl Transducer {
-    /// Connects to a box; nothing of its settings changes until it is started.
+    /// Connects to a box. Its settings change only at the start.
     pub(super) fn open(options: M8128Options) -> Result<Transducer, DriverError> {
         let link = BoxLink::open(&options.host, options.port)
             .map_err(|error| failed(error.kind(), "connect to the box", error))?;
@@ -82,7 +82,7 @@ impl Transducer {
         })
     }
 
-    /// Tells the box to send nothing; whether it confirms is not the same for all.
+    /// Stops the readings. Not every box confirms this.
     fn fall_silent(&mut self) -> Result<(), CommandError> {
         self.is_running = false;
         match self.link.command(Command::Stop, STOPPED) {
@@ -125,7 +125,7 @@ impl Transducer {
         Ok(seen)
     }
 
-    /// What was lost on the way so far, in words; nothing on a link that is well.
+    /// Describes losses so far; empty if there are none.
     fn losses(&self) -> String {
         match self.link.readings().newest().map(|seen| seen.what) {
             Some(Counted {
@@ -139,7 +139,7 @@ impl Transducer {
         }
     }
 
-    /// What a reading says in our units, the zero of the box in it.
+    /// Converts a reading to N and N·mm, including the zero offset of the box.
     fn wrench(&self, reading: &Reading) -> Result<Wrench, DriverError> {
         let [fx, fy, fz, mx, my, mz] = reading.values.map(f64::from);
         let unit = self.options.torque_unit_nmm;
@@ -217,7 +217,7 @@ impl Transducer {
     fn zero_in_box(&mut self, deadline: Deadline) -> Result<(), DriverError> {
         let refused = |error: CommandError| failed(error.kind(), ZERO, error);
         let was_running = self.is_running;
-        // While it sends, its answer is lost among readings.
+        // During sending, the answer would be lost among readings.
         self.fall_silent().map_err(refused)?;
         let patience = deadline.remaining().min(ZEROED);
         let zeroed = self.link.command(Command::Zero, patience);

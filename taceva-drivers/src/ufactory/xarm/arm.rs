@@ -1,4 +1,4 @@
-//! The arm as a robot.
+//! Robot over an xArm controller.
 
 use std::sync::Arc;
 
@@ -20,21 +20,21 @@ use super::stop::{Keeper, Place, Stop};
 use crate::link::monotonic;
 use crate::link::watch::{LOOK, ReportedPose};
 
-/// An arm that is connected.
+/// A connected arm.
 #[derive(Debug)]
 pub(super) struct Arm {
-    /// Ends before the connections that it uses.
+    /// Dropped before the connections that it uses.
     keeper: Keeper,
     pub(super) exchange: Exchange,
     pub(super) observer: Observer,
     pub(super) options: XarmOptions,
 }
 
-/// Commands of firmware that is not known yet: only those that never changed are sent.
+/// Unknown firmware, for which only commands that never changed are sent.
 const UNKNOWN: Firmware = Firmware::new(0, 0, 0);
 
 impl Arm {
-    /// Connects to an arm; nothing moves, and nothing of its state changes.
+    /// Connects to an arm. Nothing moves and no state changes.
     pub(super) fn open(options: XarmOptions) -> Result<Arm, DriverError> {
         let doing = "connect to the arm";
         let XarmOptions { host, port, .. } = &options;
@@ -69,7 +69,7 @@ impl Arm {
         self.keeper.stop()
     }
 
-    /// Makes a controller that was stopped by this driver stand by again, unless a person must see to it first.
+    /// Makes a controller that this driver stopped ready again, unless it has an error that needs a person.
     pub(super) fn stand_by(&mut self, doing: &'static str) -> Result<(), DriverError> {
         if let Some(fault) = error_now(&mut self.exchange).map_err(unanswered(doing))? {
             return Err(fault.met(doing));
@@ -80,7 +80,7 @@ impl Arm {
         self.take(Mode::Position, doing)
     }
 
-    /// Lets a motion to `target` through that may be made.
+    /// Checks that a motion to `target` is within the limits.
     pub(super) fn admit(&self, target: &Pose, speed: Speed) -> Result<(), DriverError> {
         let doing = "move the arm";
         check_pose(target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
@@ -101,7 +101,7 @@ impl Arm {
         Ok(())
     }
 
-    /// Makes the controller take motions of this kind. What moves is stopped by that.
+    /// Sets the motion mode and makes the controller ready, which stops any motion.
     pub(super) fn take(&mut self, mode: Mode, doing: &'static str) -> Result<(), DriverError> {
         let ready = [
             Command::SetMode(mode),
@@ -123,7 +123,7 @@ impl Arm {
         self.see_ready(mode)
     }
 
-    /// Waits for a report that says so too: those of before say that it is stopped.
+    /// Waits for a report of the ready state, since earlier reports still show the stop.
     fn see_ready(&mut self, mode: Mode) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         let mut last = self.observer.observe(&mut self.exchange, None, ANSWER)?;
@@ -137,14 +137,14 @@ impl Arm {
     }
 }
 
-/// The pose of a report, if it is one.
+/// Pose of a report; an error if it has values that are not finite.
 fn reported_pose(report: &ArmReport) -> Result<Pose, DriverError> {
     let pose = pose_of(report.pose);
     check_pose(&pose).map_err(|error| failed(ErrorKind::DeviceFault, LOOK, error))?;
     Ok(pose)
 }
 
-/// Ready, moving and paused are 0 to 3; what is above wants to be made ready.
+/// Highest state without a stop: ready, moving and paused are 0 to 3.
 const LAST_GOOD_STATE: u8 = 3;
 
 impl Robot for Arm {
@@ -189,7 +189,7 @@ impl Robot for Arm {
     }
 
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
-        // First, so that a halt which comes meanwhile stays.
+        // Release first, so that a concurrent halt is kept.
         self.stopping().release();
         self.stand_by("end the halt")
     }

@@ -1,63 +1,63 @@
-//! The requests that are used, and what their answers say. Nothing here reads or writes a socket.
+//! Encoding of the used requests and decoding of their answers. No I/O.
 
 use super::firmware::Firmware;
 use super::frame::{Reply, Request};
 
-/// What the controller can be asked to do, or to say.
+/// Command or query to the controller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Command {
-    /// Which controller it is.
+    /// Query the firmware version.
     GetVersion,
-    /// To stand by: to become ready, or to stop.
+    /// Become ready, or stop.
     SetState(TargetState),
-    /// What it does.
+    /// Query the state.
     GetState,
-    /// How many motions wait.
+    /// Query the number of queued motions.
     GetQueued,
-    /// Which error and warning it has.
+    /// Query error and warning.
     GetError,
-    /// To take positions, one after the other, or velocities.
+    /// Set the motion mode.
     SetMode(Mode),
-    /// Where the tip is.
+    /// Query the pose of the tip.
     GetPose,
-    /// To move in a straight line.
+    /// Move in a straight line.
     MoveLine(MoveLine),
-    /// To move with a velocity that expires.
+    /// Move at a velocity that expires.
     MoveVelocity(MoveVelocity),
 }
 
-/// How it takes motions.
+/// Motion mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mode {
-    /// Positions, one after the other.
+    /// Queued positions.
     Position = 0,
     /// Velocities of the tip.
     Velocity = 5,
 }
 
-/// The states that it can be asked to take.
+/// Target state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TargetState {
     /// Ready for motions.
     Ready = 0,
-    /// Stopped, with nothing waiting.
+    /// Stopped, with an empty queue.
     Stopped = 4,
 }
 
 /// A straight motion of the tip in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MoveLine {
-    /// x, y, z in mm, roll, pitch, yaw in rad: all six, since a number that is left out stands for one that only the controller knows.
+    /// x, y, z in mm, roll, pitch, yaw in rad. All six are sent, since the controller replaces an omitted number by one of its own.
     pub(super) pose: [f32; 6],
     pub(super) speed_mm_s: f32,
     pub(super) acceleration_mm_s2: f32,
 }
 
-/// A velocity of the tip in the base frame, without turning.
+/// Velocity of the tip in the base frame, without rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MoveVelocity {
     pub(super) velocity_mm_s: [f32; 3],
-    /// After so long without another the controller stops.
+    /// Time without renewal after which the controller stops, s.
     pub(super) duration_s: f32,
 }
 
@@ -71,11 +71,11 @@ const MOVE_LINE: u8 = 21;
 const GET_POSE: u8 = 41;
 const MOVE_VELOCITY: u8 = 82;
 
-/// No radius by which one line would be blended into the next.
+/// Value for no blending of consecutive lines.
 const NO_BLENDING: f32 = -1.0;
 
 impl Command {
-    /// The request that a controller of `firmware` understands.
+    /// Encodes the command for a controller with `firmware`.
     pub(super) fn request(self, firmware: Firmware) -> Request {
         let (register, parameters) = match self {
             Command::GetVersion => (GET_VERSION, Vec::new()),
@@ -97,7 +97,7 @@ impl Command {
         }
     }
 
-    /// How it is called in messages.
+    /// Name of the command in messages.
     pub(super) fn name(self) -> &'static str {
         match self {
             Command::GetVersion => "the question for its version",
@@ -120,7 +120,7 @@ impl MoveVelocity {
         let turning = [0.0; 3];
         let numbers = [x, y, z].into_iter().chain(turning);
         let mut bytes: Vec<u8> = numbers.flat_map(f32::to_le_bytes).collect();
-        // In the base frame.
+        // Base frame.
         bytes.push(0);
         bytes.extend(self.duration_s.to_le_bytes());
         bytes
@@ -145,21 +145,21 @@ impl MoveLine {
         let mut bytes: Vec<u8> = numbers.into_iter().flat_map(f32::to_le_bytes).collect();
         if firmware.takes_long_lines() {
             bytes.extend(NO_BLENDING.to_le_bytes());
-            // In the base frame, with roll, pitch and yaw, to be moved and not only checked.
+            // Base frame; roll, pitch and yaw; move instead of only checking.
             bytes.extend([0, 0, 0]);
         }
         bytes
     }
 }
 
-/// What an answer says.
+/// Contents of answers.
 impl Reply {
-    /// The byte of state.
+    /// State; `None` if the answer is too short.
     pub(super) fn state(&self) -> Option<u8> {
         self.parameters.first().copied()
     }
 
-    /// How many motions wait.
+    /// Number of queued motions.
     pub(super) fn queued(&self) -> Option<u16> {
         self.parameters
             .first_chunk()
@@ -167,24 +167,24 @@ impl Reply {
             .map(u16::from_be_bytes)
     }
 
-    /// Error and warning.
+    /// Error and warning codes.
     pub(super) fn codes(&self) -> Option<[u8; 2]> {
         self.parameters.first_chunk().copied()
     }
 
-    /// Six numbers of a pose: mm and rad.
+    /// Pose: x, y, z in mm and roll, pitch, yaw in rad.
     pub(super) fn pose(&self) -> Option<[f32; 6]> {
         floats(&self.parameters)
     }
 
-    /// Text without the zeros behind it.
+    /// Text without trailing zeros.
     pub(super) fn text(&self) -> String {
         let text = String::from_utf8_lossy(&self.parameters);
         text.trim_end_matches('\0').to_owned()
     }
 }
 
-/// The first six numbers of `bytes`, little end first.
+/// First six little-endian numbers of `bytes`; `None` if there are fewer.
 pub(super) fn floats(bytes: &[u8]) -> Option<[f32; 6]> {
     let bytes: &[u8; 24] = bytes.first_chunk()?;
     Some(std::array::from_fn(|index| {
@@ -215,7 +215,7 @@ mod tests {
         })
     }
 
-    /// What xarm-python-sdk 1.18.4 sends for the same calls, without the header.
+    /// Frames that xarm-python-sdk 1.18.4 sends for the same calls, without the header.
     #[test]
     fn commands_are_those_of_the_public_client_for_both_layouts() {
         let recorded = [

@@ -1,11 +1,11 @@
-//! Errors of the arm with their reasons.
+//! Errors of the driver.
 
 use taceva_core::{DriverError, ErrorKind};
 
 use super::KEY;
 use super::exchange::ExchangeError;
 
-/// An error of the arm with its reason.
+/// Creates an error with a reason.
 pub(super) fn failed(
     kind: ErrorKind,
     doing: &'static str,
@@ -14,7 +14,7 @@ pub(super) fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
-/// What an exchange that failed was for.
+/// Converts a failed exchange into an error that occurred while `doing`.
 pub(super) fn unanswered(doing: &'static str) -> impl Fn(ExchangeError) -> DriverError {
     move |error| failed(error.kind(), doing, error)
 }

@@ -1,4 +1,4 @@
-//! One connection to port 502: questions and their answers, with a thread of its own that reads.
+//! Connection to port 502: sends queries; a separate thread reads the answers.
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -16,7 +16,7 @@ use super::firmware::Firmware;
 use super::frame::{FrameError, Replies, Reply};
 use crate::link::{LinkError, connect};
 
-/// Why a question has no answer.
+/// Failure of a query.
 #[derive(Debug, Error)]
 pub(super) enum ExchangeError {
     #[error(transparent)]
@@ -41,7 +41,7 @@ pub(super) enum ExchangeError {
 }
 
 impl ExchangeError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             ExchangeError::Link(error) => error.kind(),
@@ -52,17 +52,17 @@ impl ExchangeError {
     }
 }
 
-/// The half of a connection that writes, which several may hold.
+/// Shared writing half of a connection.
 #[derive(Clone, Debug)]
 pub(super) struct Writer {
     stream: Arc<Mutex<TcpStream>>,
-    /// Set once nothing comes any more: a socket takes bytes for a while after that.
+    /// Set once the reader has ended. The socket still accepts bytes for a while after that.
     is_over: Arc<AtomicBool>,
     address: SocketAddr,
 }
 
 impl Writer {
-    /// Sends a command under the number `transaction`, and waits for nothing.
+    /// Sends a command with the number `transaction`, without waiting.
     pub(super) fn send(
         &self,
         command: Command,
@@ -84,7 +84,7 @@ impl Writer {
     }
 }
 
-/// A connection that is asked one thing at a time.
+/// A connection with one pending query at a time.
 #[derive(Debug)]
 pub(super) struct Exchange {
     writer: Writer,
@@ -94,11 +94,11 @@ pub(super) struct Exchange {
     firmware: Firmware,
 }
 
-/// What the writing of one command may take before the other side counts as gone.
+/// Timeout for writing a command.
 const WRITING: Duration = Duration::from_millis(100);
 
 impl Exchange {
-    /// Connects to `port` of `host`; commands are written for `firmware`.
+    /// Connects to `port` of `host`. Commands are encoded for `firmware`.
     pub(super) fn open(
         host: &str,
         port: u16,
@@ -135,22 +135,22 @@ impl Exchange {
         })
     }
 
-    /// The firmware that commands are written for from now on.
+    /// Sets the firmware for which commands are encoded.
     pub(super) fn set_firmware(&mut self, firmware: Firmware) {
         self.firmware = firmware;
     }
 
-    /// The firmware that commands are written for.
+    /// Firmware for which commands are encoded.
     pub(super) fn firmware(&self) -> Firmware {
         self.firmware
     }
 
-    /// The half that writes, for whoever must send something while an answer is waited for.
+    /// Writing half, for sending while another caller waits for an answer.
     pub(super) fn writer(&self) -> Writer {
         self.writer.clone()
     }
 
-    /// Sends `command` and waits for its answer; answers to earlier ones are passed over.
+    /// Sends `command` and waits for its answer. Skips answers to earlier commands.
     pub(super) fn ask(
         &mut self,
         command: Command,
@@ -179,7 +179,7 @@ impl Exchange {
         }
     }
 
-    /// What `read` takes from the answer to `command`.
+    /// Like [`ask`](Exchange::ask), and extracts a value with `read`.
     pub(super) fn ask_for<T>(
         &mut self,
         command: Command,
@@ -194,14 +194,14 @@ impl Exchange {
     }
 }
 
-/// Numbers of transactions go round from here to 1; the last one is left to those who wait for no answer.
+/// Last transaction number before wrapping to 1. The next one is reserved for commands without an awaited answer.
 const TRANSACTION_MAX: u16 = u16::MAX - 1;
-/// The number under which a command is sent whose answer nobody waits for.
+/// Transaction number of commands whose answer is not awaited.
 pub(super) const UNANSWERED: u16 = u16::MAX;
 
 impl Drop for Exchange {
     fn drop(&mut self) {
-        // The thread that reads ends with the stream.
+        // The shutdown ends the reader thread.
         let _ = self.writer.stream().shutdown(Shutdown::Both);
         if let Some(reader) = self.reader.take() {
             let _ = reader.join();
@@ -209,7 +209,7 @@ impl Drop for Exchange {
     }
 }
 
-/// Hands over every answer that comes; at the end of the connection, why no more will come.
+/// Passes every answer to `hand_over`, and at the end the reason why the connection ended.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,
@@ -240,7 +240,7 @@ fn read(
                     }
                 }
                 Err(source) => {
-                    // Nothing after this can be understood, so nothing more is taken.
+                    // Later bytes cannot be decoded.
                     let _ = stream.shutdown(Shutdown::Both);
                     hand_over(Err(ExchangeError::Foreign { address, source }));
                     return;

@@ -1,4 +1,4 @@
-//! Motion by velocities that expire: the controller stops where none comes any more.
+//! Motion by expiring velocities: the controller stops when they are no longer renewed.
 
 use std::time::Duration;
 
@@ -34,7 +34,7 @@ impl ExpiringMotion for Arm {
 }
 
 impl Arm {
-    /// Goes along `course` until little of it is left, and stands; the controller takes positions then.
+    /// Follows `course` until little is left, then stops and sets the position mode.
     fn cruise(&mut self, course: &Course, until: Duration) -> Result<(), BrokenOff> {
         self.take(Mode::Velocity, DOING)?;
         let mut renewed: Option<Duration> = None;
@@ -74,12 +74,12 @@ impl Arm {
         if self.stopping().is_halted() {
             return Err(BrokenOff::stopped(halted()));
         }
-        // What moves is stopped by that.
+        // The change of mode stops the motion.
         Ok(self.take(Mode::Position, DOING)?)
     }
 }
 
-/// The command that goes along `course` until it expires.
+/// Velocity command along `course`.
 fn velocity(course: &Course) -> Command {
     #[expect(
         clippy::cast_possible_truncation,

@@ -16,21 +16,23 @@ submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 /// Opens arms of UFACTORY's xArm family: `ufactory/xarm:host=192.168.1.200`.
 ///
 /// # The physical contract
-/// - Poses are those of the tool in the **base frame** of the arm, in mm and degrees (roll, pitch, yaw), as UFACTORY Studio shows them.
-/// - Opening connects, and changes nothing. The arm must be enabled, in position mode and without an error: a person does that in UFACTORY
-///   Studio. This driver never enables motors and never clears an error.
-/// - A move is one straight line with all six numbers of the pose. It ends once the controller stands by, has nothing waiting and reports a
-///   pose within 0.05 mm of the target.
-/// - An expiring motion is made by velocities for 0.2 s each (register 82, since firmware 1.10.0), renewed 20 times a second; its last
-///   0.1 s are a line. The mode of the controller is changed for it and back, by which it stands for a moment.
-/// - A halt goes over a connection of its own, which is tried twice a second; without it no move begins. It is confirmed by the controller
-///   or, after 40 ms of silence, sent over the other connection too. `clear_halt` makes the controller ready again unless it has an error.
+/// - Poses are of the tool in the **base frame** of the arm, in mm and degrees (roll, pitch, yaw), as UFACTORY Studio shows them.
+/// - Opening connects and changes nothing. The arm must be enabled, in position mode and without an error. A person does that in UFACTORY
+///   Studio: this driver never enables motors and never clears an error.
+/// - A move is one straight line with all six numbers of the pose. It ends once the controller is ready, its queue is empty and the
+///   reported pose is within 0.05 mm of the target.
+/// - An expiring motion uses velocities that last 0.2 s (register 82, since firmware 1.10.0), renewed 20 times per second. Its last 0.1 s
+///   is a line. The mode of the controller changes for it and back, which stops the arm for a moment.
+/// - A halt uses a separate connection, which is tested twice per second; without it no move begins. The controller confirms the halt.
+///   After 40 ms without an answer it is also sent over the other connection. `clear_halt` makes the controller ready again unless it has
+///   an error.
 /// - The emergency stop, a collision, the safety boundary and every other error of the controller end a move with `DeviceFault`.
 ///
 /// # What confirmed it
-/// Frames are those that the public client `xarm-python-sdk` 1.18.4 sends, for both layouts of a straight line (before and since firmware
-/// 1.11.100). An emulated controller on which the driver passes its suite serves that client too. **Not verified without the device**: how
-/// fast an arm stops, how exactly it keeps to a velocity and to its end, whether the pose of port 30003 is measured or commanded, how long a controller keeps an idle connection.
+/// Frames match those of the public client `xarm-python-sdk` 1.18.4, for both layouts of a straight line (before and since firmware
+/// 1.11.100). The driver passes its suite on an emulated controller, which serves that client too. **Not verified without the device**: how
+/// fast an arm stops, how exactly it keeps a velocity and reaches its end, and how long a controller keeps an idle connection. Also whether
+/// the pose of port 30003 is measured or commanded.
 ///
 /// ```
 /// use taceva_drivers::ufactory::xarm::XarmFactory;
@@ -45,10 +47,10 @@ pub struct XarmFactory {
 }
 
 impl XarmFactory {
-    /// The driver.
+    /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<XarmFactory, DescriptorError> {
         let arguments = [
             ArgSpec::text("host").help("name or address of the control box"),
@@ -83,7 +85,7 @@ impl Factory<dyn Robot> for XarmFactory {
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
         let mut spec = self.descriptor.to_spec();
-        // Arguments that make no sense are refused when the arm is opened, in their own words.
+        // Inconsistent arguments are rejected with a message at open.
         if let Ok(options) = XarmOptions::read(args) {
             spec.facts = Facts::Robot(facts_of_robot(args).with_workspace(options.workspace));
         }

@@ -1,4 +1,4 @@
-//! What the numbers of the controller's errors mean, and which of them nobody but a person may answer.
+//! Meaning of the controller's error codes, and the codes that need a person.
 
 use std::fmt;
 
@@ -6,15 +6,15 @@ use taceva_core::{DriverError, ErrorKind, Fault};
 
 use super::error::failed;
 
-/// An error that the controller reports.
+/// Error of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct XarmFault {
-    /// Its number, as the vendor's documents count them.
+    /// Error code in the vendor's documents.
     pub(super) code: u8,
 }
 
 impl XarmFault {
-    /// Of which kind it is, where only a person may go on from it.
+    /// Kind of an error that needs a person; `None` for others.
     fn kind(self) -> Option<Fault> {
         match self.code {
             1..=3 => Some(Fault::EmergencyStop),
@@ -25,7 +25,7 @@ impl XarmFault {
         }
     }
 
-    /// The error of whoever was `doing` something when the controller reported it.
+    /// Converts the error into one that occurred while `doing`.
     pub(super) fn met(self, doing: &'static str) -> DriverError {
         let error = failed(ErrorKind::DeviceFault, doing, self);
         match self.kind() {
@@ -34,7 +34,7 @@ impl XarmFault {
         }
     }
 
-    /// What it means.
+    /// Meaning of the code.
     fn meaning(self) -> &'static str {
         match self.code {
             1..=3 => "the emergency stop was pressed",

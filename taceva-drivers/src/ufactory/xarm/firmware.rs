@@ -1,10 +1,10 @@
-//! Which controller it is: its answer to the question for its version.
+//! Firmware version of the controller, from its version answer.
 
 use thiserror::Error;
 
 use crate::text::shown;
 
-/// The version of a controller's firmware, which decides how motions are written.
+/// Firmware version of a controller, which determines the encoding of motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Firmware {
     major: u32,
@@ -21,7 +21,7 @@ impl Firmware {
         }
     }
 
-    /// The version in an answer such as `6,12,XF1300000001,AC1300000002,v2.7.0`.
+    /// Parses the version in an answer such as `6,12,XF1300000001,AC1300000002,v2.7.0`.
     ///
     /// # Errors
     /// [`UnknownVersion`] for a text without `v` and three numbers.
@@ -36,30 +36,30 @@ impl Firmware {
         })
     }
 
-    /// Whether a straight motion has a radius and three switches behind its nine numbers.
+    /// True if a straight motion has a blending radius and three switches after its nine numbers.
     pub(super) fn takes_long_lines(self) -> bool {
         self >= Firmware::new(1, 11, 100)
     }
 
-    /// Whether a velocity expires: older controllers go on with it until they are given another. (Later than the vendor's client asks for, which
-    /// knows the duration since 1.8.0: this is the oldest whose frames were recorded.)
+    /// True if velocities expire. Older controllers keep the last velocity. The vendor's client uses durations since 1.8.0; this is the
+    /// oldest version whose frames were recorded.
     pub(super) fn takes_expiring_velocities(self) -> bool {
         self >= Firmware::new(1, 10, 0)
     }
 
-    /// Whether a mode has a switch behind it.
+    /// True if a mode is followed by a switch.
     pub(super) fn takes_collision_detection(self) -> bool {
         self >= Firmware::new(1, 10, 0)
     }
 }
 
-/// The number that `text` begins with.
+/// Leading number of `text`; `None` if it does not begin with one.
 fn leading_number(text: &str) -> Option<u32> {
     let end = text.find(|digit: char| !digit.is_ascii_digit());
     text[..end.unwrap_or(text.len())].parse().ok()
 }
 
-/// An answer that names no version.
+/// Answer without a version.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("it calls itself `{}`, expected a version such as `v2.7.0` in it", shown(.text))]
 pub(super) struct UnknownVersion {

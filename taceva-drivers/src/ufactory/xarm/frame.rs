@@ -1,27 +1,27 @@
-//! Frames of the private protocol on port 502: a header in network order, a register, parameters. Nothing here reads or writes a socket.
+//! Frames of the private protocol on port 502: a big-endian header, a register, parameters. No I/O.
 
 use thiserror::Error;
 
-/// What the controller is asked, and the numbers that go with it.
+/// Request: register and parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Request {
     pub(super) register: u8,
     pub(super) parameters: Vec<u8>,
 }
 
-/// Bytes before the register: transaction, protocol and length, two each.
+/// Size of the header, bytes: transaction, protocol and length, two each.
 const HEADER: usize = 6;
-/// The private protocol without keep-alive: a client that is silent for long is not thrown out.
+/// Private protocol without keep-alive, in which silent clients are not disconnected.
 const PROTOCOL: u16 = 2;
-/// The same with keep-alive, which some controllers answer with.
+/// Private protocol with keep-alive, with which some controllers answer.
 const PROTOCOL_KEEP_ALIVE: u16 = 3;
-/// No answer of the registers that are used here is longer than some 50 bytes; one that claims more has lost its beginning.
+/// Maximum length of an answer, bytes. The registers used here need about 50; a larger value means lost synchronisation.
 const LENGTH_MAX: usize = 1024;
-/// The register under which controllers speak without being asked.
+/// Register of unsolicited messages of the controller.
 const FEEDBACK: u8 = 0xff;
 
 impl Request {
-    /// The request as it is sent, under the number `transaction`, which the answer repeats.
+    /// Encodes the request with the number `transaction`, which the answer repeats.
     pub(super) fn encode(&self, transaction: u16) -> Vec<u8> {
         let length = u16::try_from(1 + self.parameters.len()).unwrap_or(u16::MAX);
         let mut bytes = Vec::with_capacity(HEADER + usize::from(length));
@@ -34,7 +34,7 @@ impl Request {
     }
 }
 
-/// An answer of the controller.
+/// Answer of the controller.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reply {
     pub(super) transaction: u16,
@@ -43,28 +43,28 @@ pub(super) struct Reply {
     pub(super) parameters: Vec<u8>,
 }
 
-/// The byte of state in every answer.
+/// Status byte of every answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Status(pub(super) u8);
 
 impl Status {
-    /// Whether the controller has an error that stops it.
+    /// True if the controller has an error that stops it.
     pub(super) fn has_error(self) -> bool {
         self.0 & 0x40 != 0
     }
 
-    /// Whether it does not know the command, or not with these parameters.
+    /// True if the command or its parameters are unknown.
     pub(super) fn is_invalid(self) -> bool {
         self.0 & 0x08 != 0
     }
 
-    /// Whether it would not move if it were asked to.
+    /// True if the controller is not ready to move.
     pub(super) fn is_not_ready(self) -> bool {
         self.0 & 0x10 != 0
     }
 }
 
-/// Bytes that are no answer: the link has lost its place, and there is no mark to find it again.
+/// Invalid answer: synchronisation is lost, and there is no mark to restore it.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum FrameError {
     #[error("a header that names protocol {found:#06x}, expected 2 or 3")]
@@ -73,22 +73,22 @@ pub(super) enum FrameError {
     Length { found: usize },
 }
 
-/// Cuts what comes, in pieces of any size, into answers.
+/// Splits bytes that arrive in pieces of any size into answers.
 #[derive(Debug, Default)]
 pub(super) struct Replies {
     waiting: Vec<u8>,
 }
 
 impl Replies {
-    /// Takes bytes that came.
+    /// Appends received bytes.
     pub(super) fn push(&mut self, bytes: &[u8]) {
         self.waiting.extend_from_slice(bytes);
     }
 
-    /// The next whole answer, if it has come; what the controller says without being asked is passed over.
+    /// Returns the next complete answer; `None` until it has arrived. Skips unsolicited messages.
     ///
     /// # Errors
-    /// [`FrameError`], from then on for ever: the link must be closed.
+    /// [`FrameError`], which is permanent: the link must be closed.
     pub(super) fn next(&mut self) -> Result<Option<Reply>, FrameError> {
         loop {
             let Some(&[t1, t0, p1, p0, l1, l0]) = self.waiting.first_chunk::<HEADER>() else {
@@ -123,7 +123,7 @@ impl Replies {
 mod tests {
     use super::*;
 
-    /// The answer to `get_position()` at (300, 0, 300, π, 0, 0), as the public client accepts it.
+    /// Answer to `get_position()` at (300, 0, 300, π, 0, 0), as the public client accepts it.
     const POSE: &str = "000a 0003 001a 29 00 00009643 00000000 00009643 db0f4940 00000000 00000000";
 
     fn bytes(hexadecimal: &str) -> Vec<u8> {

@@ -1,4 +1,4 @@
-//! One straight motion, from the look before it to the rest after it.
+//! One straight motion, from the first report to rest.
 
 use std::time::Duration;
 
@@ -12,26 +12,26 @@ use super::report::{State, numbers_of, pose_of};
 use crate::link::monotonic;
 
 pub(super) const DOING: &str = "move the arm";
-/// How near the target a motion ends: half of what the best arms of the family repeat.
+/// Tolerance at the target, mm: half the repeatability of the best arms of the family.
 const NEAR_MM: f64 = 0.05;
-/// After this time a controller that stands by at the target has not still to begin.
+/// Time after which a ready controller at the target has completed the motion.
 const BEGUN: Duration = Duration::from_millis(50);
-/// After this time a controller that stands by elsewhere will not begin any more.
+/// Time after which a ready controller elsewhere will not begin the motion.
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
-/// How long an arm that was asked to stop is looked at until it stands.
+/// Time to wait until a stopped arm is at rest.
 const STOPPING: Duration = Duration::from_millis(400);
-/// How long a motion waits for the connection by which it would be stopped: one that fell silent is made anew in less.
+/// Time that a motion waits for the stop connection, which reconnects in less.
 const STOPPABLE: Duration = Duration::from_secs(2);
 
-/// Why a motion did not end at its target.
+/// Error of an incomplete motion.
 pub(super) struct BrokenOff {
     error: DriverError,
-    /// Whether the controller has been asked to stop already, or has stopped by itself.
+    /// True if the controller was told to stop, or stopped by itself.
     is_stopped: bool,
 }
 
 impl BrokenOff {
-    /// For what stopped the controller already.
+    /// Creates the error of a motion that is already stopped.
     pub(super) fn stopped(error: DriverError) -> BrokenOff {
         BrokenOff {
             error,
@@ -50,7 +50,7 @@ impl From<DriverError> for BrokenOff {
 }
 
 impl Arm {
-    /// Moves the tip to `target` and returns once it rests there, or stands elsewhere and why.
+    /// Moves the tip to `target` and returns once it rests there. An error says why it stopped elsewhere.
     pub(super) fn go(
         &mut self,
         target: Pose,
@@ -67,18 +67,18 @@ impl Arm {
         self.end(ended)
     }
 
-    /// Ends a motion: one that was broken off is stopped.
+    /// Ends a motion. Stops the arm if the motion is incomplete.
     pub(super) fn end<T>(&mut self, ended: Result<T, BrokenOff>) -> Result<T, DriverError> {
         let BrokenOff { error, is_stopped } = match ended {
             Ok(done) => return Ok(done),
             Err(broken_off) => broken_off,
         };
         if !is_stopped {
-            // The error that is returned says why; a stop that could not be sent says so by a link that is gone.
+            // The returned error gives the reason. If the stop cannot be sent, the link is broken, which is reported elsewhere.
             let _ = self.stopping().stop();
         }
         self.settle();
-        // A motion that was given up is no halt: the next one is accepted.
+        // A timed-out motion is not a halt, so the next one is accepted.
         let given_up = error.kind() == ErrorKind::Timeout;
         if given_up && !self.stopping().is_halted() {
             let _ = self.stand_by(DOING);
@@ -86,7 +86,7 @@ impl Arm {
         Err(error)
     }
 
-    /// Refuses to begin where the arm could not be stopped, is halted or is not ready.
+    /// Fails if the arm cannot be stopped, is halted or is not ready.
     pub(super) fn check_ready(&mut self, deadline: Deadline) -> Result<(), DriverError> {
         let patience = STOPPABLE.min(deadline.remaining());
         let is_alive = self.stopping().is_alive_within(patience);
@@ -94,7 +94,7 @@ impl Arm {
             return Err(halted());
         }
         if !is_alive {
-            // It is tried until it does: what the arm would be stopped by is silent, and not yet gone.
+            // The stop connection is silent but still retried.
             let why = "the connection by which it would be stopped does not answer";
             return Err(failed(ErrorKind::Timeout, DOING, why));
         }
@@ -141,7 +141,7 @@ impl Arm {
                 let why = "it did not arrive within the deadline";
                 return Err(failed(ErrorKind::Timeout, DOING, why).into());
             }
-            // Not the time that is left: an arm that is not seen is stopped long before that.
+            // Shorter than the deadline: an arm without reports is stopped long before it.
             last = self
                 .observer
                 .observe(&mut self.exchange, Some(&last), STALE)?;
@@ -181,7 +181,7 @@ impl Arm {
         })
     }
 
-    /// Why a controller in `state` does not move.
+    /// Error of a controller that does not move in `state`.
     pub(super) fn not_ready(&mut self, state: State) -> BrokenOff {
         let error = if self.stopping().is_halted() {
             halted()
@@ -200,12 +200,12 @@ impl Arm {
         };
         BrokenOff {
             error,
-            // Paused, it would go on as soon as somebody says so.
+            // A paused controller continues on command, so it is not stopped.
             is_stopped: state.0 > 3,
         }
     }
 
-    /// Waits until an arm that was stopped stands, or cannot be seen.
+    /// Waits until a stopped arm is at rest or sends no reports.
     fn settle(&mut self) {
         let until = monotonic() + STOPPING;
         let mut last: Option<Observation> = None;
@@ -227,7 +227,7 @@ pub(super) fn halted() -> DriverError {
     failed(ErrorKind::Interrupted, DOING, "it was halted")
 }
 
-/// How far the tip is from `target`; infinite where the report has no numbers.
+/// Distance of the tip from `target`, mm; infinite if the report has values that are not finite.
 fn distance_mm(seen: &Observation, target: &Pose) -> f64 {
     let [at, to] = [pose_of(seen.pose).position, target.position];
     let sides = [at.x.0 - to.x.0, at.y.0 - to.y.0, at.z.0 - to.z.0];

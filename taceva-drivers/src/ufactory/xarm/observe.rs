@@ -1,4 +1,4 @@
-//! What the arm does now: from its reports, or asked for where it sends none.
+//! Current state of the arm, from its reports or from queries if it sends none.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,50 +15,50 @@ use super::report::{ArmReport, ReportKind, State, pose_of};
 use super::watch::Watch;
 use crate::link::{LinkError, Mailbox, monotonic};
 
-/// Where the arm is and what it does, at one moment.
+/// Pose and state of the arm at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Observation {
     pub(super) state: State,
     pub(super) queued: u16,
-    /// Not checked to be numbers.
+    /// x, y, z in mm, roll, pitch, yaw in rad; may contain NaN.
     pub(super) pose: [f32; 6],
-    /// On the monotonic clock.
+    /// Time on the monotonic clock.
     pub(super) at: Duration,
-    /// Of the report it was read from.
+    /// Number of its report; 0 for a query.
     number: u64,
 }
 
 impl Observation {
-    /// The pose, if it is one.
+    /// Checked pose.
     pub(super) fn pose(&self) -> Result<Pose, NotFinite> {
         let pose = pose_of(self.pose);
         check_pose(&pose).map(|()| pose)
     }
 }
 
-/// The two ports of reports, as far as somebody listens there.
+/// Observer of both report ports, as far as they accept connections.
 #[derive(Debug)]
 pub(super) struct Observer {
     poses: Option<Watch>,
     statuses: Option<Watch>,
-    /// When the controller was last asked for what it does not report.
+    /// Time of the last query of the state.
     asked: Duration,
-    /// When it was last asked for errors.
+    /// Time of the last query of errors.
     asked_for_errors: Duration,
 }
 
-/// How often the controller is asked for what it does not report; it is not made for more.
+/// Minimum interval of state queries; the controller supports no more.
 const ASKED_EVERY: Duration = Duration::from_millis(10);
 const ASKED_FOR_ERRORS_EVERY: Duration = Duration::from_millis(100);
-/// How long an answer may take.
+/// Timeout for an answer.
 pub(super) const ANSWER: Duration = Duration::from_millis(300);
-/// A pose that is older than this says nothing of where the arm is: 100 come a second.
+/// Maximum age of a pose. The arm sends 100 per second.
 pub(super) const STALE: Duration = Duration::from_millis(250);
-/// The least time between two looks of a caller that has run out of it.
+/// Minimum timeout of a query, for callers past their deadline.
 const GLANCE: Duration = Duration::from_millis(30);
 
 impl Observer {
-    /// Connects to both ports; one where nobody listens is done without.
+    /// Connects to both ports. A port that refuses is not used.
     pub(super) fn open(
         host: &str,
         pose_port: u16,
@@ -77,12 +77,12 @@ impl Observer {
         })
     }
 
-    /// Where reports of poses are left, if the arm sends any.
+    /// Mailbox of pose reports; `None` if the arm sends none.
     pub(super) fn reports(&self) -> Option<Arc<Mailbox<ArmReport>>> {
         self.poses.as_ref().map(Watch::mailbox)
     }
 
-    /// What the arm does now: after `last`, and not older than is of use.
+    /// Current state of the arm: newer than `last`, and fresh.
     pub(super) fn observe(
         &mut self,
         exchange: &mut Exchange,
@@ -92,7 +92,7 @@ impl Observer {
         let Some(poses) = &self.poses else {
             return self.ask(exchange, patience);
         };
-        // Who looks for the first time takes what is there, if it is fresh.
+        // The first observation uses an existing report if it is fresh.
         let now = monotonic();
         let fresh = poses
             .newest()
@@ -116,7 +116,7 @@ impl Observer {
         })
     }
 
-    /// What the arm does, asked for.
+    /// Queries the state of the arm.
     fn ask(
         &mut self,
         exchange: &mut Exchange,
@@ -126,7 +126,7 @@ impl Observer {
         let refused = |error: ExchangeError| failed(error.kind(), doing, error);
         let since = monotonic().saturating_sub(self.asked);
         std::thread::sleep(ASKED_EVERY.saturating_sub(since).min(patience));
-        // Whoever has no time left is answered all the same, if the controller answers at once.
+        // A caller past its deadline still gets an immediate answer.
         let patience = patience.clamp(GLANCE, ANSWER);
         let state = exchange
             .ask_for(Command::GetState, patience, Reply::state)
@@ -147,7 +147,7 @@ impl Observer {
         })
     }
 
-    /// The error that the controller reports, as far as it is known without waiting; a tenth of a second old where it must be asked.
+    /// Error of the controller, from its reports. Without reports it is queried at most every 100 ms, and `None` in between.
     pub(super) fn error(
         &mut self,
         exchange: &mut Exchange,
@@ -164,13 +164,13 @@ impl Observer {
         error_now(exchange)
     }
 
-    /// Whether the motors of the arm are on, where the controller reports it; the seventh joint is not there on most.
+    /// True if all motors are on; `None` without reports. Only the first five joints are checked, since most arms lack the seventh.
     pub(super) fn is_enabled(&self) -> Option<bool> {
         let status = self.statuses.as_ref()?.newest()?.what.status?;
         Some(status.enabled & FIRST_JOINTS == FIRST_JOINTS)
     }
 
-    /// The mode in which the controller takes motions, where it reports it.
+    /// Motion mode; `None` without reports.
     pub(super) fn mode(&self) -> Option<u8> {
         let watches = [&self.poses, &self.statuses];
         let newest = watches.into_iter().flatten().find_map(Watch::newest)?;
@@ -178,10 +178,10 @@ impl Observer {
     }
 }
 
-/// The joints that every arm of the family has.
+/// Mask of the joints that every arm of the family has.
 const FIRST_JOINTS: u8 = 0b1_1111;
 
-/// The error that the controller has at this moment.
+/// Queries the current error of the controller.
 pub(super) fn error_now(exchange: &mut Exchange) -> Result<Option<XarmFault>, ExchangeError> {
     let [error, _] = exchange.ask_for(Command::GetError, ANSWER, Reply::codes)?;
     Ok(fault(error))

@@ -1,4 +1,4 @@
-//! How an arm is opened, from the arguments.
+//! Options for opening an arm, from the arguments.
 
 use taceva_core::{ArgValue, Args, Millimetre, Point, Speed, Workspace};
 use thiserror::Error;
@@ -7,7 +7,7 @@ use crate::arguments::network::port_of;
 use crate::arguments::robot::speed_max;
 use crate::text::shown;
 
-/// Where the controller is, and within which limits the arm moves.
+/// Address of the controller and limits of the arm.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct XarmOptions {
     pub(super) host: String,
@@ -19,7 +19,7 @@ pub(super) struct XarmOptions {
     pub(super) workspace: Option<Workspace>,
 }
 
-/// Arguments that are each what they should be, and make no sense.
+/// Arguments that are valid one by one but inconsistent.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum OptionsError {
     #[error("`workspace`: `{}`, expected six numbers in mm with commas between them, the least x, y, z and then the greatest: `200,-100,150,400,100,350`", shown(.text))]
@@ -29,7 +29,7 @@ pub(super) enum OptionsError {
 }
 
 impl XarmOptions {
-    /// The options in `args`, which the declaration of the driver has checked.
+    /// Reads the options from `args`, which the driver's declaration has checked.
     pub(super) fn read(args: &Args) -> Result<XarmOptions, OptionsError> {
         let workspace = match args.get("workspace").and_then(ArgValue::as_text) {
             None => None,
@@ -49,7 +49,7 @@ impl XarmOptions {
     }
 }
 
-/// The box between two corners.
+/// Parses the box between two corners; `None` if the text is invalid.
 fn workspace(text: &str) -> Option<Workspace> {
     let numbers: Option<Vec<f64>> = text
         .split(',')

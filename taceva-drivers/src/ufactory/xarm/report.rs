@@ -1,42 +1,42 @@
-//! Reports, which the controller sends without being asked: how they are cut from a stream, and what they say. Nothing here reads a socket.
+//! Decoder of the controller's unsolicited reports. No I/O.
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 use thiserror::Error;
 
 use super::command::floats;
 
-/// Which of its ports a report comes from.
+/// Port of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ReportKind {
-    /// 100 a second: state and pose.
+    /// State and pose, 100 per second.
     Pose,
-    /// Some a second: errors and joints too.
+    /// Also errors and joints, a few per second.
     Status,
 }
 
-/// What a report says.
+/// Content of a report.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ArmReport {
     pub(super) state: State,
-    /// How motions are taken; 0 for positions one after the other.
+    /// Motion mode; 0 for queued positions.
     pub(super) mode: u8,
-    /// Motions that wait or go on.
+    /// Number of queued and running motions.
     pub(super) queued: u16,
-    /// x, y, z in mm, roll, pitch, yaw in rad, in the base frame; not checked to be numbers.
+    /// x, y, z in mm, roll, pitch, yaw in rad, in the base frame; may contain NaN.
     pub(super) pose: [f32; 6],
-    /// Only in those of [`ReportKind::Status`].
+    /// Status; `None` except in reports of [`ReportKind::Status`].
     pub(super) status: Option<ArmStatus>,
 }
 
-/// What only the slower reports say.
+/// Fields that only the slower reports have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ArmStatus {
-    /// A bit a joint whose motor is on.
+    /// One bit per joint whose motor is on.
     pub(super) enabled: u8,
     pub(super) error: u8,
 }
 
-/// What the arm does.
+/// State of the arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct State(pub(super) u8);
 
@@ -44,12 +44,12 @@ impl State {
     pub(super) const MOVING: State = State(1);
     pub(super) const SLOWING_DOWN: State = State(6);
 
-    /// Whether it stands by for the next motion.
+    /// True if the arm is ready for the next motion.
     pub(super) fn is_ready(self) -> bool {
         matches!(self.0, 0 | 2)
     }
 
-    /// How the state is called in messages.
+    /// Name of the state in messages.
     pub(super) fn name(self) -> &'static str {
         match self.0 {
             0 | 2 => "ready",
@@ -63,7 +63,7 @@ impl State {
     }
 }
 
-/// Bytes that are no report: the stream has lost its place.
+/// Invalid report: the stream has lost synchronisation.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum ReportError {
     #[error("a report of {found} bytes, expected {least} to {LENGTH_MAX}")]
@@ -72,9 +72,9 @@ pub(super) enum ReportError {
     State { state: u8, mode: u8 },
 }
 
-/// Later firmware puts more behind what is known; none comes near this.
+/// Maximum length of a report, bytes. Later firmware appends fields but stays far below it.
 const LENGTH_MAX: usize = 4096;
-/// Where things stand in a report.
+/// Offsets of fields in a report, bytes.
 const STATE: usize = 4;
 const QUEUED: usize = 5;
 const POSE: usize = 35;
@@ -82,7 +82,7 @@ const ENABLED: usize = 88;
 const ERROR: usize = 89;
 
 impl ReportKind {
-    /// Bytes up to the last number that is read.
+    /// Minimum length of a report, up to the last field that is read, bytes.
     fn least(self) -> usize {
         match self {
             ReportKind::Pose => POSE + 24,
@@ -91,7 +91,7 @@ impl ReportKind {
     }
 }
 
-/// Cuts what comes, in pieces of any size, into reports.
+/// Splits bytes that arrive in pieces of any size into reports.
 #[derive(Debug)]
 pub(super) struct Reports {
     kind: ReportKind,
@@ -106,15 +106,15 @@ impl Reports {
         }
     }
 
-    /// Takes bytes that came.
+    /// Appends received bytes.
     pub(super) fn push(&mut self, bytes: &[u8]) {
         self.waiting.extend_from_slice(bytes);
     }
 
-    /// The next whole report, if it has come.
+    /// Returns the next complete report; `None` until it has arrived.
     ///
     /// # Errors
-    /// [`ReportError`], from then on for ever: the link must be closed.
+    /// [`ReportError`], which is permanent: the link must be closed.
     pub(super) fn next(&mut self) -> Result<Option<ArmReport>, ReportError> {
         let Some(head) = self.waiting.first_chunk() else {
             return Ok(None);
@@ -154,7 +154,7 @@ impl Reports {
     }
 }
 
-/// The pose of six numbers of the controller, in mm and rad, on the grid of all poses.
+/// Converts six numbers of the controller, in mm and rad, to a pose on the grid of all poses.
 pub(super) fn pose_of(numbers: [f32; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = numbers.map(f64::from);
     let pose = Pose {
@@ -172,7 +172,7 @@ pub(super) fn pose_of(numbers: [f32; 6]) -> Pose {
     pose.on_grid()
 }
 
-/// The six numbers of a pose, in mm and rad, as exact as the controller takes them: 0.03 µm at 300 mm.
+/// Converts a pose to the controller's six numbers, in mm and rad, with a resolution of 0.03 µm at 300 mm.
 pub(super) fn numbers_of(pose: &Pose) -> [f32; 6] {
     let Pose { position, rotation } = pose;
     let numbers = [
@@ -195,7 +195,7 @@ pub(super) fn numbers_of(pose: &Pose) -> [f32; 6] {
 mod tests {
     use super::*;
 
-    /// A report of `length` bytes with a pose of (300, 0, 300, π, 0, 0), laid out as the public client reads it.
+    /// Report of `length` bytes with a pose of (300, 0, 300, π, 0, 0), in the layout of the public client.
     fn report(length: usize, state_and_mode: u8) -> Vec<u8> {
         let mut bytes = vec![0; length];
         bytes[..4].copy_from_slice(&u32::try_from(length).expect("small").to_be_bytes());

@@ -1,4 +1,4 @@
-//! Stopping the arm from any thread: a latch on this side, and a connection of its own to the controller that is kept alive.
+//! Halt of the arm from any thread: a latch in the driver, and a separate, monitored connection to the controller.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
@@ -12,46 +12,46 @@ use super::command::{Command, TargetState};
 use super::exchange::{Exchange, ExchangeError, UNANSWERED, Writer};
 use super::firmware::Firmware;
 
-/// How long the controller may take to confirm a stop, before it is sent by the other connection too.
+/// Timeout for the confirmation of a stop, before it is also sent over the other connection.
 const CONFIRMATION: Duration = Duration::from_millis(40);
-/// How often the connection is tried while nothing is to be stopped, and how long its answer may take.
+/// Test interval of the connection while idle.
 const TRIAL_EVERY: Duration = Duration::from_millis(500);
-/// How often one that does not answer is tried: until it does, the arm is not moved.
+/// Test interval of a connection that does not answer. The arm does not move until it does.
 const RETRIAL_EVERY: Duration = Duration::from_millis(50);
 const TRIAL_PATIENCE: Duration = Duration::from_millis(20);
-/// So long after a connection was given up, what was sent on it and not answered counts as lost. A run asks for the end of a halt for longer.
+/// Time after which unanswered commands on an abandoned connection count as lost. A run retries the end of a halt for longer.
 const LOST_AFTER: Duration = Duration::from_secs(2);
-/// How often it is looked whether the connection answers again.
+/// Polling interval for an answer of the connection.
 const GLANCE: Duration = Duration::from_millis(5);
 
-/// The means to stop one arm, shared by the robot, its handles and the thread that keeps the connection alive.
+/// Halt of one arm, shared by the robot, its handles and the thread that monitors the connection.
 #[derive(Debug)]
 pub(super) struct Stop {
     is_halted: AtomicBool,
-    /// Set once the robot is dropped: there is nothing left to stop.
+    /// Set once the robot is dropped, when there is nothing left to stop.
     is_gone: AtomicBool,
-    /// Whether the connection answered when it was tried last.
+    /// True if the connection answered its last test.
     is_alive: AtomicBool,
     line: Mutex<Exchange>,
-    /// Connections that were given up: a stop may still be under way on them.
+    /// Abandoned connections, on which a stop may still be pending.
     given_up: Mutex<Vec<GivenUp>>,
-    /// What writes on that connection while somebody waits for an answer on it.
+    /// Writing half of that connection, for use while another caller waits for an answer.
     writer: Mutex<Writer>,
-    /// The connection by which the arm is moved, for the case that the other one fails.
+    /// Connection of motions, in case the other one fails.
     spare: Writer,
     place: Place,
-    /// Wakes the thread that keeps the connection alive, so that it ends.
+    /// Wakes the monitoring thread to end it.
     bell: (Mutex<()>, Condvar),
 }
 
-/// A connection that did not answer, in the place of which there is another.
+/// Connection that did not answer and was replaced.
 #[derive(Debug)]
 struct GivenUp {
     line: Exchange,
     since: Instant,
 }
 
-/// Where the controller is.
+/// Address and firmware of the controller.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     pub(super) host: String,
@@ -64,17 +64,17 @@ impl Stop {
         self.is_halted.load(Ordering::Acquire)
     }
 
-    /// Lets moves be accepted again on this side.
+    /// Releases the latch, so that the driver accepts moves again.
     pub(super) fn release(&self) {
         self.is_halted.store(false, Ordering::Release);
     }
 
-    /// Whether the arm can be stopped by the connection that is there for it.
+    /// True if the stop connection answers.
     fn is_alive(&self) -> bool {
         self.is_alive.load(Ordering::Acquire)
     }
 
-    /// The same, where one that does not answer is given so long to do so; an arm that is halted meanwhile is not waited for.
+    /// Waits up to `patience` for the stop connection to answer. Returns early if the arm is halted.
     pub(super) fn is_alive_within(&self, patience: Duration) -> bool {
         let began = Instant::now();
         while !self.is_alive() && !self.is_halted() && began.elapsed() < patience {
@@ -83,13 +83,13 @@ impl Stop {
         self.is_alive()
     }
 
-    /// Waits until the controller has obeyed every stop that was sent to it. It answers each connection in order and none before another: a stop
-    /// that is late on one would end what is begun on another after the halt.
+    /// Waits until the controller has executed every stop that was sent. Each connection is processed in order but independently, so a late
+    /// stop would end a motion that begins after the halt.
     ///
     /// # Errors
-    /// [`ExchangeError::Silent`] if it does not say so within `patience`: then nothing may begin.
+    /// [`ExchangeError::Silent`] without an answer within `patience`. Then no motion may begin.
     pub(super) fn is_obeyed(&self, patience: Duration) -> Result<(), ExchangeError> {
-        // One that is gone carries nothing any more; that the arm is not moved without it is seen to elsewhere.
+        // A closed connection has no pending commands. Other checks prevent motion without it.
         let answered = |line: &mut Exchange| match line.ask(Command::GetState, patience) {
             Err(error @ ExchangeError::Silent { .. }) => Err(error),
             _ => Ok(()),
@@ -105,7 +105,7 @@ impl Stop {
         Ok(())
     }
 
-    /// Sends the controller the command to stop and to forget what waits, by whichever connection carries it.
+    /// Orders the controller to stop and to clear its queue, over either connection.
     pub(super) fn stop(&self) -> Result<(), ExchangeError> {
         let command = Command::SetState(TargetState::Stopped);
         let unanswered = |writer: &Writer| writer.send(command, self.place.firmware, UNANSWERED);
@@ -114,9 +114,9 @@ impl Stop {
             Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
             Err(TryLockError::WouldBlock) => None,
         };
-        // Twice stopped is once stopped, and an answer is not waited for by a second way.
+        // A second stop is harmless. The second connection waits for no answer.
         let Some(mut line) = line else {
-            // The connection is being tried, and its answer may not come: a stop waits for nobody.
+            // The connection is being tested and may not answer. A stop must not wait for that.
             let direct = unanswered(&lock(&self.writer));
             let spare = unanswered(&self.spare);
             return Ok(direct.or(spare)?);
@@ -127,9 +127,9 @@ impl Stop {
         }
     }
 
-    /// Tries the connection, and makes it anew if it does not answer.
+    /// Tests the connection, and replaces it if it does not answer.
     fn keep(&self) {
-        // Whoever stops the arm has the connection to himself.
+        // A stop in progress owns the connection.
         let Ok(mut line) = self.line.try_lock() else {
             return;
         };
@@ -137,7 +137,7 @@ impl Stop {
         drop(line);
         let is_alive = match answered {
             Ok(_) => true,
-            // A busy network is late now and then; it is tried again before it counts as gone.
+            // A busy network can delay an answer, so test again.
             Err(ExchangeError::Silent { .. }) if self.is_alive() => {
                 let again = self.line.try_lock();
                 again.map_or(true, |mut line| {
@@ -186,7 +186,7 @@ impl Halt for Stop {
     }
 }
 
-/// The thread that keeps the connection alive; it ends with the robot.
+/// Thread that monitors the connection; ends with the robot.
 #[derive(Debug)]
 pub(super) struct Keeper {
     stop: Arc<Stop>,
@@ -194,7 +194,7 @@ pub(super) struct Keeper {
 }
 
 impl Keeper {
-    /// The means to stop the arm at `place`, over `line`, which has answered.
+    /// Starts monitoring `line`, an answering connection to the controller at `place`.
     pub(super) fn start(line: Exchange, spare: Writer, place: Place) -> std::io::Result<Keeper> {
         let stop = Arc::new(Stop {
             is_halted: AtomicBool::new(false),

@@ -1,4 +1,4 @@
-//! A connection to a port of reports: a thread that reads, and the newest report for whoever asks.
+//! Connection to a report port: a reader thread posts the newest report.
 
 use std::io::{self, Read};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -12,7 +12,7 @@ use super::report::{ArmReport, ReportKind, Reports};
 use crate::link::mailbox::{Ending, NoNews};
 use crate::link::{LinkError, Mailbox, Seen, connect, monotonic};
 
-/// The reports of one port.
+/// Reports of one port.
 #[derive(Debug)]
 pub(super) struct Watch {
     reports: Arc<Mailbox<ArmReport>>,
@@ -42,20 +42,20 @@ impl Watch {
         })
     }
 
-    /// Where the reports are left.
+    /// Mailbox of the reports.
     pub(super) fn mailbox(&self) -> Arc<Mailbox<ArmReport>> {
         Arc::clone(&self.reports)
     }
 
-    /// The newest report, if one has come and others still may.
+    /// Newest report; `None` before the first one and after the end.
     pub(super) fn newest(&self) -> Option<Seen<ArmReport>> {
         self.reports.newest()
     }
 
-    /// The newest report behind the one numbered `after`, waited for as long as `patience`.
+    /// Waits up to `patience` for a report newer than number `after`.
     ///
     /// # Errors
-    /// [`NoNews`]: none came, or none will.
+    /// [`NoNews`] on a timeout, an interrupt, or the end.
     pub(super) fn next(&self, after: u64, patience: Duration) -> Result<Seen<ArmReport>, NoNews> {
         self.reports.next(after, patience)
     }
@@ -63,7 +63,7 @@ impl Watch {
 
 impl Drop for Watch {
     fn drop(&mut self) {
-        // The thread that reads ends with the stream.
+        // The shutdown ends the reader thread.
         let _ = self.stream.shutdown(Shutdown::Both);
         if let Some(reader) = self.reader.take() {
             let _ = reader.join();
@@ -71,7 +71,7 @@ impl Drop for Watch {
     }
 }
 
-/// Posts every report until none can come any more, and says why.
+/// Posts every report until the connection ends, and returns the reason.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,

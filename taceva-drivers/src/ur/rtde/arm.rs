@@ -1,4 +1,4 @@
-//! The arm as a robot.
+//! Robot over a UR controller.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -18,7 +18,7 @@ use super::states::States;
 use crate::link::watch::{LOOK, ReportedPose};
 use crate::link::{LinkError, Seen, monotonic};
 
-/// How an arm is reached, and within which limits it moves.
+/// Address and limits of an arm.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct UrOptions {
     pub(super) host: String,
@@ -30,7 +30,7 @@ pub(super) struct UrOptions {
     pub(super) deceleration_mm_s2: f64,
 }
 
-/// An arm that is connected.
+/// A connected arm.
 #[derive(Debug)]
 pub(super) struct Arm {
     pub(super) options: UrOptions,
@@ -39,28 +39,29 @@ pub(super) struct Arm {
     pub(super) stop: Arc<Stop>,
 }
 
-/// The means to stop the arm from any thread: a latch on this side, and a connection of its own.
+/// Halt of the arm from any thread: a latch in the driver, and a separate connection.
 #[derive(Debug)]
 pub(super) struct Stop {
     is_halted: AtomicBool,
-    /// Set once the robot is dropped: there is nothing left to stop.
+    /// Set once the robot is dropped, when there is nothing left to stop.
     is_gone: AtomicBool,
     line: ScriptLine,
     deceleration_m_s2: f64,
     sent: Mutex<Sent>,
 }
 
-/// The stop that was sent last.
+/// Last stop that was sent.
 #[derive(Debug)]
 struct Sent {
-    /// Another for each; the controller says which one it carries out.
+    /// Number of the stop, which the controller reports once it begins the stop.
     number: i32,
-    /// On the monotonic clock; `None` where none was sent.
+    /// Time on the monotonic clock; `None` before the first stop.
     at: Option<Duration>,
 }
 
 impl Sent {
-    /// None was sent yet. The numbers begin where no earlier connection has been, for the controller may still show one of it.
+    /// Creates the state before the first stop. Numbers begin at a time-based value, since the controller may still report one of an
+    /// earlier connection.
     fn none() -> Sent {
         let number = monotonic().as_millis() & 0x3fff_ffff;
         Sent {
@@ -70,7 +71,7 @@ impl Sent {
     }
 }
 
-/// A stop of which the controller says nothing for so long counts as lost.
+/// Time after which an unreported stop counts as lost.
 const LOST_AFTER: Duration = Duration::from_secs(2);
 
 impl Stop {
@@ -82,12 +83,12 @@ impl Stop {
         self.line.is_alive()
     }
 
-    /// The program that brakes, for the connection of motions, where nothing overtakes it.
+    /// Stop program for the connection of motions, where it stays in order.
     pub(super) fn program(&self) -> String {
         stop(self.deceleration_m_s2)
     }
 
-    /// Sends one that the controller answers by its number.
+    /// Sends a numbered stop, whose number the controller reports.
     pub(super) fn send(&self) -> Result<(), LinkError> {
         let mut sent = self.sent();
         sent.number = sent.number.wrapping_add(1);
@@ -96,8 +97,8 @@ impl Stop {
         self.line.send(&program)
     }
 
-    /// Whether the last stop that was sent, and so every one before it, was carried out by a controller that says `number`, or is lost: one that
-    /// is late would end a motion that was sent on another connection after it.
+    /// True if a controller that reports `number` has executed the last stop, and so every earlier one, or if that stop is lost. A late
+    /// stop would end a motion sent later on another connection.
     pub(super) fn is_obeyed(&self, number: i32) -> bool {
         let sent = self.sent();
         sent.number == number
@@ -122,7 +123,7 @@ impl Halt for Stop {
     }
 }
 
-/// An error of the arm with its reason.
+/// Creates an error with a reason.
 pub(super) fn failed(
     kind: ErrorKind,
     doing: &'static str,
@@ -131,12 +132,12 @@ pub(super) fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
-/// A state that is older than this says nothing of where the arm is.
+/// Maximum age of a state for a first look.
 const FRESH: Duration = Duration::from_millis(50);
 const M_A_MM: f64 = 1e-3;
 
 impl Arm {
-    /// Connects to an arm; nothing moves, and nothing of its state changes.
+    /// Connects to an arm. Nothing moves and no state changes.
     pub(super) fn open(options: UrOptions) -> Result<Arm, DriverError> {
         let doing = "connect to the arm";
         let UrOptions {
@@ -162,7 +163,7 @@ impl Arm {
         })
     }
 
-    /// Lets a motion to `target` through that may be made.
+    /// Checks that a motion to `target` is within the limits.
     pub(super) fn admit(&self, target: &Pose, speed: Speed) -> Result<(), DriverError> {
         let doing = "move the arm";
         check_pose(target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
@@ -174,7 +175,7 @@ impl Arm {
         Ok(())
     }
 
-    /// The newest state behind the one numbered `after`; a fresh one that is there, if that is not said.
+    /// Waits for a state newer than number `after`. Without `after`, returns an existing state if it is fresh.
     pub(super) fn look(
         &self,
         after: Option<u64>,
@@ -196,7 +197,7 @@ impl Arm {
     }
 }
 
-/// The pose of a state, if its numbers are one.
+/// Pose of a state; an error if it has values that are not finite.
 pub(super) fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pose, DriverError> {
     pose_of(state.pose).ok_or_else(|| {
         let why = format!("{:?} is no pose, expected numbers", state.pose);
@@ -204,7 +205,7 @@ pub(super) fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pos
     })
 }
 
-/// The pose of a state, unless it says that the arm stopped by itself.
+/// Pose of a state; an error if it reports that the arm stopped by itself.
 fn watched_pose(state: &ArmState) -> Result<Pose, DriverError> {
     match ArmFault::of(state).filter(|fault| fault.kind().is_some()) {
         Some(fault) => Err(fault.met(LOOK)),
@@ -246,7 +247,7 @@ impl Robot for Arm {
     }
 
     fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        // First, so that a halt which comes meanwhile stays.
+        // Release first, so that a concurrent halt is kept.
         self.stop.is_halted.store(false, Ordering::Release);
         let seen = self.look(None, deadline.remaining())?;
         match ArmFault::of(&seen.what) {

@@ -1,4 +1,4 @@
-//! Motion by programs that end by themselves: the controller brakes where no other comes.
+//! Motion by programs that expire: the controller brakes when they are no longer renewed.
 
 use std::time::Duration;
 
@@ -24,7 +24,7 @@ impl ExpiringMotion for Arm {
         let first = self.ready(deadline)?;
         let from = numbered_pose(&first.what, DOING)?;
         let ended = match Course::of(&from, &target, speed) {
-            // The line takes the place of the last velocity: between both nothing has to end.
+            // The line replaces the last velocity; no rest is needed in between.
             Some(course) => self
                 .cruise(&course, until, first)
                 .and_then(|last| self.follow(target, speed, until, last)),
@@ -35,7 +35,7 @@ impl ExpiringMotion for Arm {
 }
 
 impl Arm {
-    /// Goes along `course` until little of it is left; the arm still moves then.
+    /// Follows `course` until little is left. The arm is still moving then.
     fn cruise(
         &mut self,
         course: &Course,

@@ -15,21 +15,21 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 /// Opens arms of Universal Robots (CB3 and e-Series): `ur/rtde:host=192.168.56.101`.
 ///
 /// # The physical contract
-/// - Poses are those of the tool in the **base frame** of the arm, in mm and degrees (about x, y and z in turn).
-/// - Opening connects, and changes nothing. The arm must be switched on, its brakes open, in remote control and without a stop of its safety: a
-///   person does that at the teach pendant. This driver never does.
-/// - A move is a program of one `movel`. It ends once no program runs and the reported pose is within 0.05 mm of the target.
-/// - An expiring move is a program of one `speedl` that holds for 0.2 s and brakes then, sent anew every 50 ms until a tenth of a second of the way
-///   is left, which is a `movel`. A short one, or one on which the tool turns, is a `movel` alone.
-/// - A halt sends a program of one `stopl` over a connection of its own, which takes the place of the one that runs; the controller confirms
-///   none. Without that connection no move begins.
+/// - Poses are of the tool in the **base frame** of the arm, in mm and degrees (about x, y and z in turn).
+/// - Opening connects and changes nothing. The arm must be switched on, with open brakes, in remote control and without a safety stop. A
+///   person does that at the teach pendant; this driver never does.
+/// - A move is a program with one `movel`. It ends once no program runs and the reported pose is within 0.05 mm of the target.
+/// - An expiring move is a program with one `speedl` that lasts 0.2 s and then brakes, renewed every 50 ms. The last 0.1 s of the path is a
+///   `movel`. A short move, or one with rotation of the tool, is a single `movel`.
+/// - A halt sends a program with one `stopl` over a separate connection, which replaces the running program; the controller confirms none.
+///   Without that connection no move begins.
 /// - Emergency, protective and safeguard stops end a move with `DeviceFault`.
-/// - It is watched while it moves by the states that it sends, which name these stops too.
+/// - During a move, the states that the arm sends are watched; they report these stops too.
 ///
 /// # What confirmed it
-/// An emulated controller on which the driver passes its suite; the public client `ur-rtde` 1.6.5 reads its poses too, and nothing but this driver
-/// has sent it script. **Not verified without the device**: how soon a program begins and `stopl` ends one, whether an arm keeps its speed where a
-/// program that moves it (`speedl`, for 0.2 s) takes the place of another every 50 ms, and bits of the safety status, which are from the documents.
+/// The driver passes its suite on an emulated controller, whose poses the public client `ur-rtde` 1.6.5 reads too. Only this driver has
+/// sent it script. **Not verified without the device**: how soon a program begins and `stopl` ends one, and bits of the safety status,
+/// which are from the documents. Also whether an arm keeps its speed when a `speedl` program of 0.2 s replaces another every 50 ms.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -44,10 +44,10 @@ pub struct UrFactory {
 }
 
 impl UrFactory {
-    /// The driver.
+    /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<UrFactory, DescriptorError> {
         let number = |key: &str, [least, most, usual]: [f64; 3], help: &str| {
             ArgSpec::number(key, least, most)
@@ -93,7 +93,7 @@ impl Factory<dyn Robot> for UrFactory {
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
         let mut spec = self.descriptor.to_spec();
-        // The deceleration is the one that the driver itself asks of the arm.
+        // The driver itself sets this deceleration.
         spec.facts = Facts::Robot(facts_of_robot(args));
         spec.check()
     }

@@ -1,57 +1,57 @@
-//! Messages of the real-time data exchange, in network order. Nothing here reads or writes a socket.
+//! Messages of the real-time data exchange, big-endian. No I/O.
 
 use thiserror::Error;
 
 use crate::text::shown;
 
-/// The kinds of message, by their letter.
+/// Message types, by letter.
 pub(super) const VERSION: u8 = b'V';
 pub(super) const OUTPUTS: u8 = b'O';
 pub(super) const START: u8 = b'S';
 const DATA: u8 = b'U';
 const TEXT: u8 = b'M';
 
-/// The version of the protocol that is spoken.
+/// Protocol version.
 const PROTOCOL: u16 = 2;
-/// What is asked for, in this order, and the types that the controller must give it. The last is the register to which stops write their number:
-/// the first of those that programs from outside may use.
+/// Requested outputs, in this order, and their required types. The last is the register to which stops write their number: the first one
+/// for external programs.
 const NAMES: &str =
     "timestamp,actual_TCP_pose,robot_mode,safety_status_bits,runtime_state,output_int_register_24";
 const TYPES: &str = "DOUBLE,VECTOR6D,INT32,UINT32,UINT32,INT32";
-/// The number of that register in script.
+/// Number of that register in script.
 pub(super) const STOP_REGISTER: u8 = 24;
-/// Bytes of a message of data: the number of the recipe, and what was asked for.
+/// Size of a data message, bytes: recipe number and outputs.
 const DATA_LENGTH: usize = 1 + 8 + 48 + 4 + 4 + 4 + 4;
-/// No answer is longer.
+/// Maximum length of an answer, bytes.
 const LENGTH_MAX: usize = 4096;
-/// Length and kind stand before what a message says.
+/// Size of the header, bytes: length and type.
 const HEADER: usize = 3;
 
-/// What an arm does at one moment.
+/// State of an arm at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ArmState {
-    /// x, y, z in m and a rotation vector in rad, in the base frame; not checked to be numbers.
+    /// x, y, z in m and a rotation vector in rad, in the base frame; may contain NaN.
     pub(super) pose: [f64; 6],
     pub(super) robot_mode: i32,
     pub(super) safety: u32,
     pub(super) runtime: u32,
-    /// The number of the last stop that it began to carry out.
+    /// Number of the last stop that the controller began.
     pub(super) stop: i32,
 }
 
-/// A message of the controller.
+/// Message of the controller.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Message {
-    /// Whether it accepts what was asked for by a message of the same kind.
+    /// Acceptance of the request with this message type.
     Accepted(u8, bool),
-    /// The types of what was asked for.
+    /// Types of the requested outputs.
     Types(String),
     State(ArmState),
-    /// Something it tells people.
+    /// Text for people.
     Text,
 }
 
-/// Bytes that are no message: the stream has lost its place.
+/// Invalid message: the stream has lost synchronisation.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum MessageError {
     #[error("a message of {found} bytes, expected {HEADER} to {LENGTH_MAX}")]
@@ -62,12 +62,12 @@ pub(super) enum MessageError {
     Types { found: String },
 }
 
-/// The message that asks for the version of the protocol.
+/// Encodes the request for the protocol version.
 pub(super) fn ask_version() -> Vec<u8> {
     message(VERSION, &PROTOCOL.to_be_bytes())
 }
 
-/// The message that asks for states, so many a second.
+/// Encodes the request for states at `rate_hz`.
 pub(super) fn ask_outputs(rate_hz: f64) -> Vec<u8> {
     message(
         OUTPUTS,
@@ -75,7 +75,7 @@ pub(super) fn ask_outputs(rate_hz: f64) -> Vec<u8> {
     )
 }
 
-/// The message that lets them come.
+/// Encodes the request to start.
 pub(super) fn ask_start() -> Vec<u8> {
     message(START, &[])
 }
@@ -85,7 +85,7 @@ fn message(kind: u8, says: &[u8]) -> Vec<u8> {
     [&length.to_be_bytes()[..], &[kind], says].concat()
 }
 
-/// Refuses outputs of other types than were asked for: a controller says `NOT_FOUND` for what it does not know.
+/// Fails unless the outputs have the requested types. A controller answers `NOT_FOUND` for an unknown output.
 pub(super) fn check_types(found: &str) -> Result<(), MessageError> {
     if found == TYPES {
         return Ok(());
@@ -95,22 +95,22 @@ pub(super) fn check_types(found: &str) -> Result<(), MessageError> {
     })
 }
 
-/// Cuts what comes, in pieces of any size, into messages.
+/// Splits bytes that arrive in pieces of any size into messages.
 #[derive(Debug, Default)]
 pub(super) struct Messages {
     waiting: Vec<u8>,
 }
 
 impl Messages {
-    /// Takes bytes that came.
+    /// Appends received bytes.
     pub(super) fn push(&mut self, bytes: &[u8]) {
         self.waiting.extend_from_slice(bytes);
     }
 
-    /// The next whole message, if it has come.
+    /// Returns the next complete message; `None` until it has arrived.
     ///
     /// # Errors
-    /// [`MessageError`], from then on for ever: the link must be closed.
+    /// [`MessageError`], which is permanent: the link must be closed.
     pub(super) fn next(&mut self) -> Result<Option<Message>, MessageError> {
         let Some(&[high, low, kind]) = self.waiting.first_chunk::<HEADER>() else {
             return Ok(None);
@@ -125,7 +125,7 @@ impl Messages {
         let says = &self.waiting[HEADER..length];
         let message = match (kind, says) {
             (VERSION | START, [accepted]) => Message::Accepted(kind, *accepted == 1),
-            // The number of the recipe, then the types.
+            // Recipe number, then the types.
             (OUTPUTS, [_, types @ ..]) => {
                 Message::Types(String::from_utf8_lossy(types).into_owned())
             }
@@ -145,7 +145,7 @@ fn state(says: &[u8]) -> ArmState {
     };
     let word = |at: usize| u32::from_be_bytes(std::array::from_fn(|byte| says[at + byte]));
     ArmState {
-        // Behind 8 bytes of the time since the controller was switched on.
+        // After 8 bytes of time since power-on.
         pose: std::array::from_fn(|side| double(8 + 8 * side)),
         robot_mode: word(56).cast_signed(),
         safety: word(60),
@@ -159,7 +159,7 @@ mod tests {
     use super::*;
     use crate::link::hexadecimal;
 
-    /// A state of an arm at (0.3, 0, 0.25) m.
+    /// State of an arm at (0.3, 0, 0.25) m.
     fn data() -> Vec<u8> {
         let mut says = vec![1];
         for number in [12.5, 0.3, 0.0, 0.25, 0.0, 3.125, 0.0] {

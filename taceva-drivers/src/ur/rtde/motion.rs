@@ -1,4 +1,4 @@
-//! One straight motion, from the look before it to the rest after it.
+//! One straight motion, from the first state to rest.
 
 use std::time::Duration;
 
@@ -12,26 +12,26 @@ use super::script::move_line;
 use crate::link::{Seen, monotonic};
 
 pub(super) const DOING: &str = "move the arm";
-/// How near the target a motion ends.
+/// Tolerance at the target, mm.
 const NEAR_MM: f64 = 0.05;
-/// An arm of which nothing is heard for so long is stopped.
+/// Time without a state after which the arm is stopped.
 const STALE: Duration = Duration::from_millis(250);
-/// After this time a program that does not run at the target has not still to begin.
+/// Time after which a program that does not run at the target has completed.
 const BEGUN: Duration = Duration::from_millis(100);
-/// After this time a program that does not run elsewhere will not begin any more.
+/// Time after which a program that does not run elsewhere will not begin.
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
-/// How long after its program an arm may still creep to its target.
+/// Time during which an arm may settle at its target after the program.
 const SETTLED: Duration = Duration::from_millis(200);
-/// After this time a stop that the controller began has ended.
+/// Time after which a started stop has ended.
 const BRAKED: Duration = Duration::from_millis(400);
-/// How long an arm that was asked to stop is looked at until it stands.
+/// Time to wait until a stopped arm is at rest.
 const STOPPING: Duration = Duration::from_millis(400);
 pub(super) const M_A_MM: f64 = 1e-3;
-/// The state of a controller that runs no program.
+/// Runtime state without a program.
 const STOPPED: u32 = 1;
 
 impl Arm {
-    /// Moves the tip to `target` and returns once it rests there, or stands elsewhere and why.
+    /// Moves the tip to `target` and returns once it rests there. An error says why it stopped elsewhere.
     pub(super) fn go(
         &mut self,
         target: Pose,
@@ -44,7 +44,7 @@ impl Arm {
         self.end(ended)
     }
 
-    /// The state of an arm that may be moved.
+    /// Waits until the arm may be moved, and returns its state.
     pub(super) fn ready(&self, deadline: Deadline) -> Result<Seen<ArmState>, DriverError> {
         let until = monotonic().saturating_add(deadline.remaining());
         if self.stop.is_halted() {
@@ -65,11 +65,11 @@ impl Arm {
         Ok(first)
     }
 
-    /// The first state after every stop that was sent: it was carried out, and has ended or should have.
+    /// Waits for the first state after every sent stop was executed and has ended, or should have.
     fn after_every_stop(&self, until: Duration) -> Result<Seen<ArmState>, DriverError> {
         let left = || until.saturating_sub(monotonic());
         let mut seen = self.look(None, left())?;
-        // Since when the last one is known to be carried out.
+        // Time since which the last stop is known to be executed.
         let mut obeyed = None;
         loop {
             if let Some(fault) = ArmFault::of(&seen.what) {
@@ -93,11 +93,11 @@ impl Arm {
         }
     }
 
-    /// Ends a motion: an arm whose motion was broken off is stopped.
+    /// Ends a motion. Stops the arm if the motion is incomplete.
     pub(super) fn end(&self, ended: Result<Stamp, DriverError>) -> Result<Stamp, DriverError> {
         if ended.is_err() {
-            // Behind the motion on its own way, which a stop on the other may have overtaken; one that could not be sent says so by a link
-            // that is gone.
+            // Send the stop after the motion on the same connection, since a stop on the other may have overtaken it. If it cannot be sent,
+            // the link is broken, which is reported elsewhere.
             let _ = self.motions.send(&self.stop.program());
             let _ = self.stop.send();
             self.settle();
@@ -105,7 +105,7 @@ impl Arm {
         ended
     }
 
-    /// Sends the arm along a line, in the place of what it does, and returns once it rests at its end.
+    /// Replaces the current motion by a line to `target` and returns once the arm rests there.
     pub(super) fn follow(
         &mut self,
         target: Pose,
@@ -123,7 +123,7 @@ impl Arm {
             .map_err(|error| failed(error.kind(), DOING, error))?;
         let sent = monotonic();
         let mut has_run = false;
-        // Since when no program runs.
+        // Time since which no program runs.
         let mut rested = None;
         let mut last = first;
         loop {
@@ -157,7 +157,7 @@ impl Arm {
         }
     }
 
-    /// Waits until an arm that was stopped runs no program, or cannot be seen.
+    /// Waits until a stopped arm runs no program or sends no state.
     fn settle(&self) {
         let until = monotonic() + STOPPING;
         let mut last = None;
@@ -175,7 +175,7 @@ pub(super) fn halted() -> DriverError {
     failed(ErrorKind::Interrupted, DOING, "it was halted")
 }
 
-/// How far the tip is from `target`; infinite where the state has no numbers.
+/// Distance of the tip from `target`, mm; infinite if the state has values that are not finite.
 fn distance_mm(state: &ArmState, target: &Pose) -> f64 {
     let Some(pose) = pose_of(state.pose) else {
         return f64::INFINITY;

@@ -1,11 +1,11 @@
-//! Poses as the controller counts them: metres, and a rotation as a vector along its axis, as long as its angle.
+//! Conversion of poses to the controller's form: metres and a rotation vector, whose length is the angle in rad.
 
 use taceva_core::{Pose, SiPose};
 
-/// The pose of six numbers of the controller; `None` where one of them is none.
+/// Converts six numbers of the controller to a pose; `None` if one is not finite.
 pub(super) fn pose_of([x, y, z, rx, ry, rz]: [f64; 6]) -> Option<Pose> {
     let angle = (rx * rx + ry * ry + rz * rz).sqrt();
-    // The limit of sin(angle / 2) / angle where the angle vanishes.
+    // Limit of sin(angle / 2) / angle for a vanishing angle.
     let share = if angle > 0.0 {
         (angle / 2.0).sin() / angle
     } else {
@@ -18,7 +18,7 @@ pub(super) fn pose_of([x, y, z, rx, ry, rz]: [f64; 6]) -> Option<Pose> {
     si.to_pose()
 }
 
-/// The six numbers of a pose.
+/// Converts a pose to six numbers, in m and rad.
 pub(super) fn numbers_of(pose: Pose) -> [f64; 6] {
     let SiPose {
         position_m: [x, y, z],

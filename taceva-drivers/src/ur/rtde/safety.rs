@@ -1,4 +1,4 @@
-//! What keeps an arm from moving.
+//! Safety states that prevent motion of an arm.
 
 use std::fmt;
 
@@ -8,17 +8,17 @@ use super::arm::failed;
 
 use super::message::ArmState;
 
-/// Why an arm does not move.
+/// Cause for an arm not moving.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ArmFault {
     EmergencyStop,
-    /// It felt a collision, or left a limit of its safety configuration.
+    /// Protective stop: a collision, or a violated limit of the safety configuration.
     ProtectiveStop,
-    /// Somebody is where nobody should be.
+    /// Safeguard stop: a person is in the protected area.
     SafeguardStop,
     Violation,
     Fault,
-    /// It is not switched on, or its brakes are closed.
+    /// The arm is off, or its brakes are closed.
     NotRunning {
         mode: i32,
     },
@@ -32,11 +32,11 @@ const ROBOT_EMERGENCY_STOPPED: u32 = 1 << 6;
 const EMERGENCY_STOPPED: u32 = 1 << 7;
 const VIOLATION: u32 = 1 << 8;
 const FAULT: u32 = 1 << 9;
-/// The mode of an arm with power and open brakes.
+/// Robot mode with power on and open brakes.
 const RUNNING: i32 = 7;
 
 impl ArmFault {
-    /// Of which kind it is, where only a person may go on from it.
+    /// Kind of a fault that needs a person; `None` for others.
     pub(super) fn kind(self) -> Option<Fault> {
         match self {
             ArmFault::EmergencyStop => Some(Fault::EmergencyStop),
@@ -47,7 +47,7 @@ impl ArmFault {
         }
     }
 
-    /// The error of whoever was `doing` something when the arm reported it.
+    /// Converts the fault into an error that occurred while `doing`.
     pub(super) fn met(self, doing: &'static str) -> DriverError {
         let error = failed(ErrorKind::DeviceFault, doing, self);
         match self.kind() {
@@ -56,7 +56,7 @@ impl ArmFault {
         }
     }
 
-    /// The gravest reason in `state`; `None` if it may move.
+    /// Most serious fault in `state`; `None` if the arm may move.
     pub(super) fn of(state: &ArmState) -> Option<ArmFault> {
         let any = |bits: u32| state.safety & bits != 0;
         if any(EMERGENCY_STOPPED | ROBOT_EMERGENCY_STOPPED | SYSTEM_EMERGENCY_STOPPED) {

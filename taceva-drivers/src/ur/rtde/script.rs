@@ -1,4 +1,4 @@
-//! Lines of script, and the connection that takes them: the controller sends much there that nobody reads.
+//! Script programs, and the connection that accepts them. The controller's data on it is discarded.
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -11,7 +11,7 @@ use std::time::Duration;
 use super::message::STOP_REGISTER;
 use crate::link::{LinkError, connect};
 
-/// The program that moves in a straight line: to a pose in m and rad, at m/s and m/s².
+/// Program that moves in a straight line to a pose in m and rad, at m/s and m/s².
 pub(super) fn move_line(pose: [f64; 6], speed_m_s: f64, acceleration_m_s2: f64) -> String {
     let [x, y, z, rx, ry, rz] = pose;
     format!(
@@ -19,7 +19,7 @@ pub(super) fn move_line(pose: [f64; 6], speed_m_s: f64, acceleration_m_s2: f64) 
     )
 }
 
-/// The program that moves at a velocity in m/s for so long, and then brakes; accelerations in m/s².
+/// Program that moves at a velocity in m/s for `lasts_s`, then brakes. Accelerations in m/s².
 pub(super) fn cruise(
     [x, y, z]: [f64; 3],
     lasts_s: f64,
@@ -30,19 +30,19 @@ pub(super) fn cruise(
     )
 }
 
-/// The program that takes the place of the one that runs, and brakes.
+/// Program that replaces the running one and brakes.
 pub(super) fn stop(deceleration_m_s2: f64) -> String {
     format!("def taceva_stop():\n  stopl({deceleration_m_s2:.6})\nend\n")
 }
 
-/// The same, which says by its `number` that the controller carries it out.
+/// Like [`stop`], and writes `number` to a register once the controller begins it.
 pub(super) fn numbered_stop(number: i32, deceleration_m_s2: f64) -> String {
     format!(
         "def taceva_stop():\n  write_output_integer_register({STOP_REGISTER}, {number})\n  stopl({deceleration_m_s2:.6})\nend\n"
     )
 }
 
-/// A connection that takes script.
+/// Connection that accepts script.
 #[derive(Debug)]
 pub(super) struct ScriptLine {
     stream: Mutex<TcpStream>,
@@ -51,7 +51,7 @@ pub(super) struct ScriptLine {
     reader: Option<JoinHandle<()>>,
 }
 
-/// What the writing of a program may take before the other side counts as gone.
+/// Timeout for writing a program.
 const WRITING: Duration = Duration::from_millis(40);
 
 impl ScriptLine {
@@ -66,7 +66,7 @@ impl ScriptLine {
         let reader = std::thread::Builder::new()
             .name("ur script".to_owned())
             .spawn(move || {
-                // What is not read would one day fill the way.
+                // Read and discard, so that the receive buffer does not fill up.
                 let mut bytes = [0; 4096];
                 while !matches!(reading.read(&mut bytes), Ok(0) | Err(_)) {}
                 over.store(true, Ordering::Release);
@@ -80,12 +80,12 @@ impl ScriptLine {
         })
     }
 
-    /// Whether it is still there, as far as this side knows.
+    /// True until the reader notices that the connection ended.
     pub(super) fn is_alive(&self) -> bool {
         !self.is_over.load(Ordering::Acquire)
     }
 
-    /// Sends a program, which nothing confirms.
+    /// Sends a program. The controller does not confirm it.
     pub(super) fn send(&self, program: &str) -> Result<(), LinkError> {
         let address = self.address;
         if !self.is_alive() {

@@ -1,4 +1,4 @@
-//! The connection of the real-time data exchange: a thread that reads, and the newest state for whoever asks.
+//! Connection of the real-time data exchange: a reader thread posts the newest state.
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -16,7 +16,7 @@ use super::message::{
 use crate::link::mailbox::Ending;
 use crate::link::{LinkError, Mailbox, connect, monotonic};
 
-/// The states of one arm.
+/// States of one arm.
 #[derive(Debug)]
 pub(super) struct States {
     states: Arc<Mailbox<ArmState>>,
@@ -24,7 +24,7 @@ pub(super) struct States {
     reader: Option<JoinHandle<()>>,
 }
 
-/// Why no states come.
+/// Failure to receive states.
 #[derive(Debug, Error)]
 pub(super) enum StatesError {
     #[error(transparent)]
@@ -41,7 +41,7 @@ pub(super) enum StatesError {
 }
 
 impl StatesError {
-    /// What kind of failure it is.
+    /// Kind of the failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             StatesError::Link(error) => error.kind(),
@@ -55,7 +55,7 @@ impl StatesError {
 const ANSWER: Duration = Duration::from_secs(2);
 
 impl States {
-    /// Asks the controller at `port` of `host` for so many states a second.
+    /// Requests states at `rate_hz` from the controller at `port` of `host`.
     pub(super) fn open(host: &str, port: u16, rate_hz: f64) -> Result<States, StatesError> {
         let (mut stream, address) = connect(host, port)?;
         let broken = |source: io::Error| LinkError::Broken { address, source };
@@ -88,7 +88,7 @@ impl States {
         })
     }
 
-    /// The states that come.
+    /// Mailbox of the states.
     pub(super) fn mailbox(&self) -> &Arc<Mailbox<ArmState>> {
         &self.states
     }
@@ -96,7 +96,7 @@ impl States {
 
 impl Drop for States {
     fn drop(&mut self) {
-        // The thread that reads ends with the stream.
+        // The shutdown ends the reader thread.
         let _ = self.stream.shutdown(Shutdown::Both);
         if let Some(reader) = self.reader.take() {
             let _ = reader.join();
@@ -104,7 +104,7 @@ impl Drop for States {
     }
 }
 
-/// Waits until the controller accepts what was asked for by a message of `kind`.
+/// Waits until the controller accepts the request of type `kind`.
 fn await_answer(
     stream: &mut TcpStream,
     address: SocketAddr,
@@ -139,7 +139,7 @@ fn await_answer(
     }
 }
 
-/// Posts every state until none can come any more, and says why.
+/// Posts every state until the connection ends, and returns the reason.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,

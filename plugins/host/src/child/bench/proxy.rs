@@ -1,4 +1,4 @@
-//! A simulated bench in a child.
+//! Host-side proxy of a simulated bench in a child.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -17,7 +17,7 @@ pub(crate) struct BenchProxy {
 
 struct Line {
     caller: Caller,
-    /// The last time that its clock showed; a bench that is gone has stopped there.
+    /// Last reading of the bench's clock, kept for when the bench is gone.
     now: Duration,
 }
 

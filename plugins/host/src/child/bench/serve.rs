@@ -1,4 +1,4 @@
-//! A simulated bench of the child's rig, served on a thread of its own.
+//! Serves the simulated bench of the child's rig on its own thread.
 
 use std::os::fd::OwnedFd;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::child::socket::Socket;
 use crate::child::thread::{guarded, start};
 use crate::child::wire::{BenchAnswer, BenchCall, Failure};
 
-/// Answers calls to `bench` until the host closes its end.
+/// Answers calls to `bench` until the host closes its socket.
 pub(in crate::child) fn serve(
     bench: Arc<dyn SimulatedBench>,
     calls: OwnedFd,

@@ -1,4 +1,4 @@
-//! A changer on both sides of the socket.
+//! Changer: proxy in the host and server in the child.
 
 use std::os::fd::OwnedFd;
 use std::sync::Arc;

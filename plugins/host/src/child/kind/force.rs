@@ -1,4 +1,4 @@
-//! A force transducer on both sides of the socket.
+//! Force transducer: proxy in the host and server in the child.
 
 use std::os::fd::OwnedFd;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ struct ForceProxy {
     axes: Axes,
     interrupts: bool,
     tare: bool,
-    /// Of the last reading.
+    /// Sequence number of the last reading.
     sequence: Option<u64>,
 }
 

@@ -1,4 +1,4 @@
-//! A lighting on both sides of the socket; a sensor that sets its own light sends the same call.
+//! Lighting: proxy in the host and server in the child. A sensor with its own lighting uses the same call.
 
 use std::os::fd::OwnedFd;
 

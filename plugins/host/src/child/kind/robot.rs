@@ -1,4 +1,4 @@
-//! A robot on both sides of the socket.
+//! Robot: proxy in the host and server in the child.
 
 use std::os::fd::OwnedFd;
 use std::sync::Arc;
@@ -122,7 +122,7 @@ impl Robot for RobotProxy {
     }
 }
 
-/// The child renews the motion, which ends with it.
+/// The child renews the motion, so the motion stops when the child ends.
 impl ExpiringMotion for RobotProxy {
     fn move_expiring(
         &mut self,

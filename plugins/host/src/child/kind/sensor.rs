@@ -1,4 +1,4 @@
-//! A sensor on both sides of the socket. Its frames lie in memory that both sides share.
+//! Sensor: proxy in the host and server in the child. Frames are stored in shared memory.
 
 use std::os::fd::OwnedFd;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use crate::child::memory::SharedMemory;
 use crate::child::reply::Reply;
 use crate::child::wire::{Answer, Call, Failure, OpenedDevice};
 
-/// The largest frame that is taken from a child, in bytes: a hundred million pixels.
+/// Maximum size of a child's frame, bytes: a hundred million pixels.
 const FRAME_MAX: usize = 600_000_000;
 
 const CAPTURE: &str = "capture a frame";
@@ -28,7 +28,7 @@ struct SensorProxy {
     scenes: Option<Vec<String>>,
 }
 
-/// A sensor in the child, and the memory that its frames are written into.
+/// A sensor in the child with the shared memory for its frames.
 struct SensorServer {
     sensor: Box<dyn Sensor>,
     frame: FrameInfo,
@@ -67,7 +67,7 @@ impl Kind for dyn Sensor {
     }
 }
 
-/// Memory for a frame that is not too large.
+/// Allocates shared memory for one frame. Fails for a frame of 0 or more than [`FRAME_MAX`] bytes.
 fn memory_of(link: &Link, frame: FrameInfo) -> Result<SharedMemory, DriverError> {
     let length = frame
         .byte_len()

@@ -1,4 +1,4 @@
-//! A model that lives in a child.
+//! Host-side proxy of a model in a child.
 
 use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -17,13 +17,13 @@ use crate::child::start::Child;
 use crate::child::wire::{Failure, ModelAnswer, ModelCall, ModelEvent, ModelWord};
 use crate::session::SavedRegressor;
 
-/// How often it is asked whether a fit should end.
+/// Interval at which a fit is checked for cancellation.
 const ASKED_EVERY: Timespec = Timespec {
     tv_sec: 0,
     tv_nsec: 50_000_000,
 };
 
-/// A kept model has at most this many bytes.
+/// Maximum size of a saved model, bytes.
 const SAVED_MAX: u64 = 1 << 30;
 
 /// A fitted model in a child.
@@ -36,7 +36,7 @@ pub(crate) struct ModelProxy {
 }
 
 impl ModelProxy {
-    /// The model that the child makes, once it has; `talk` is the socket to whoever makes it.
+    /// Waits until the child has made the model. `talk` is the socket to the child's model thread.
     pub(crate) fn when_made(
         child: Arc<Child>,
         estimator: DriverKey,
@@ -50,13 +50,13 @@ impl ModelProxy {
         let failed = |failure: Failure| of_failure(&estimator, &failure);
         loop {
             if is_cancelled.is_none() && progress.is_cancelled() {
-                // One that cannot be reached is gone, or ends by its time.
+                // An unreachable child is gone or will time out.
                 let _ = send_now(talk.as_fd(), &ModelWord::Cancel {});
                 let life = child.life();
                 is_cancelled = Some(life.watch.begin("end a fit", life.patience.open));
             }
             let mut polled = [PollFd::new(&talk, PollFlags::IN)];
-            // An interrupted poll says nothing.
+            // An interrupted poll is ignored.
             if !matches!(poll(&mut polled, Some(&ASKED_EVERY)), Ok(1..)) {
                 continue;
             }
@@ -148,14 +148,14 @@ impl Regressor for ModelProxy {
             memory(Some(bytes)).map_err(|failure| of_failure(&self.estimator, &failure))?;
         put(features.values(), memory.bytes_mut());
         let samples = samples as u64;
-        // A second for each thousand samples, beyond what a call may take anyway.
+        // One millisecond per sample, beyond the usual timeout of a call.
         let after = self.child.life().patience.open + Duration::from_millis(samples);
         let call = ModelCall::Predict { samples };
         match self.ask(&call, &[memory.file()], DOING, after)? {
             ModelAnswer::Done {} => {}
             _ => return Err(self.other_answer()),
         }
-        // Copied before it is looked at: the other process can still write there.
+        // Copy before checking: the other process can still write there.
         let mut copy = vec![0; size_of_val(into)];
         memory.copy_to(&mut copy);
         let (predictions, _) = get::<f64>(into.len(), &copy).unwrap_or_default();
@@ -197,15 +197,15 @@ impl SavedRegressor for ModelProxy {
 impl Drop for ModelProxy {
     fn drop(&mut self) {
         let calls = self.calls.get_mut().unwrap_or_else(PoisonError::into_inner);
-        // It is not answered: the child closes the model when it hears this, or that nobody is there.
+        // No answer follows. The child drops the model on this message, or when the socket closes.
         let _ = send_now(calls.as_fd(), &(0_u32, ModelCall::Close {}));
     }
 }
 
-/// An error of the estimator as it would read without a child between.
+/// Converts a failure into the estimator's error as it would read without a child.
 pub(crate) fn of_failure(estimator: &DriverKey, failure: &Failure) -> ModelError {
     let why = match &failure.cause {
-        // What an estimator says names it already.
+        // The message already names the estimator.
         Some(cause) if cause.starts_with(estimator.as_str()) => plain(cause),
         Some(cause) => format!(
             "{estimator}: cannot {}: {}",
@@ -217,7 +217,7 @@ pub(crate) fn of_failure(estimator: &DriverKey, failure: &Failure) -> ModelError
     ModelError::new(failure.kind, why)
 }
 
-/// An error of a child that did not answer.
+/// Converts a link error of a child that did not answer.
 pub(crate) fn of_link(child: &Child, estimator: &DriverKey, error: LinkError) -> ModelError {
     let error = child.life().lost(error);
     ModelError::new(error.kind(), format!("{estimator}: {error}")).because(error)

@@ -1,4 +1,4 @@
-//! Models in a child: made on a thread of their own, which then answers calls to them.
+//! Models in a child. A separate thread makes each model, then answers calls to it.
 
 use std::os::fd::{AsFd, OwnedFd};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,7 +14,7 @@ use crate::child::thread::{guarded, start};
 use crate::child::wire::{Failure, ModelAnswer, ModelCall, ModelEvent, ModelOrder, ModelWord};
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
-/// Makes a model and serves it, on a thread of its own.
+/// Makes a model and serves it on its own thread.
 pub(in crate::child) fn serve(
     session: Arc<dyn Session>,
     order: ModelOrder,
@@ -33,7 +33,7 @@ pub(in crate::child) fn serve(
             Ok(model) if talk.send(&ModelEvent::Made {}, &[]).is_ok() => answer(talk, &*model),
             Ok(_) => {}
             Err(failure) => {
-                // A host that is gone wants no reason.
+                // Ignored if the host is gone.
                 let _ = talk.send(&ModelEvent::Failed { failure }, &[]);
             }
         }
@@ -90,7 +90,7 @@ fn make(
     }
 }
 
-/// Answers calls to a model until the host is done with it.
+/// Answers calls to a model until the host closes it or is gone.
 fn answer(mut talk: Socket, model: &dyn SavedRegressor) {
     let mut saved = Vec::new();
     while let Ok(((sequence, call), files)) = talk.receive_with_files::<(u32, ModelCall)>() {
@@ -141,7 +141,7 @@ fn one_answer(
     }
 }
 
-/// The features lie in front; the predictions overwrite them from the front.
+/// Reads the features from the front of `memory` and overwrites them with the predictions.
 fn predict(
     model: &dyn SavedRegressor,
     samples: u64,
@@ -168,7 +168,7 @@ fn predict(
     Ok(())
 }
 
-/// Tells the host how far a fit is, and hears whether it should end.
+/// Reports the progress of a fit to the host and receives its cancellation.
 struct Listener {
     bell: Option<OwnedFd>,
     heard: Mutex<()>,
@@ -185,7 +185,7 @@ impl Listener {
     }
 
     fn tell(&self, event: &ModelEvent) {
-        // Progress that the host has no room for is progress it does not miss.
+        // Progress reports are dropped while the socket is full.
         if let Some(bell) = &self.bell {
             let _ = send_now(bell.as_fd(), event);
         }
@@ -207,14 +207,14 @@ impl Progress for Listener {
     }
 
     fn is_cancelled(&self) -> bool {
-        // One at a time, so that the word is heard by whoever takes it.
+        // One thread at a time, so that the receiving thread also stores the cancellation.
         let _heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
         if !self.is_cancelled.load(Ordering::Acquire)
             && let Some(bell) = &self.bell
         {
             let is_cancelled = match try_receive::<ModelWord>(bell.as_fd()) {
                 Ok(None) => false,
-                // A host that is gone waits for nothing any more.
+                // If the host is gone, the fit is cancelled.
                 Ok(Some(ModelWord::Cancel {})) | Err(LinkError::Closed) => true,
                 Err(_) => false,
             };

@@ -1,34 +1,34 @@
-//! What a child confines itself to.
+//! Limits that a child imposes on itself.
 
 use std::path::PathBuf;
 
 use super::Need;
 use crate::child::wire::{Malformed, Reader, Wire, fields};
 
-/// What a child must confine itself to before it loads anything.
+/// Limits that a child imposes on itself before it loads anything.
 ///
-/// Whatever stands here, it gets no other file than the libraries of the system, no socket that it does not need, no program to start, no
-/// other process to see, and no memory that is writable and executable.
+/// An untrusted child can always read the system libraries. It never gets other files or sockets than needed, a program to start, other
+/// processes to see, or memory that is writable and executable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Confinement {
-    /// How much memory it may address, in bytes.
+    /// Limit of address space, bytes.
     pub memory: u64,
-    /// How many files it may hold open.
+    /// Limit of open files.
     pub files: u64,
-    /// What it reaches outside, as its manifest declares and its user allows.
+    /// Outside resources that its manifest declares and its user allows.
     pub needs: Vec<Need>,
-    /// Files and folders of its own that it reads: the environment of an interpreter.
+    /// Readable files and folders of its own: the environment of an interpreter.
     pub readable: Vec<PathBuf>,
-    /// Whether no more code comes into it once it is loaded.
+    /// True if the child may map no more code once its plugin is loaded.
     pub seals: bool,
-    /// Whether a kernel that enforces only a part will do; without, the child refuses to start.
+    /// True if partial enforcement by the kernel is accepted. Otherwise the child refuses to start.
     pub accepts_less: bool,
-    /// Whether nothing is kept from it: its user trusts it, and it is apart only so that it can end alone.
+    /// True if nothing is restricted: the user trusts the plugin, and the separate process only isolates crashes.
     pub is_trusted: bool,
 }
 
 impl Default for Confinement {
-    /// 4 GiB of addresses, 256 files, nothing outside, and nothing less.
+    /// 4 GiB of address space, 256 open files, no outside resource, and full enforcement.
     fn default() -> Confinement {
         Confinement {
             memory: 4 << 30,

@@ -1,4 +1,4 @@
-//! The files behind needs: devices of the kinds that the words name, and what is read beside them.
+//! Files behind needs: device files of the named kinds, and the system files that describe them.
 
 use std::fs::{self, Metadata};
 use std::os::unix::fs::{FileTypeExt, MetadataExt};
@@ -7,21 +7,21 @@ use std::path::{Path, PathBuf};
 use super::Need;
 use crate::manifest::matches;
 
-/// Numbers of devices that the kernel gives out, `Documentation/admin-guide/devices.txt`.
+/// Major device numbers of the kernel, from `Documentation/admin-guide/devices.txt`.
 mod major {
     pub(super) const MEMORY: u32 = 1;
     pub(super) const CONSOLES_AND_PORTS: u32 = 4;
     pub(super) const OWN_TERMINAL: u32 = 5;
     pub(super) const PSEUDO_TERMINALS: std::ops::RangeInclusive<u32> = 136..=143;
 }
-/// The first number of a port among the consoles.
+/// First minor number of a serial port; lower ones are consoles.
 const FIRST_PORT: u32 = 64;
 
-/// Where the system describes devices, by which libraries find them.
+/// Folders in which libraries find cameras.
 const CAMERAS: [&str; 2] = ["/sys/class/video4linux", "/sys/devices"];
 const HIDS: [&str; 3] = ["/sys/class/hidraw", "/sys/bus/hid", "/sys/devices"];
 
-/// The devices among `needs` that are there now, each of the kind that its word says.
+/// Existing devices that `needs` name, each checked to be of the named kind.
 pub(super) fn devices(needs: &[Need]) -> Vec<PathBuf> {
     let mut devices = Vec::new();
     for need in needs {
@@ -42,7 +42,7 @@ pub(super) fn devices(needs: &[Need]) -> Vec<PathBuf> {
     devices
 }
 
-/// The files and folders that `needs` let be read.
+/// Files and folders that `needs` make readable.
 pub(super) fn readable(needs: &[Need]) -> Vec<PathBuf> {
     let mut readable = Vec::new();
     for need in needs {
@@ -56,7 +56,7 @@ pub(super) fn readable(needs: &[Need]) -> Vec<PathBuf> {
     readable
 }
 
-/// Whether it is a character device: no disk, no memory of the machine, no terminal on which a person types.
+/// True for a character device that is neither memory of the machine nor a person's terminal.
 fn is_device(metadata: &Metadata) -> bool {
     let (major, minor) = numbers(metadata);
     let is_terminal =
@@ -67,7 +67,7 @@ fn is_device(metadata: &Metadata) -> bool {
         && own_terminal() != Some((major, minor))
 }
 
-/// Why a serial port that `needs` name without a star would stay closed: what is there is none.
+/// Describes the first serial port in `needs` that exists but is not a serial port. Patterns with a star are skipped.
 pub(crate) fn no_port(needs: &[Need]) -> Option<String> {
     needs.iter().find_map(|need| match need {
         Need::Serial { path } if !need.has_star() => {
@@ -78,7 +78,7 @@ pub(crate) fn no_port(needs: &[Need]) -> Option<String> {
     })
 }
 
-/// Whether it is a port with lines as those of a terminal; it is not opened for this, which would reset some boards.
+/// True for a serial port or a pseudo-terminal. The port is not opened, which would reset some boards.
 fn is_serial(metadata: &Metadata) -> bool {
     let (major, minor) = numbers(metadata);
     let class = format!("/sys/dev/char/{major}:{minor}/subsystem");
@@ -91,10 +91,10 @@ fn numbers(metadata: &Metadata) -> (u32, u32) {
     (rustix::fs::major(device), rustix::fs::minor(device))
 }
 
-/// The terminal of the session that this process is in, whose keys belong to a person.
+/// Device number of the controlling terminal, at which a person types; `None` without one.
 fn own_terminal() -> Option<(u32, u32)> {
     let status = fs::read_to_string("/proc/self/stat").ok()?;
-    // The name, in brackets, may hold spaces; the terminal is the fifth field behind it.
+    // The name, in parentheses, may contain spaces. The terminal is the fifth field after it.
     let (_, behind) = status.rsplit_once(')')?;
     let number: u32 = behind
         .split_whitespace()
@@ -109,7 +109,7 @@ fn own_terminal() -> Option<(u32, u32)> {
     (number != 0).then_some((major, minor))
 }
 
-/// The paths that are there and match `pattern`, in which `*` stands for anything but `/`.
+/// Existing paths that match `pattern`, in which `*` stands for any characters but `/`.
 fn matching(pattern: &str) -> Vec<PathBuf> {
     if !pattern.contains('*') {
         let path = PathBuf::from(pattern);

@@ -1,12 +1,12 @@
-//! The order in which a child gives up what it could do.
+//! Order in which a child gives up its rights.
 
 use super::isolation::LANDLOCK_WHOLE;
 use super::{Confinement, Isolation, files, identity, seccomp};
 
-/// Gives up everything but what `confinement` leaves, for good; before anything is loaded and while there is one thread.
+/// Gives up, for good, every right that `confinement` does not grant. Call it before anything is loaded, while there is one thread.
 ///
 /// # Errors
-/// What could not be given up, in words. The process must end then: it may be confined in part.
+/// Describes the right that could not be given up. The process must end then, since it may be partly confined.
 pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolation, String> {
     if confinement.is_trusted {
         identity::end_with(parent)?;
@@ -34,7 +34,7 @@ pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolatio
     }
 }
 
-/// Gives up what only loading needs: from now on no more code comes into the process, on any of its threads.
+/// Gives up the right to map code, which only loading needs, on every thread of the process.
 ///
 /// # Errors
 /// As [`confine`].

@@ -1,4 +1,4 @@
-//! Files, ports and other processes, closed off by Landlock.
+//! Restriction of files, TCP ports and other processes by Landlock.
 
 use std::path::{Path, PathBuf};
 
@@ -10,10 +10,10 @@ use landlock::{
 
 use super::{Confinement, Need, devices};
 
-/// The newest version of Landlock whose rights are handled; an older kernel handles what it knows.
+/// Newest supported Landlock version. An older kernel enforces the rights it knows.
 const NEWEST: ABI = ABI::V7;
 
-/// What is read by the loader and by the C library: no file of a user.
+/// Files of the loader and the C library; no user files.
 const READABLE: [&str; 12] = [
     "/lib",
     "/lib64",
@@ -23,18 +23,18 @@ const READABLE: [&str; 12] = [
     "/etc/ld.so.cache",
     "/etc/localtime",
     "/usr/share/zoneinfo",
-    // By which pointers of a plugin are checked; of this process alone.
+    // For checking the plugin's pointers; of this process only.
     "/proc/self/maps",
     "/dev/zero",
     "/dev/random",
     "/dev/urandom",
 ];
 
-/// Where the devices of USB and what describes them are.
+/// Folders of the USB devices and their descriptions.
 const USB: [&str; 3] = ["/dev/bus/usb", "/sys/bus/usb", "/sys/devices"];
 
-/// Closes off every file but the libraries of the system, what is its own to read and the devices needed, every TCP port but those needed, and every other process.
-/// Says which version of Landlock does so.
+/// Denies all files except system libraries, readable files and needed devices, all TCP ports except needed ones, and all other processes.
+/// Returns the enforcing Landlock version; `None` if the kernel has no Landlock.
 pub(super) fn close_off(confinement: &Confinement) -> Result<Option<u32>, String> {
     restrict(confinement).map_err(|error| format!("cannot close off files: {error}"))
 }
@@ -47,7 +47,7 @@ fn restrict(confinement: &Confinement) -> Result<Option<u32>, RulesetError> {
         .handle_access(AccessNet::from_all(NEWEST))?
         .scope(Scope::from_all(NEWEST))?
         .create()?;
-    // Without the right to execute: a library is mapped by whoever may read it.
+    // No right to execute: mapping a library needs only the right to read it.
     let read = AccessFs::ReadFile | AccessFs::ReadDir;
     let write = AccessFs::ReadFile | AccessFs::WriteFile;
     let device = read | AccessFs::WriteFile | AccessFs::IoctlDev;
@@ -83,7 +83,7 @@ fn restrict(confinement: &Confinement) -> Result<Option<u32>, RulesetError> {
     })
 }
 
-/// Allows `access` to the paths that exist; of a file only what a file can have.
+/// Allows `access` to the existing `paths`, limited for files to rights that apply to files.
 fn allow<'a>(
     mut ruleset: RulesetCreated,
     paths: impl IntoIterator<Item = &'a Path>,

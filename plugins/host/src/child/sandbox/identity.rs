@@ -1,4 +1,4 @@
-//! Who a child is, what it inherited, and how much it may use.
+//! User, groups, resource limits and process attributes of a child.
 
 use std::os::unix::fs::MetadataExt;
 
@@ -10,18 +10,18 @@ use rustix::thread::{set_no_new_privs, set_thread_groups, set_thread_res_gid, se
 
 use super::{Confinement, Need, devices};
 
-/// The user and the group that own nothing, by custom.
+/// Conventional user and group that own nothing.
 pub(crate) const NOBODY: u32 = 65_534;
 
-/// Sets the limits of what the process may use; they cannot be raised again.
+/// Sets the resource limits of the process. They cannot be raised again.
 ///
-/// There is no limit of processors' time: a run may last for days. A process that is its user's own has none of threads either, since that
-/// one would count the user's other programs; new processes are refused by the filter of system calls.
+/// CPU time has no limit, since a run may last for days. The number of threads has none either, since that limit counts the user's other
+/// programs. The system-call filter denies new processes.
 pub(super) fn limit(confinement: &Confinement) -> Result<(), String> {
     let limits = [
         (Resource::As, confinement.memory, "memory"),
         (Resource::Nofile, confinement.files, "open files"),
-        // What it shares with its host was made by its host; it writes no file of its own.
+        // The host allocates the shared memory; the child writes no file.
         (Resource::Fsize, 0, "the size of files"),
         (Resource::Core, 0, "core dumps"),
         (Resource::Msgqueue, 0, "message queues"),
@@ -37,7 +37,7 @@ pub(super) fn limit(confinement: &Confinement) -> Result<(), String> {
     Ok(())
 }
 
-/// Becomes nobody, if it is root; of root's groups those remain that own a device it needs.
+/// Switches from root to user nobody; `None` if the process is not root. Keeps the groups that own a needed device.
 pub(super) fn give_up_root(needs: &[Need]) -> Result<Option<u32>, String> {
     if !geteuid().is_root() {
         return Ok(None);
@@ -59,14 +59,14 @@ pub(super) fn give_up_root(needs: &[Need]) -> Result<Option<u32>, String> {
     Ok(Some(NOBODY))
 }
 
-/// Ends with the process that started it, shows its memory to nobody, and gains no privilege by starting a program.
+/// Makes the process end with its parent, hides its memory and prevents it from gaining privileges by starting a program.
 ///
-/// After the change of user, which would undo the first.
+/// Call it after the change of user, which would reset the parent-death signal.
 pub(super) fn end_with(parent: u32) -> Result<(), String> {
     let said = |what: &str, error: rustix::io::Errno| format!("cannot {what}: {error}");
     set_parent_process_death_signal(Some(Signal::KILL))
         .map_err(|error| said("end with the process that started it", error))?;
-    // Whoever ended before that line sends no signal any more.
+    // A parent that ended before that call sends no signal.
     let is_there = getppid()
         .map(Pid::as_raw_nonzero)
         .map(std::num::NonZero::get);

@@ -1,29 +1,29 @@
-//! What is enforced upon a child.
+//! Restrictions in force for a child.
 
 use std::fmt;
 
 use super::Need;
 use crate::child::wire::fields;
 
-/// What a child says is enforced upon it; it says so before it loads anything that could lie.
+/// Restrictions that a child reports. It reports them before it loads code that could lie.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Isolation {
-    /// The version of Landlock that keeps it from files, ports and other processes; `None` where the kernel has none.
+    /// Landlock version that restricts files, ports and other processes; `None` if the kernel has none.
     pub landlock: Option<u32>,
-    /// How many system calls it may make; `None` where they are not filtered.
+    /// Number of allowed system calls; `None` if they are not filtered.
     pub system_calls: Option<u32>,
-    /// The user it became; `None` where it stayed the user that started it.
+    /// User that the child switched to; `None` if it kept the user that started it.
     pub user: Option<u32>,
-    /// How much memory it may address, in bytes.
+    /// Limit of address space, bytes.
     pub memory: u64,
-    /// What it reaches outside.
+    /// Outside resources that the child may use.
     pub needs: Vec<Need>,
-    /// Whether code may come into it at any time, and not only while it is loaded.
+    /// True if the child may map code at any time, not only during loading.
     pub takes_code: bool,
 }
 
 impl Isolation {
-    /// Whether everything is enforced that this machine could.
+    /// True if Landlock has at least version 6 and system calls are filtered.
     pub fn is_whole(&self) -> bool {
         self.landlock
             .is_some_and(|version| version >= LANDLOCK_WHOLE)
@@ -31,7 +31,7 @@ impl Isolation {
     }
 }
 
-/// The first version of Landlock that knows files, ports and signals.
+/// First Landlock version that covers files, ports and signals.
 pub(super) const LANDLOCK_WHOLE: u32 = 6;
 
 impl fmt::Display for Isolation {

@@ -1,7 +1,7 @@
-//! The system calls that a child may make: a fixed list; every other call fails with "not permitted".
+//! System-call filter of a child: a fixed list. Every other call fails with "not permitted".
 //!
-//! Filters add up: the first is set before the library is loaded, the second when it is, since only loading needs to map code. No memory
-//! is ever writable and executable, at either stage.
+//! Filters accumulate. The first is set before the library is loaded, the second afterwards, since only loading maps code. No memory is
+//! ever writable and executable.
 
 mod numbers;
 
@@ -21,14 +21,15 @@ use super::Need;
 
 type Rules = BTreeMap<i64, Vec<SeccompRule>>;
 
-/// Allows the calls of the list and those that `needs` take; says how many different ones.
+/// Allows the listed calls and those that `needs` require. Returns the number of distinct calls.
 ///
 /// # Errors
-/// What could not be done, in words.
+/// A message that names the failure.
 pub(super) fn filter_for_loading(needs: &[Need]) -> Result<Option<u32>, String> {
     let rules = rules(needs).map_err(|error| said(&error))?;
     let count = u32::try_from(rules.len()).ok();
-    // A denied call fails like one that needs a privilege; one whose arguments cannot be checked, like one that an old kernel lacks.
+    // A denied call fails with EPERM, like a privileged one. `clone3`, whose arguments cannot be checked, fails with ENOSYS, as on an old
+    // kernel.
     let denied = SeccompAction::Errno(libc::EPERM.unsigned_abs());
     let allowed = program(rules, denied, SeccompAction::Allow)?;
     let unknown = SeccompAction::Errno(libc::ENOSYS.unsigned_abs());
@@ -42,7 +43,7 @@ pub(super) fn filter_for_loading(needs: &[Need]) -> Result<Option<u32>, String> 
     Ok(count)
 }
 
-/// Denies mapping more code, on every thread.
+/// Denies mapping of code, on every thread.
 ///
 /// # Errors
 /// As [`filter_for_loading`].
@@ -80,7 +81,7 @@ fn rules(needs: &[Need]) -> Result<Rules, BackendError> {
         .chain(ALWAYS_TOO)
         .map(|call| (*call, Vec::new()))
         .collect();
-    // Answered by the other filter: its arguments lie in memory, so the C library must fall back to `clone`, whose do not.
+    // The other filter denies it: its arguments are in memory, so the C library must fall back to `clone`.
     rules.insert(SYS_clone3, Vec::new());
     rules.insert(
         SYS_clone,
@@ -90,7 +91,7 @@ fn rules(needs: &[Need]) -> Result<Rules, BackendError> {
         SYS_mmap,
         vec![
             rule(&[masked(2, libc::PROT_EXEC, 0)?])?,
-            // Code comes from a file, unchanged.
+            // Code must come from a private mapping of a file.
             rule(&[
                 masked(2, libc::PROT_EXEC | libc::PROT_WRITE, libc::PROT_EXEC)?,
                 masked(3, libc::MAP_ANONYMOUS | libc::MAP_SHARED, 0)?,
@@ -105,7 +106,7 @@ fn rules(needs: &[Need]) -> Result<Rules, BackendError> {
         SYS_prlimit64,
         vec![rule(&[equal(0, 0)?])?, rule(&[equal(0, own)?])?],
     );
-    // Filters only ever take more away: the second one is set by this.
+    // Sets the second filter. Filters can only remove rights.
     let add_filter = u64::from(libc::SECCOMP_SET_MODE_FILTER);
     rules.insert(SYS_seccomp, vec![rule(&[equal(0, add_filter)?])?]);
     rules.insert(SYS_fcntl, any_of(1, FILE_CONTROLS)?);
@@ -122,7 +123,7 @@ fn rules(needs: &[Need]) -> Result<Rules, BackendError> {
     Ok(rules)
 }
 
-/// Questions about files that are open; whoever has a device may tell it anything.
+/// Allowed `ioctl` requests: queries of open files, or almost any request for a process with a device.
 fn device_controls(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
     let has_device = needs.iter().any(|need| {
         matches!(
@@ -131,7 +132,7 @@ fn device_controls(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
         )
     });
     if has_device {
-        // But not type for a person, nor take a terminal away from one.
+        // Except injecting input into a terminal or taking one over.
         let denied = [libc::TIOCSTI, libc::TIOCLINUX, libc::TIOCSCTTY];
         let conditions: Result<Vec<_>, _> = denied
             .into_iter()
@@ -147,9 +148,9 @@ fn device_controls(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
         .collect()
 }
 
-/// The kinds of socket that `needs` take.
+/// Socket types that `needs` require.
 fn sockets(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
-    // The flags beside the kind stand above its four bits.
+    // Flags occupy the bits above the four bits of the type.
     let kind = |family: i32, kind: i32| {
         rule(&[
             equal(0, u64::from(family.unsigned_abs()))?,
@@ -167,7 +168,7 @@ fn sockets(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
                 rules.push(kind(libc::AF_INET, libc::SOCK_DGRAM)?);
                 rules.push(kind(libc::AF_INET6, libc::SOCK_DGRAM)?);
             }
-            // By which the kernel tells of devices that come and go.
+            // The kernel reports USB hotplug events over netlink.
             Need::Usb => rules.push(rule(&[equal(
                 0,
                 u64::from(libc::AF_NETLINK.unsigned_abs()),
@@ -193,12 +194,12 @@ fn rule(conditions: &[SeccompCondition]) -> Result<SeccompRule, BackendError> {
     SeccompRule::new(conditions.to_vec())
 }
 
-/// The low half of the argument is `value`; the kernel reads no more of those that are compared here.
+/// Condition that the low 32 bits of the argument equal `value`. The kernel reads no more of these arguments.
 fn equal(argument: u8, value: u64) -> Result<SeccompCondition, BackendError> {
     SeccompCondition::new(argument, SeccompCmpArgLen::Dword, SeccompCmpOp::Eq, value)
 }
 
-/// The bits of the argument that `mask` has are those of `value`.
+/// Condition that the argument's bits under `mask` equal `value`.
 fn masked(argument: u8, mask: i32, value: i32) -> Result<SeccompCondition, BackendError> {
     let (mask, value) = (
         u64::from(mask.unsigned_abs()),

@@ -1,4 +1,4 @@
-//! An open device and its two threads: one answers its calls in turn, the other what is urgent.
+//! An open device and its two threads: one answers calls in order, the other answers urgent messages.
 
 use std::os::fd::OwnedFd;
 use std::sync::Arc;
@@ -10,13 +10,13 @@ use crate::child::socket::Socket;
 use crate::child::thread::{guarded, start};
 use crate::child::wire::{Answer, Call, Failure, OpenedDevice, Urgent};
 
-/// The sockets of a device that is being opened.
+/// Sockets of a device that is being opened.
 pub(super) struct Opening {
     pub(super) calls: OwnedFd,
     pub(super) urgent: OwnedFd,
 }
 
-/// What goes round the calls of a device.
+/// Handles for interrupts and halts, which bypass the call queue.
 struct Round {
     interrupt: Option<Arc<dyn Interrupt>>,
     halt: Option<Arc<dyn Halt>>,
@@ -37,7 +37,7 @@ impl Round {
 }
 
 impl Opening {
-    /// Opens a device and serves it on threads of its own; the answer says what was opened.
+    /// Opens a device and serves it on its own threads. Returns the properties of the opened device.
     pub(super) fn serve<K: Kind + ?Sized>(
         self,
         open: impl FnOnce() -> Result<Box<K>, DriverError>,
@@ -61,7 +61,7 @@ impl Opening {
     }
 }
 
-/// Answers calls until the device is closed; whatever ends this drops the device.
+/// Answers calls until the device or the socket is closed, then drops the device.
 fn serve_calls(mut calls: Socket, server: Box<dyn Server>) {
     let mut server = Some(server);
     while let Ok(((sequence, call), files)) = calls.receive_with_files::<(u32, Call)>() {
@@ -69,7 +69,7 @@ fn serve_calls(mut calls: Socket, server: Box<dyn Server>) {
         let answer = match &mut server {
             Some(open) if !is_last => {
                 guarded("answer", || open.answer(call, files)).unwrap_or_else(|panicked| {
-                    // What it left behind is in no state to be dropped.
+                    // After a panic the device's state is undefined, so it must not be dropped.
                     std::mem::forget(server.take());
                     Err(panicked)
                 })
@@ -92,7 +92,7 @@ fn serve_calls(mut calls: Socket, server: Box<dyn Server>) {
     }
 }
 
-/// Answers what is urgent until the host closes its end.
+/// Answers urgent messages until the host closes the socket.
 fn serve_urgent(mut socket: Socket, round: &Round) {
     while let Ok((sequence, urgent)) = socket.receive::<(u32, Urgent)>() {
         let answered = guarded("halt", || round.answer(urgent)).transpose();

@@ -1,14 +1,14 @@
-//! Any bytes, read as any message: for whoever tries to make a reader fail.
+//! Decoding of arbitrary bytes as every message type, for fuzzing.
 
 use super::{
     Answer, BenchAnswer, BenchCall, Call, Greeting, Hello, ModelAnswer, ModelCall, ModelEvent,
     ModelOrder, ModelWord, Order, OrderAnswer, Urgent, Wire, decode, encode,
 };
 
-/// Reads `bytes` as every kind of message that crosses between a host and its child, and says as how many they can be read.
+/// Decodes `bytes` as every message type between a host and its child. Returns the number of types that succeed.
 ///
 /// # Panics
-/// If a message that was read and written does not read as itself: a fault of this crate.
+/// If a decoded message does not survive encoding and decoding: a bug of this crate.
 pub fn read_any_message(bytes: &[u8]) -> usize {
     let read = [
         survives::<(u32, Hello)>(bytes),
@@ -33,7 +33,7 @@ fn survives<T: Wire>(bytes: &[u8]) -> bool {
     let Ok(message) = decode::<T>(bytes) else {
         return false;
     };
-    // By bytes: a number that is none equals nothing. Lengths are rounded once, so the second writing is the first one's.
+    // Compared as bytes, since NaN is not equal to itself. Lengths are rounded once, so the second encoding equals the first.
     let (mut once, mut twice) = (Vec::new(), Vec::new());
     if encode(&message, &mut once).is_ok() {
         let again = decode::<T>(&once).expect("what was written reads");

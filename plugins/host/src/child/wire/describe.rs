@@ -1,4 +1,4 @@
-//! What is known about a driver before it is opened, as it crosses: checked again where it arrives.
+//! Encoding of driver descriptions, which are checked again on arrival.
 
 use taceva_core::{
     ArgKind, ArgSpec, ChangerFacts, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts,
@@ -12,8 +12,8 @@ listed! {
     DriverSource, [DriverSource::Real, DriverSource::Simulated, DriverSource::Recorded], "where readings come from";
 }
 
-/// Writes and reads a struct that can grow, as [`fields`] does one that cannot. The compiler does not say which field is missing here;
-/// `facts_that_can_grow_cross_with_every_field` does.
+/// Implements [`Wire`] for a struct that can get further fields, as [`fields`] does for a fixed one. The compiler does not report a missing
+/// field here; the test `facts_that_can_grow_cross_with_every_field` does.
 macro_rules! growing {
     ($type:ident { $($field:ident),* $(,)? }) => {
         impl Wire for $type {
@@ -119,7 +119,7 @@ impl Wire for DriverKey {
 
 impl Wire for Footprint {
     fn write(&self, into: &mut Vec<u8>) {
-        // An outline of a kind that is not known here is written as one that no reader takes.
+        // An unknown outline gets a tag that every reader rejects.
         let (tag, [x, y]) = match self.outline() {
             Outline::Disc { .. } => (0_u8, self.half_extent()),
             Outline::Rectangle { .. } => (1, self.half_extent()),
@@ -154,7 +154,7 @@ impl Wire for Facts {
             Facts::Force(facts) => facts.write(into),
             Facts::Lighting(facts) => facts.write(into),
             Facts::Changer(facts) => facts.write(into),
-            // Facts of a kind that is not known here have a kind that no reader takes.
+            // Unknown facts have a kind that every reader rejects.
             _ => {}
         }
     }
@@ -181,7 +181,7 @@ impl Wire for ArgKind {
             ArgKind::Number { least, most } => (3_u8, (*least, *most)).write(into),
             ArgKind::Choice { of } => (4_u8, of.clone()).write(into),
             ArgKind::Flag => 5_u8.write(into),
-            // A kind that is not known here is written as one that no reader takes.
+            // An unknown kind gets a tag that every reader rejects.
             _ => u8::MAX.write(into),
         }
     }
@@ -252,13 +252,13 @@ mod tests {
     use taceva_core::{Device, ForceTransducer, Lighting, Registry, Robot, Sensor};
     use taceva_sim as _;
 
-    /// Facts that cross field by field.
+    /// Facts that are encoded field by field.
     pub(super) trait Growing: Default + std::fmt::Debug {
-        /// The fields that cross, in their order.
+        /// Encoded fields, in order.
         const FIELDS: &'static [&'static str];
     }
 
-    /// The fields that the struct has, in the order of its declaration: `Debug` writes one a line, four spaces in.
+    /// Fields of the struct, in declaration order. `Debug` writes one per line, indented by four spaces.
     fn declared<T: Growing>() -> Vec<String> {
         let shown = format!("{:#?}", T::default());
         let fields = shown.lines().filter_map(|line| {

@@ -5,7 +5,7 @@ use taceva_core::{Axes, Deadline, FrameInfo, Guard, GuardedStop, Pose, Speed, St
 use super::{Failure, messages};
 
 messages! {
-    /// What is known about a device once it is open.
+    /// Properties of an open device.
     #[derive(Clone, Debug, PartialEq)]
     enum OpenedDevice: "an open device" {
         0 => Sensor { frame: FrameInfo, interrupts: bool, scenes: Option<Vec<String>> },
@@ -20,9 +20,9 @@ messages! {
     enum Call: "a call" {
         0 => Start { deadline: Deadline },
         1 => Stop {},
-        /// The memory for frames comes beside it.
+        /// Passes the shared memory for frames.
         2 => Attach {},
-        /// Writes the next frame into that memory.
+        /// Writes the next frame into the shared memory.
         3 => Capture { deadline: Deadline },
         4 => Light { scene: String, deadline: Deadline },
         5 => Pose { deadline: Deadline },
@@ -31,7 +31,7 @@ messages! {
         8 => ClearHalt { deadline: Deadline },
         9 => Read { deadline: Deadline },
         10 => Zero { deadline: Deadline },
-        /// Stops the device and gives back what it holds.
+        /// Stops the device and releases its resources.
         11 => Close {},
         12 => Bring { name: String, deadline: Deadline },
         13 => MoveExpiring { target: Pose, speed: Speed, deadline: Deadline },
@@ -49,12 +49,12 @@ messages! {
         6 => InPlace { name: String },
     }
 
-    /// What goes round the queue of a device's calls.
+    /// Urgent message of a device, which bypasses its call queue.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     enum Urgent: "an urgent call" {
-        /// Nobody waits for an answer.
+        /// Interrupts the pending call; not answered.
         0 => Interrupt {},
-        /// Answered with [`Answer::Done`] or [`Answer::Failed`].
+        /// Halts the device. Answered with [`Answer::Done`] or [`Answer::Failed`].
         1 => Halt {},
     }
 }

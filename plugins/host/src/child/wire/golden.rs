@@ -1,4 +1,4 @@
-//! The bytes of every message, as they were when the wire got its number: a build that writes other bytes needs another number.
+//! Golden bytes of every message at the current wire version. A build that writes other bytes needs another version number.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -19,18 +19,18 @@ use crate::child::sandbox::{Confinement, Isolation};
 use crate::offer::Offer;
 use crate::wire_version::WIRE;
 
-/// An enum of messages, and the bytes that tell its variants apart.
+/// An enum of messages with the tag bytes of its variants.
 pub(in crate::child) trait Listed {
     const NAME: &'static str;
     const TAGS: &'static [u8];
 }
 
-/// The file of the bytes.
+/// Path of the file with the golden bytes.
 fn golden() -> String {
     format!("{}/tests/wire/{WIRE}.txt", env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Writes a line for each message; they are all that there are.
+/// Writes one line per message. `messages` must contain every variant.
 fn list<T: Listed + Wire>(messages: &[T], into: &mut String) {
     let mut tags = BTreeSet::new();
     for message in messages {

@@ -1,6 +1,6 @@
-//! How structs and enums are written: their fields in order, with nothing between.
+//! Encoding of structs and enums: fields in order, without padding.
 
-/// Writes and reads a struct field by field, in the order given.
+/// Implements [`Wire`](crate::child::wire::Wire) for a struct, field by field in the given order.
 macro_rules! fields {
     ($type:ident { $($field:ident),* $(,)? }) => {
         impl $crate::child::wire::Wire for $type {
@@ -17,7 +17,7 @@ macro_rules! fields {
     };
 }
 
-/// Writes and reads an enum: a byte that tells which variant it is, then its fields in the order given.
+/// Implements [`Wire`](crate::child::wire::Wire) for an enum: a tag byte, then the variant's fields in the given order.
 macro_rules! variants {
     ($type:ident, $expected:literal { $($tag:literal => $variant:ident { $($field:ident),* }),* $(,)? }) => {
         impl $crate::child::wire::Wire for $type {
@@ -43,8 +43,7 @@ macro_rules! variants {
     };
 }
 
-/// Defines enums and how they are written: each row is the byte that says which variant it is, the variant, and its fields in the order
-/// in which they are written.
+/// Defines enums and their encoding. Each row has the tag byte, the variant, and its fields in encoding order.
 macro_rules! messages {
     ($(
         $(#[$about:meta])*

@@ -1,8 +1,7 @@
-//! What the host and its child say to each other.
+//! Messages between the host and its child.
 //!
-//! One pair of sockets carries [`Order`]s about the child as a whole. Each opened device has a pair of its own for
-//! [`Call`](super::Call)s, which are answered one after another, and a second one for what is [`Urgent`](super::Urgent) and must not
-//! wait for a call. A simulated bench has a pair too.
+//! One socket pair carries [`Order`]s for the child as a whole. Each open device has a pair for [`Call`](super::Call)s, which are answered
+//! in order. A second pair carries [`Urgent`](super::Urgent) messages, which must not wait for a call. A simulated bench has a pair too.
 
 use taceva_core::{Access, ArgValue, Descriptor, DriverKey, DriverKind, ErrorKind, Fault, Found};
 
@@ -11,18 +10,18 @@ use crate::child::sandbox::{Confinement, Isolation};
 use crate::offer::Offer;
 use crate::wire_version::WIRE;
 
-/// The first word: what the child must do before it loads anything. The files to serve come beside it.
+/// First message: the limits that the child must impose on itself before it loads anything. The files to serve come with it.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Hello {
-    /// [`WIRE`], as the host has it: before everything else, so that a child of any version can read it.
+    /// The host's [`WIRE`]. First field, so that a child of any version can read it.
     pub(crate) wire: u32,
-    /// The process that started it; another parent means that one is gone.
+    /// Process number of the host. A child with another parent knows that the host is gone.
     pub(crate) parent: u32,
-    /// What to confine itself to.
+    /// Limits that the child imposes on itself.
     pub(crate) confinement: Confinement,
-    /// Whether the last file beside it is the socket for what its plugin logs.
+    /// True if the last file is the socket for the plugin's log.
     pub(crate) is_heard: bool,
-    /// Whether it loads anything; one that does not only shows what is enforced.
+    /// True if the child loads a plugin. Otherwise it only reports its isolation.
     pub(crate) loads: bool,
 }
 
@@ -30,28 +29,28 @@ messages! {
     /// The answer to [`Hello`].
     #[derive(Debug, PartialEq)]
     enum Greeting: "a greeting" {
-        /// It is confined, as `isolation` says, and has loaded what it serves.
+        /// The child is confined and has loaded its plugin.
         0 => Ready { isolation: Isolation },
-        /// It could not, and ends.
+        /// The child could not confine itself or load its plugin, and ends.
         1 => Refused { failure: Failure },
     }
 
-    /// What is asked of the child as a whole.
+    /// Order for the child as a whole.
     #[derive(Clone, Debug, PartialEq)]
     enum Order: "an order" {
-        /// Opens a device. Two sockets come beside it: for its calls, and for what is urgent.
+        /// Opens a device. Two sockets come with it: for calls, and for urgent messages.
         0 => Open { kind: DriverKind, driver: DriverKey, args: Vec<(String, ArgValue)> },
-        /// What is known about a driver with these arguments.
+        /// Describes a driver with these arguments.
         1 => Describe { driver: DriverKey, args: Vec<(String, ArgValue)> },
-        /// The devices that a driver sees.
+        /// Lists the devices that a driver finds.
         2 => Discover { driver: DriverKey },
-        /// Serves a simulated bench of the rig; a socket comes beside it.
+        /// Serves a simulated bench of the rig. A socket comes with it.
         3 => Bench { name: String },
         /// Ends the child.
         4 => Shutdown {},
-        /// Makes a model; a socket comes beside it, and memory.
+        /// Makes a model. A socket and shared memory come with it.
         5 => Model { order: ModelOrder },
-        /// What the library offers and needs.
+        /// Lists the library's offers and needs.
         6 => Offer {},
     }
 
@@ -63,21 +62,21 @@ messages! {
         2 => Found { found: Vec<Found> },
         3 => Bench { is_there: bool },
         4 => Failed { failure: Failure },
-        /// It is being made; what comes of it is said by its own socket.
+        /// The model is being made. Its own socket reports the result.
         5 => Making {},
         6 => Offered { offer: Offer },
     }
 }
 
-/// Why something was not done, in the words that it would have had without a child.
+/// Failed operation, described as it would be without a child.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Failure {
     pub(crate) kind: ErrorKind,
-    /// What could not be done, in words that follow "cannot".
+    /// The operation, in words that follow "cannot".
     pub(crate) doing: String,
-    /// What caused it, if that was said.
+    /// Cause, if known.
     pub(crate) cause: Option<String>,
-    /// Why the device stopped by itself, if it did.
+    /// Fault with which the device stopped itself, if it did.
     pub(crate) fault: Option<Fault>,
 }
 
@@ -88,17 +87,17 @@ fields!(Hello {
     is_heard,
     loads
 });
-/// The first word as a child reads it, whoever wrote it.
+/// First message as a child reads it, from a host of any version.
 #[derive(Debug, PartialEq)]
 pub(crate) enum FirstWord {
-    /// Of a host that speaks as this child does.
+    /// Message of a host with the same wire version.
     Known(Hello),
-    /// Of another one, of which no more can be read.
+    /// Wire version of another host; the rest cannot be read.
     OfOtherWire(u32),
 }
 
 impl FirstWord {
-    /// What is said to a host that speaks otherwise.
+    /// Error message for a host with wire version `wire`.
     pub(crate) fn refusal(wire: u32) -> String {
         format!(
             "it speaks version {WIRE} of the wire, its host version {wire}: both must be of one version of TacEva; install the package `taceva` of the version of the program ({} here), or run the program `taceva` that this package brings along",
@@ -151,7 +150,7 @@ impl Wire for Found {
         match &self.access {
             Access::Ready => 0_u8.write(into),
             Access::Denied { remedy } => (1_u8, remedy.clone()).write(into),
-            // `Access` can grow; whatever is neither ready nor denied cannot be opened now.
+            // `Access` can get further variants. Any other variant counts as busy.
             _ => 2_u8.write(into),
         }
     }

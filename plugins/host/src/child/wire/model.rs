@@ -1,4 +1,4 @@
-//! What the host and its child say to each other about models. Arrays lie in shared memory beside the words.
+//! Messages about models between the host and its child. Arrays are passed in shared memory.
 
 use taceva_core::{ArgValue, Channel, Channels, DriverKey, FeatureShape, Unit};
 
@@ -6,44 +6,44 @@ use super::value::listed;
 use super::{Failure, Malformed, Reader, Wire, fields, messages};
 
 messages! {
-    /// What a child is asked to make a model from; a socket for the talk about it comes beside it, and memory.
+    /// Order to make a model. A socket for its messages and shared memory come with it.
     #[derive(Clone, Debug, PartialEq)]
     enum ModelOrder: "an order for a model" {
-        /// Fits; beside it the memory of `training`, and of `validation` if there is one.
+        /// Fits a model. The shared memory of `training`, and of `validation` if present, comes with it.
         0 => Fit {
             estimator: DriverKey,
             settings: Vec<(String, ArgValue)>,
             training: SetShape,
             validation: Option<SetShape>,
         },
-        /// Loads; beside it the memory of as many bytes as were saved.
+        /// Loads a model from shared memory of `length` bytes.
         1 => Load { estimator: DriverKey, channels: Channels, shape: FeatureShape, length: u64 },
     }
 }
 
-/// What a set of samples is like; its numbers are in memory.
+/// Shape of a set of samples. The numbers are in shared memory.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SetShape {
     pub(crate) samples: u64,
     pub(crate) shape: FeatureShape,
     pub(crate) channels: Channels,
-    /// Whether it is known which samples belong together.
+    /// True if the set has group numbers.
     pub(crate) has_groups: bool,
 }
 
 messages! {
-    /// What a child says while a model is made.
+    /// Message of a child while it makes a model.
     #[derive(Clone, Debug, PartialEq)]
     enum ModelEvent: "an event of a fit" {
         0 => Begins { stage: String, steps: Option<u64> },
         1 => Advances { steps: u64 },
         2 => Ends {},
-        /// There is a model, which answers calls from now on.
+        /// The model is ready to answer calls.
         3 => Made {},
         4 => Failed { failure: Failure },
     }
 
-    /// What the host says while a model is made.
+    /// Message of the host while a model is made.
     #[derive(Clone, Debug, PartialEq)]
     enum ModelWord: "a word about a fit" {
         0 => Cancel {},
@@ -52,11 +52,11 @@ messages! {
     /// A call to a model.
     #[derive(Clone, Debug, PartialEq)]
     enum ModelCall: "a call to a model" {
-        /// Predicts; beside it memory that holds the features, and the predictions afterwards.
+        /// Predicts. The shared memory holds the features, and afterwards the predictions.
         0 => Predict { samples: u64 },
-        /// Makes the bytes to be kept, and says how many.
+        /// Saves the model in the child and returns the length, bytes.
         1 => Save {},
-        /// Writes them into the memory beside it.
+        /// Writes the saved bytes into the shared memory.
         2 => Fetch {},
         3 => Close {},
     }
@@ -84,7 +84,7 @@ listed! {
 impl Wire for FeatureShape {
     fn write(&self, into: &mut Vec<u8>) {
         for side in [self.height, self.width, self.depth] {
-            // A side beyond 2³² makes a shape that no memory holds.
+            // A side beyond 2³² belongs to a shape that no memory can hold.
             u32::try_from(side).unwrap_or(u32::MAX).write(into);
         }
     }

@@ -1,4 +1,4 @@
-//! The values of core as they cross: every number by its bits, so that a driver says the same through a child as without one.
+//! Encoding of core's values. Numbers are written bit by bit, so that a child changes no value.
 
 use taceva_core::{
     ArgValue, Axes, Axis, Deadline, Degree, DriverKind, ErrorKind, Fault, FrameInfo, GratingKind,
@@ -131,7 +131,7 @@ impl Wire for ErrorKind {
 impl Wire for Fault {
     fn write(&self, into: &mut Vec<u8>) {
         let number = Fault::ALL.iter().position(|fault| fault == self);
-        // One that this list lacks is still a fault: the last of it, of the controller.
+        // An unlisted fault is written as the last one, a controller fault.
         let number = number.unwrap_or(Fault::ALL.len() - 1);
         u32::try_from(number).unwrap_or(u32::MAX).write(into);
     }
@@ -150,7 +150,7 @@ impl Wire for ArgValue {
             ArgValue::Whole(whole) => (1_u8, *whole).write(into),
             ArgValue::Number(number) => (2_u8, *number).write(into),
             ArgValue::Flag(flag) => (3_u8, *flag).write(into),
-            // A value of a kind that is not known here is written as one that no reader takes.
+            // An unknown kind gets a tag that every reader rejects.
             _ => u8::MAX.write(into),
         }
     }
@@ -166,7 +166,7 @@ impl Wire for ArgValue {
     }
 }
 
-/// Writes and reads values that have no fields by their places in a list; one that is not in it has the place behind the last.
+/// Implements [`Wire`] for fieldless values by list index. An unlisted value gets the index after the last.
 macro_rules! listed {
     ($($type:ty, $list:expr, $expected:literal;)*) => {$(
         impl Wire for $type {

@@ -1,11 +1,11 @@
-//! Which needs lie within others: what decides whether a permission is large enough.
+//! Inclusion of needs, which decides whether a permission is sufficient.
 
 use std::collections::BTreeSet;
 
 use super::Need;
 
 impl Need {
-    /// Whether everything that `other` names is named by this too. A `*` of this stands for anything within a part of `other`, its stars too.
+    /// True if this need includes everything that `other` names. A `*` matches any characters within one part of `other`, including stars.
     ///
     /// ```
     /// use taceva_host::Need;
@@ -41,7 +41,7 @@ impl Need {
         }
     }
 
-    /// Of what this asks for, what `allowed` gives: all of it, or the smaller parts that are named there.
+    /// Part of this need that `allowed` grants: all of it, or the smaller needs in `allowed`.
     pub(crate) fn given_by(&self, allowed: &BTreeSet<Need>) -> BTreeSet<Need> {
         if allowed.iter().any(|given| given.covers(self)) {
             return BTreeSet::from([self.clone()]);
@@ -50,7 +50,7 @@ impl Need {
         parts.cloned().collect()
     }
 
-    /// Whether it names more than one thing.
+    /// True if the need contains a `*`.
     pub(crate) fn has_star(&self) -> bool {
         match self {
             Need::Serial { path } | Need::Device { path } | Need::Read { path } => {
@@ -62,21 +62,22 @@ impl Need {
     }
 }
 
-/// Whether `pattern` and `text` have as many parts, and each matches.
+/// True if `pattern` and `text` have the same number of parts and each part matches.
 fn each_part(pattern: &str, text: &str, mark: char, matches: fn(&str, &str) -> bool) -> bool {
     let mut pairs = pattern.split(mark).zip(text.split(mark));
     pattern.split(mark).count() == text.split(mark).count()
         && pairs.all(|(pattern, part)| matches(pattern, part))
 }
 
-/// Whether `path` is what `pattern` names, or lies below it.
+/// True if `path` matches `pattern` or is below a match.
 fn within(pattern: &str, path: &str) -> bool {
     let parts = pattern.split('/').count();
     let begin: Vec<&str> = path.split('/').take(parts).collect();
     each_part(pattern, &begin.join("/"), '/', matches)
 }
 
-/// The parts of an address, between dots. Beside numbers a star stands for numbers: `10.0.0.*` is no name in a domain of somebody else.
+/// Compares addresses part by part between dots. A numeric pattern such as `10.0.0.*` matches only numeric addresses, not a host name in a
+/// foreign domain.
 fn address_covers(pattern: &str, address: &str) -> bool {
     if pattern.starts_with('[') || address.starts_with('[') {
         return pattern == address;
@@ -89,10 +90,10 @@ fn address_covers(pattern: &str, address: &str) -> bool {
     (!is_numeric(&pattern) || is_numeric(&address)) && each_part(&pattern, &address, '.', matches)
 }
 
-/// Whether `name`, which has one part, is what `pattern` says; a `*` of the pattern stands for any letters.
+/// True if `name`, a single part, matches `pattern`. A `*` stands for any characters.
 pub(crate) fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name) = (pattern.as_bytes(), name.as_bytes());
-    // Where the last star stands, and how much it has taken: a mismatch lets it take one more.
+    // Position of the last star and the start of its match. A mismatch extends the match by one.
     let (mut at, mut read) = (0, 0);
     let mut star: Option<(usize, usize)> = None;
     while read < name.len() {

@@ -1,4 +1,4 @@
-//! A need as a manifest declares it: fixed, or decided by the arguments that a device is opened with.
+//! Need declared in a manifest: fixed, or bound to the arguments with which a device is opened.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use taceva_core::Args;
 
 use super::{Need, NeedError};
 
-/// A need of a manifest, in which the key of an argument in braces may stand for an address, a port or a path: `tcp:{host}:{port}`.
+/// Need of a manifest. The key of an argument in braces may replace an address, a port or a path: `tcp:{host}:{port}`.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, ArgValue, Args};
@@ -24,22 +24,22 @@ use super::{Need, NeedError};
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct DeclaredNeed {
-    /// Checked: with examples in the place of its arguments it is a need.
+    /// Checked text: a valid need once examples replace its arguments.
     text: String,
 }
 
 impl DeclaredNeed {
-    /// The need, if no argument decides it.
+    /// The need, if it has no argument in braces; `None` otherwise.
     pub fn fixed(&self) -> Option<Need> {
         self.text.parse().ok()
     }
 
-    /// The keys of the arguments that decide it.
+    /// Keys of the arguments in braces.
     pub fn arguments(&self) -> impl Iterator<Item = &str> {
         fields(&self.text).into_iter().filter_map(key)
     }
 
-    /// The key of the argument that says which machine is reached, if one does.
+    /// Key of the argument that names the host; `None` if there is none.
     pub(crate) fn host_argument(&self) -> Option<&str> {
         match fields(&self.text).as_slice() {
             ["tcp" | "udp", address, _] => key(address),
@@ -47,10 +47,10 @@ impl DeclaredNeed {
         }
     }
 
-    /// What it is for a device that is opened with `args`; `None` if an argument of it was not given.
+    /// Need of a device that is opened with `args`; `None` if an argument is missing.
     ///
     /// # Errors
-    /// [`NeedError`] for an argument that names nothing a plugin may reach, or more than one thing.
+    /// [`NeedError`] for an argument that is not a valid part of a need, or contains a `*`.
     pub fn bound_to(&self, args: &Args) -> Result<Option<Need>, NeedError> {
         let mut is_given = true;
         let text = filled(&self.text, |key, _| {
@@ -62,7 +62,7 @@ impl DeclaredNeed {
             return Ok(None);
         }
         let need: Need = text.parse()?;
-        // An argument chooses one thing: stars are for manifests and for users.
+        // An argument selects one resource. Stars are for manifests and user settings.
         if need.has_star() && self.fixed().is_none() {
             return Err(NeedError::new(
                 &text,
@@ -72,7 +72,7 @@ impl DeclaredNeed {
         Ok(Some(need))
     }
 
-    /// Whether `need` is a part of what this asks for, or holds it: whether a user who allows it decides about this.
+    /// True if `need` is within this declaration or includes it, so that allowing `need` affects it.
     pub fn asks_for(&self, need: &Need) -> bool {
         if let Some(fixed) = self.fixed() {
             return fixed.covers(need) || need.covers(&fixed);
@@ -125,7 +125,7 @@ impl fmt::Display for DeclaredNeed {
     }
 }
 
-/// The word of a need, and what follows it: an address and a port, or all of the rest.
+/// Splits a need into its first word and the rest. The rest of `tcp` and `udp` is split into address and port.
 fn fields(text: &str) -> Vec<&str> {
     match text.split_once(':') {
         Some((word @ ("tcp" | "udp"), peer)) => match peer.rsplit_once(':') {
@@ -137,12 +137,12 @@ fn fields(text: &str) -> Vec<&str> {
     }
 }
 
-/// The key of the argument that `field` is.
+/// Key of the argument in braces; `None` for other text.
 fn key(field: &str) -> Option<&str> {
     field.strip_prefix('{')?.strip_suffix('}')
 }
 
-/// `text` with what `value` says for each argument, by its key and the number of its field.
+/// Replaces each argument of `text` by `value(key, field index)`.
 fn filled(text: &str, mut value: impl FnMut(&str, usize) -> String) -> String {
     let fields = fields(text).into_iter().enumerate();
     let fields: Vec<String> = fields
@@ -154,7 +154,7 @@ fn filled(text: &str, mut value: impl FnMut(&str, usize) -> String) -> String {
     fields.join(":")
 }
 
-/// What could stand in the field of that number.
+/// Example of a value for the field with that index.
 fn example(text: &str, field: usize) -> &'static str {
     match (text.split(':').next(), field) {
         (Some("tcp" | "udp"), 1) => "host",
@@ -164,7 +164,7 @@ fn example(text: &str, field: usize) -> &'static str {
     }
 }
 
-/// An address of IPv6 as needs write it.
+/// Puts an IPv6 address into brackets.
 fn bracketed(value: String) -> String {
     match value.parse::<std::net::Ipv6Addr>() {
         Ok(_) => format!("[{value}]"),

@@ -1,4 +1,4 @@
-//! What interpreters say, by scripts that say it: what a real one says is tried where there is one (`python/tests`).
+//! Answers of interpreters, emulated by scripts. Tests with a real interpreter are in `python/tests`.
 
 use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt;
@@ -32,7 +32,7 @@ struct Environment {
 }
 
 impl Environment {
-    /// A folder with a package of a plugin, and one called `taceva`.
+    /// Folder with a plugin's package and one called `taceva`.
     fn new(manifest: &str) -> Environment {
         let folder = tempfile::tempdir().expect("a folder");
         for (file, text) in [
@@ -51,7 +51,7 @@ impl Environment {
         self.folder.path()
     }
 
-    /// An interpreter that does what `script` says.
+    /// Writes an interpreter that runs `script`.
     fn interpreter(&self, script: &str) -> PathBuf {
         let path = self.path().join("python");
         fs::write(&path, format!("#!/bin/sh\n{script}\n")).expect("room");
@@ -59,7 +59,7 @@ impl Environment {
         path
     }
 
-    /// An interpreter in whose environment the entry point `id` names `module`.
+    /// Writes an interpreter with the entry point `id`, which names `module`.
     fn naming(&self, id: &str, module: &str) -> PathBuf {
         let folder = self.path().display();
         self.interpreter(&format!(
@@ -72,7 +72,7 @@ fn found(interpreter: &Path) -> Plugins {
     Plugins::search_with(SearchPath::empty(), &[], &[interpreter.to_owned()])
 }
 
-/// The one reason why something is not used.
+/// The only rejection reason.
 fn refused(interpreter: &Path) -> String {
     let found = found(interpreter);
     assert!(found.is_empty(), "{found:?}");

@@ -1,4 +1,4 @@
-//! Opening a camera, and which pictures it gives.
+//! Opening and format of a camera.
 
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::error::V4l2Error;
 use super::ioctls::{self, Capability, Format, FormatName, Rate, Size};
 use super::picture::{Coding, FourCc, GivenFormat, PictureFormat};
 
-/// A camera that is open and does not stream yet.
+/// An open camera that does not stream yet.
 #[derive(Debug)]
 pub struct Camera {
     file: OwnedFd,
@@ -20,14 +20,14 @@ pub struct Camera {
 
 const RATE_CAN_BE_SET: u32 = 0x1000;
 const FIELD_NONE: u32 = 1;
-/// No camera offers more formats or sizes; one that seems to has gone wrong.
+/// Maximum number of formats or sizes read from a camera, in case of a faulty one.
 const OFFERS_MAX: u32 = 256;
 
 impl Camera {
-    /// Opens the camera whose file is `path`; nothing of it changes.
+    /// Opens the camera with device file `path`. Changes no setting.
     ///
     /// # Errors
-    /// [`V4l2Error::Open`], or [`V4l2Error::NoCamera`] for a file that is none or gives no frames that can be shared.
+    /// [`V4l2Error::Open`], or [`V4l2Error::NoCamera`] if the file is not a camera or does not support streaming.
     pub fn open(path: impl AsRef<Path>) -> Result<Camera, V4l2Error> {
         let path = path.as_ref();
         let flags = OFlags::RDWR | OFlags::NONBLOCK | OFlags::CLOEXEC;
@@ -64,20 +64,20 @@ impl Camera {
         })
     }
 
-    /// What it calls itself.
+    /// Name of the camera.
     pub fn card(&self) -> &str {
         &self.card
     }
 
-    /// Where it is plugged in.
+    /// Bus address of the camera.
     pub fn bus(&self) -> &str {
         &self.bus
     }
 
-    /// Sets the size and the pixel format of the pictures.
+    /// Sets size and pixel format of the images.
     ///
     /// # Errors
-    /// [`V4l2Error::Format`], which says what it offers, where it would give others; [`V4l2Error::Busy`] where another program has it.
+    /// [`V4l2Error::Format`] with the supported formats if it would give another; [`V4l2Error::Busy`] if another program uses it.
     pub fn set_format(&mut self, wanted: &PictureFormat) -> Result<GivenFormat, V4l2Error> {
         let mut format = Format {
             width: wanted.width,
@@ -106,10 +106,10 @@ impl Camera {
         })
     }
 
-    /// Sets the frame rate, in Hz, of a camera whose rate can be set.
+    /// Sets the frame rate, Hz, if the camera allows it.
     ///
     /// # Errors
-    /// [`V4l2Error::Rate`] where it gives others: by more than a hundredth.
+    /// [`V4l2Error::Rate`] if the resulting rate differs by more than 1 %.
     pub fn set_rate(&mut self, wanted_hz: f64) -> Result<(), V4l2Error> {
         let doing = "set how many pictures it gives a second";
         let refused = |source| V4l2Error::of(doing, source);
@@ -127,7 +127,7 @@ impl Camera {
         }
         let [numerator, denominator] = rate.time.map(f64::from);
         let found = denominator / numerator;
-        // NaN, of a camera that says nothing, is no such rate either.
+        // Also false for NaN, from a camera that reports no rate.
         if (found / wanted_hz - 1.0).abs() <= 0.01 {
             return Ok(());
         }
@@ -141,7 +141,7 @@ impl Camera {
         self.file.as_fd()
     }
 
-    /// The formats and sizes that it offers, in words.
+    /// Lists the supported formats and sizes, in words.
     fn offered(&self) -> String {
         let mut offered: Vec<String> = Vec::new();
         for index in 0..OFFERS_MAX {
@@ -177,7 +177,7 @@ impl Camera {
                     let [a, b, _, c, d, _] = size.numbers;
                     sizes.push(match size.kind {
                         1 => format!("{a}×{b}"),
-                        // Least and greatest width, their step, then of the height.
+                        // Minimum, maximum and step of the width, then of the height.
                         _ => format!("{a} to {b} by {c} to {d}"),
                     });
                 }
@@ -190,7 +190,7 @@ impl Camera {
     }
 }
 
-/// A text that ends at its first zero.
+/// Text up to the first zero byte.
 pub(crate) fn text(bytes: &[u8]) -> String {
     let end = bytes.iter().position(|byte| *byte == 0);
     String::from_utf8_lossy(&bytes[..end.unwrap_or(bytes.len())]).into_owned()

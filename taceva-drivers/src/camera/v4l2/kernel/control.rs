@@ -1,4 +1,4 @@
-//! What can be set of a camera: exposure, gain and their like.
+//! Controls of a camera, such as exposure and gain.
 
 use std::fmt;
 
@@ -8,26 +8,26 @@ use super::camera::{Camera, text};
 use super::error::V4l2Error;
 use super::ioctls::{self, ControlInfo, ControlValue};
 
-/// The number of a control.
+/// Control number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ControlId(pub u32);
 
 impl ControlId {
-    /// Whether the camera balances white by itself: 0 or 1.
+    /// Automatic white balance: 0 off, 1 on.
     pub const WHITE_BALANCE_AUTOMATIC: ControlId = ControlId(0x0098_090c);
-    /// Whether the camera sets the gain by itself: 0 or 1.
+    /// Automatic gain: 0 off, 1 on.
     pub const GAIN_AUTOMATIC: ControlId = ControlId(0x0098_0912);
-    /// The gain, in steps of the camera.
+    /// Gain, in steps of the camera.
     pub const GAIN: ControlId = ControlId(0x0098_0913);
-    /// The light that white is balanced for, in K.
+    /// White-balance colour temperature, K.
     pub const WHITE_BALANCE: ControlId = ControlId(0x0098_091a);
-    /// Who sets the exposure: 0 the camera, 1 the program, 2 and 3 the camera in part.
+    /// Exposure mode: 0 automatic, 1 manual, 2 and 3 partly automatic.
     pub const EXPOSURE_AUTOMATIC: ControlId = ControlId(0x009a_0901);
-    /// The exposure, in 100 µs.
+    /// Exposure time, in units of 100 µs.
     pub const EXPOSURE: ControlId = ControlId(0x009a_0902);
-    /// The focus, in steps of the camera.
+    /// Focus, in steps of the camera.
     pub const FOCUS: ControlId = ControlId(0x009a_090a);
-    /// Whether the camera focuses by itself: 0 or 1.
+    /// Automatic focus: 0 off, 1 on.
     pub const FOCUS_AUTOMATIC: ControlId = ControlId(0x009a_090c);
 }
 
@@ -37,43 +37,43 @@ impl fmt::Display for ControlId {
     }
 }
 
-/// What values a control takes.
+/// Value type of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ControlKind {
-    /// A whole number within its range.
+    /// Whole number within a range.
     Whole,
-    /// Off or on: 0 or 1.
+    /// Flag: 0 or 1.
     Flag,
-    /// One of several, by number.
+    /// Choice by number.
     Choice,
-    /// None: setting it does something.
+    /// Button: no value; setting it triggers an action.
     Button,
-    /// Something else.
+    /// Any other type.
     Other,
 }
 
 /// A control of a camera. A plain value, which gets no further fields.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Control {
-    /// Its number.
+    /// Control number.
     pub id: ControlId,
-    /// What the camera calls it.
+    /// Name given by the camera.
     pub name: String,
-    /// What values it takes.
+    /// Value type.
     pub kind: ControlKind,
-    /// The least value.
+    /// Minimum value.
     pub least: i32,
-    /// The greatest value.
+    /// Maximum value.
     pub greatest: i32,
-    /// The default value.
+    /// Default value.
     pub usual: i32,
-    /// Whether another control has taken it over, so that setting it has no effect now.
+    /// True if another control overrides it, so that setting it has no effect.
     pub is_inactive: bool,
 }
 
 const DISABLED: u32 = 0x1;
 const INACTIVE: u32 = 0x10;
-/// No camera has more controls; one that seems to has gone wrong.
+/// Maximum number of controls read from a camera, in case of a faulty one.
 const CONTROLS_MAX: usize = 1024;
 
 impl Control {
@@ -97,10 +97,10 @@ impl Control {
 }
 
 impl Camera {
-    /// Every control that it has, in the order of their numbers.
+    /// Lists all controls, by number.
     ///
     /// # Errors
-    /// [`V4l2Error::Gone`] where it was unplugged.
+    /// [`V4l2Error::Gone`] if the camera was unplugged.
     pub fn controls(&self) -> Result<Vec<Control>, V4l2Error> {
         let mut found: Vec<Control> = Vec::new();
         let mut last = 0;
@@ -114,7 +114,7 @@ impl Camera {
                 Ok(()) | Err(Errno::INVAL | Errno::NOTTY) => break,
                 Err(source) => return Err(V4l2Error::of("list its controls", source)),
             }
-            // A class of controls is none itself.
+            // Skip headings of control classes.
             if info.flags & DISABLED == 0 && info.kind != CLASS {
                 found.push(Control::of(&info));
             }
@@ -122,10 +122,10 @@ impl Camera {
         Ok(found)
     }
 
-    /// What is known of a control; `None` if the camera has none of that number.
+    /// Properties of a control; `None` if the camera lacks it.
     ///
     /// # Errors
-    /// [`V4l2Error::Gone`] where it was unplugged.
+    /// [`V4l2Error::Gone`] if the camera was unplugged.
     pub fn control(&self, id: ControlId) -> Result<Option<Control>, V4l2Error> {
         let mut info = ControlInfo {
             id: id.0,
@@ -138,10 +138,10 @@ impl Camera {
         }
     }
 
-    /// The value of a control.
+    /// Reads the value of a control.
     ///
     /// # Errors
-    /// [`V4l2Error`]: there is no such control, or the camera is gone.
+    /// [`V4l2Error`] if the control does not exist or the camera is gone.
     pub fn value(&self, id: ControlId) -> Result<i32, V4l2Error> {
         let mut value = ControlValue { id: id.0, value: 0 };
         ioctls::get_control(self.fd(), &mut value)
@@ -149,10 +149,10 @@ impl Camera {
         Ok(value.value)
     }
 
-    /// Sets a control, and returns the value that it has then, which need not be the one that was asked for.
+    /// Sets a control and returns the resulting value, which may differ from the requested one.
     ///
     /// # Errors
-    /// [`V4l2Error`]: there is no such control, it does not take that value or no value at all now, or the camera is gone.
+    /// [`V4l2Error`] if the control does not exist or rejects the value, or the camera is gone.
     pub fn set(&mut self, id: ControlId, value: i32) -> Result<i32, V4l2Error> {
         let mut set = ControlValue { id: id.0, value };
         ioctls::set_control(self.fd(), &mut set)
@@ -160,7 +160,7 @@ impl Camera {
         self.value(id)
     }
 
-    /// Presses a button of the camera, of which nothing can be read back.
+    /// Triggers a button control, which has no value to read back.
     ///
     /// # Errors
     /// As [`set`](Camera::set).

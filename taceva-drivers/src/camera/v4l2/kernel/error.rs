@@ -1,4 +1,4 @@
-//! Why a camera did not do what it was asked.
+//! Errors of camera calls.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,66 +7,66 @@ use thiserror::Error;
 
 use super::picture::PictureFormat;
 
-/// A call to a camera that failed.
+/// Failure of a camera call.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum V4l2Error {
-    /// Its file did not open.
+    /// The device file did not open.
     #[error("cannot open {path:?}: {source}")]
     Open {
-        /// The file.
+        /// Path of the device file.
         path: PathBuf,
-        /// Why.
+        /// Error of the system.
         source: io::Error,
     },
-    /// A file that is no camera, or one whose frames cannot be shared with it.
+    /// The file is not a camera, or the camera does not support streaming.
     #[error("{path:?} is no camera that streams: {why}")]
     NoCamera {
-        /// The file.
+        /// Path of the device file.
         path: PathBuf,
-        /// What it lacks.
+        /// The missing capability.
         why: String,
     },
-    /// It gives pictures, and not these.
+    /// The camera does not support the requested format.
     #[error("the camera gives no {wanted}; it offers {offered}")]
     Format {
-        /// What was asked for.
+        /// Requested format.
         wanted: PictureFormat,
-        /// What it has instead, in words.
+        /// Supported formats, in words.
         offered: String,
     },
-    /// It has no such rate.
+    /// The camera does not support the requested rate.
     #[error("the camera gives {found:.3} frames a second, asked for {wanted:.3}")]
     Rate {
-        /// Frames a second that were asked for.
+        /// Requested rate, Hz.
         wanted: f64,
-        /// Those that it gives.
+        /// Rate of the camera, Hz.
         found: f64,
     },
-    /// Another program holds it.
+    /// Another program uses the camera.
     #[error("another program has the camera: {doing}")]
     Busy {
-        /// What could not be done.
+        /// Operation that failed.
         doing: &'static str,
     },
-    /// It was unplugged.
+    /// The camera was unplugged.
     #[error("the camera is gone: {doing}")]
     Gone {
-        /// What could not be done.
+        /// Operation that failed.
         doing: &'static str,
     },
-    /// The kernel refused a call.
+    /// The kernel rejected the call.
     #[error("cannot {doing}: {source}")]
     Refused {
-        /// What could not be done.
+        /// Operation that failed.
         doing: &'static str,
-        /// Why.
+        /// Error of the system.
         source: io::Error,
     },
 }
 
 impl V4l2Error {
-    /// The error of a call that was `doing` something.
+    /// Converts a system error that occurred while `doing`.
     pub(crate) fn of(doing: &'static str, source: rustix::io::Errno) -> V4l2Error {
         match source {
             rustix::io::Errno::NODEV | rustix::io::Errno::NXIO => V4l2Error::Gone { doing },

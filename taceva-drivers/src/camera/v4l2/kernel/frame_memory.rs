@@ -1,4 +1,4 @@
-//! Memory of the kernel that pictures are put into.
+//! Kernel buffers for images, mapped into this process.
 #![expect(
     unsafe_code,
     reason = "the kernel's memory is reached by an address that it gives"
@@ -10,7 +10,7 @@ use std::ptr::NonNull;
 use rustix::io::Errno;
 use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
 
-/// The memory of one buffer, until it is dropped.
+/// Mapping of one buffer, until it is dropped.
 #[derive(Debug)]
 pub(crate) struct Mapped {
     start: NonNull<u8>,
@@ -21,7 +21,7 @@ pub(crate) struct Mapped {
 unsafe impl Send for Mapped {}
 
 impl Mapped {
-    /// Maps the `length` bytes that the kernel has at `offset` of `camera`, to be read.
+    /// Maps `length` bytes of the kernel's buffer at `offset` of `camera`, read-only.
     pub(crate) fn new(camera: BorrowedFd<'_>, offset: u64, length: usize) -> Result<Mapped, Errno> {
         // SAFETY: the kernel chooses an address that nothing else has; the offset and the length are those that it gave of a buffer, and it refuses
         // others.
@@ -39,8 +39,8 @@ impl Mapped {
         Ok(Mapped { start, length })
     }
 
-    /// The first `used` bytes, or all there are. The caller has the buffer back from the kernel, which writes into it no more until it is queued
-    /// again: that takes the stream, which is borrowed as long as these bytes are.
+    /// First `used` bytes, or all if there are fewer. The caller has dequeued the buffer, so the kernel does not write to it. Queueing it
+    /// again needs the stream, which is borrowed as long as these bytes.
     pub(crate) fn bytes(&self, used: usize) -> &[u8] {
         // SAFETY: the memory is mapped to be read until `self` is dropped, is at least so long, and every byte of it is a number. The kernel does not
         // write meanwhile, as the caller sees to.

@@ -1,4 +1,4 @@
-//! What is exchanged with the kernel: structures and numbers of `linux/videodev2.h`, and the calls that exchange them.
+//! Structures and numbers of `linux/videodev2.h`, and the ioctl calls that exchange them.
 #![expect(
     unsafe_code,
     reason = "an ioctl is a pointer for the kernel to read and write"
@@ -9,17 +9,17 @@ use std::os::fd::BorrowedFd;
 use rustix::io::Errno;
 use rustix::ioctl::{Updater, ioctl, opcode};
 
-/// The kind of every buffer and format here: pictures that a camera gives, in one piece.
+/// Buffer type used here: single-plane video capture.
 pub(crate) const CAPTURE: u32 = 1;
-/// Memory of the kernel that is shared with the program.
+/// Memory type used here: kernel buffers mapped by the program.
 pub(crate) const SHARED: u32 = 1;
 
-/// Bits of what a device can do.
+/// Capability bits of a device.
 pub(crate) const CAN_CAPTURE: u32 = 0x1;
 pub(crate) const CAN_STREAM: u32 = 0x0400_0000;
 pub(crate) const TELLS_OF_ITSELF: u32 = 0x8000_0000;
 
-/// What a device is.
+/// Identity and capabilities of a device.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Capability {
@@ -27,14 +27,14 @@ pub(crate) struct Capability {
     pub(crate) card: [u8; 32],
     pub(crate) bus: [u8; 32],
     pub(crate) version: u32,
-    /// Of the whole device.
+    /// Capabilities of the whole device.
     pub(crate) all: u32,
-    /// Of this file of it.
+    /// Capabilities of this device file.
     pub(crate) own: u32,
     pub(crate) reserved: [u32; 3],
 }
 
-/// One of the formats that a camera offers.
+/// One supported format.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct FormatName {
@@ -47,19 +47,19 @@ pub(crate) struct FormatName {
     pub(crate) reserved: [u32; 3],
 }
 
-/// One of the sizes that a camera offers of a format.
+/// One supported size of a format.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Size {
     pub(crate) index: u32,
     pub(crate) pixels: u32,
-    /// 1 where the numbers below are a width and a height, else the ends of ranges and their steps.
+    /// 1 if the numbers are width and height; otherwise they are ranges and steps.
     pub(crate) kind: u32,
     pub(crate) numbers: [u32; 6],
     pub(crate) reserved: [u32; 2],
 }
 
-/// The format of the pictures.
+/// Image format.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Format {
@@ -68,11 +68,11 @@ pub(crate) struct Format {
     pub(crate) width: u32,
     pub(crate) height: u32,
     pub(crate) pixels: u32,
-    /// 1 where rows are sent one after the other.
+    /// 1 for progressive images.
     pub(crate) field: u32,
-    /// Bytes from one row to the next.
+    /// Row stride, bytes.
     pub(crate) stride: u32,
-    /// Bytes of a picture at most.
+    /// Maximum size of an image, bytes.
     pub(crate) bytes: u32,
     pub(crate) colours: u32,
     pub(crate) private: u32,
@@ -105,15 +105,15 @@ impl Default for Format {
     }
 }
 
-/// The rate of the pictures, as the time of one.
+/// Frame rate, as the duration of one frame.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rate {
     pub(crate) kind: u32,
-    /// 0x1000 where the time can be set.
+    /// 0x1000 if the duration can be set.
     pub(crate) capability: u32,
     pub(crate) mode: u32,
-    /// s of a picture: a numerator and a denominator.
+    /// Duration of a frame, s: numerator and denominator.
     pub(crate) time: [u32; 2],
     pub(crate) rest: [u32; 46],
 }
@@ -130,7 +130,7 @@ impl Default for Rate {
     }
 }
 
-/// How many buffers the kernel shares.
+/// Number of shared buffers.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Request {
@@ -140,24 +140,24 @@ pub(crate) struct Request {
     pub(crate) rest: [u32; 2],
 }
 
-/// A buffer, and the picture in it.
+/// A buffer with its image.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Buffer {
     pub(crate) index: u32,
     pub(crate) kind: u32,
-    /// Bytes of the picture in it.
+    /// Size of the image in it, bytes.
     pub(crate) used: u32,
     pub(crate) flags: u32,
     pub(crate) field: u32,
     pub(crate) padding: u32,
-    /// When it was taken: s and µs.
+    /// Time of capture: s and µs.
     pub(crate) time: [i64; 2],
     pub(crate) code: [u32; 4],
-    /// Counts up by one a picture that the camera took.
+    /// Sequence number, increased by one per captured image.
     pub(crate) number: u32,
     pub(crate) memory: u32,
-    /// Where it is mapped; nothing that the kernel follows, as long as `memory` is [`SHARED`].
+    /// Offset for mapping. Not a pointer as long as `memory` is [`SHARED`].
     pub(crate) offset: u64,
     pub(crate) length: u32,
     pub(crate) reserved: u32,
@@ -165,13 +165,13 @@ pub(crate) struct Buffer {
     pub(crate) end: u32,
 }
 
-/// The picture in a buffer is damaged.
+/// Flag of a damaged image.
 pub(crate) const DAMAGED: u32 = 0x40;
-/// The clock by which a buffer is stamped, and that of them which never jumps.
+/// Mask of the time-stamp clock, and the value of the monotonic clock.
 pub(crate) const CLOCKS: u32 = 0xe000;
 pub(crate) const MONOTONIC: u32 = 0x2000;
 
-/// What is known of a control.
+/// Properties of a control.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ControlInfo {
@@ -186,10 +186,10 @@ pub(crate) struct ControlInfo {
     pub(crate) reserved: [u32; 2],
 }
 
-/// Asks for the control behind the one that is named.
+/// Flag that requests the control after the given one.
 pub(crate) const NEXT_CONTROL: u32 = 0x8000_0000;
 
-/// The value of a control.
+/// Value of a control.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ControlValue {
@@ -197,7 +197,7 @@ pub(crate) struct ControlValue {
     pub(crate) value: i32,
 }
 
-/// A call that hands the kernel one structure, made again where a signal came between.
+/// Defines an ioctl call with one structure, repeated if a signal interrupts it.
 macro_rules! call {
     ($(#[$doc:meta])* $name:ident, $direction:ident, $number:literal, $structure:ty) => {
         $(#[$doc])*
@@ -234,7 +234,7 @@ call!(set_control, read_write, 28, ControlValue);
 call!(query_control, read_write, 36, ControlInfo);
 call!(enumerate_sizes, read_write, 74, Size);
 
-// The sizes of the kernel's header: an opcode of another size would be another call.
+// Sizes in the kernel's header. An ioctl number with another size would be another call.
 const _: () = {
     assert!(size_of::<Capability>() == 104);
     assert!(size_of::<FormatName>() == 64);

@@ -1,20 +1,20 @@
-//! Which pictures a camera gives: their size, how their pixels are sent, and how colours are made of them.
+//! Image formats of a camera: size, pixel format and colour coding.
 
 use std::fmt;
 
 use super::ioctls::Format;
 
-/// How the pixels of a picture are sent, as four letters.
+/// Pixel format, as four letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FourCc(u32);
 
 impl FourCc {
-    /// Two bytes a pixel: brightness of each, colour of two together.
+    /// Two bytes per pixel: a luminance for each, a colour for each pair.
     pub const YUYV: FourCc = FourCc::new(*b"YUYV");
-    /// A JPEG file a picture.
+    /// One JPEG file per image.
     pub const MJPG: FourCc = FourCc::new(*b"MJPG");
 
-    /// The code that the kernel writes as a number.
+    /// Converts the kernel's number.
     pub(crate) const fn of(number: u32) -> FourCc {
         FourCc(number)
     }
@@ -23,7 +23,7 @@ impl FourCc {
         self.0
     }
 
-    /// The code of four letters.
+    /// Creates the code from four letters.
     pub const fn new(letters: [u8; 4]) -> FourCc {
         FourCc(u32::from_le_bytes(letters))
     }
@@ -36,14 +36,14 @@ impl fmt::Display for FourCc {
     }
 }
 
-/// The pictures that are wanted of a camera. A plain value, which gets no further fields.
+/// Requested image format. A plain value, which gets no further fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PictureFormat {
-    /// Pixels of a row.
+    /// Width, pixels.
     pub width: u32,
-    /// Rows.
+    /// Height, pixels.
     pub height: u32,
-    /// How they are sent.
+    /// Pixel format.
     pub pixels: FourCc,
 }
 
@@ -53,29 +53,29 @@ impl fmt::Display for PictureFormat {
     }
 }
 
-/// How colours are made of YUYV.
+/// Conversion from YUYV to colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coding {
-    /// ITU-R BT.601, of brightness 16 to 235.
+    /// ITU-R BT.601, luminance 16 to 235.
     Limited601,
-    /// ITU-R BT.601, of brightness 0 to 255.
+    /// ITU-R BT.601, luminance 0 to 255.
     Full601,
-    /// ITU-R BT.709, of brightness 16 to 235.
+    /// ITU-R BT.709, luminance 16 to 235.
     Limited709,
-    /// ITU-R BT.709, of brightness 0 to 255.
+    /// ITU-R BT.709, luminance 0 to 255.
     Full709,
 }
 
-/// The pictures that a camera gives.
+/// Image format set at a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GivenFormat {
-    /// Size and kind, as they were wanted.
+    /// Size and pixel format, as requested.
     pub picture: PictureFormat,
-    /// Bytes from one row to the next; 0 where pictures are compressed.
+    /// Row stride, bytes; 0 for compressed images.
     pub stride: u32,
-    /// The size of a picture, in bytes; the greatest size where pictures are compressed.
+    /// Size of an image, bytes; the maximum size for compressed images.
     pub bytes: u32,
-    /// How colours are made of it.
+    /// Colour coding.
     pub coding: Coding,
 }
 
@@ -84,7 +84,7 @@ const CODING_601: u32 = 1;
 const CODING_709: u32 = 2;
 const RANGE_FULL: u32 = 1;
 impl Coding {
-    /// The coding of the pictures of `format`, as the kernel describes it.
+    /// Coding of the kernel's image format.
     pub(crate) fn of(format: &Format) -> Coding {
         let is_709 = match format.coding {
             CODING_709 => true,

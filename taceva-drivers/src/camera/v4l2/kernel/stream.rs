@@ -1,4 +1,4 @@
-//! The pictures of a camera, in memory that is shared with the kernel.
+//! Image stream of a camera, in buffers shared with the kernel.
 
 use std::time::Duration;
 
@@ -10,22 +10,22 @@ use super::error::V4l2Error;
 use super::frame_memory::Mapped;
 use super::ioctls::{self, Buffer, Request};
 
-/// A camera that streams, until it is stopped or dropped.
+/// A camera that streams until it is stopped or dropped.
 #[derive(Debug)]
 pub struct Stream {
     camera: Camera,
     buffers: Vec<Mapped>,
 }
 
-/// How many pictures may wait: whoever is late by more misses some, which their numbers tell.
+/// Number of buffers. A slower reader misses images, which shows as gaps in their numbers.
 const BUFFERS: u32 = 4;
 const MICROSECOND_NS: u64 = 1000;
 
 impl Stream {
-    /// Begins to stream. A camera that does not is closed, and can be opened again.
+    /// Starts streaming. On failure the camera is closed and can be opened again.
     ///
     /// # Errors
-    /// [`V4l2Error::Busy`] where another program has it, [`V4l2Error::Gone`] where it was unplugged.
+    /// [`V4l2Error::Busy`] if another program uses it, [`V4l2Error::Gone`] if it was unplugged.
     pub fn start(camera: Camera) -> Result<Stream, V4l2Error> {
         let mut stream = Stream {
             camera,
@@ -49,7 +49,7 @@ impl Stream {
             let mut buffer = buffer(index);
             ioctls::query_buffer(self.camera.fd(), &mut buffer).map_err(refused)?;
             let length = usize::try_from(buffer.length).map_err(|_| refused(Errno::NOMEM))?;
-            // The field is a number of 32 bits, in the place of an address.
+            // The offset uses 32 bits of the union with a pointer.
             let offset = buffer.offset & u64::from(u32::MAX);
             let mapped = Mapped::new(self.camera.fd(), offset, length).map_err(refused)?;
             self.buffers.push(mapped);
@@ -64,10 +64,10 @@ impl Stream {
             .map_err(|source| V4l2Error::of("give a buffer back", source))
     }
 
-    /// The next picture, waited for as long as `patience`; `None` if none came.
+    /// Waits up to `patience` for the next image; `None` if none arrives.
     ///
     /// # Errors
-    /// [`V4l2Error::Gone`] where the camera was unplugged.
+    /// [`V4l2Error::Gone`] if the camera was unplugged.
     pub fn next(&mut self, patience: Duration) -> Result<Option<Filled<'_>>, V4l2Error> {
         let doing = "take a picture";
         let timeout = Timespec::try_from(patience).ok();
@@ -81,7 +81,7 @@ impl Stream {
         let mut taken = buffer(0);
         match ioctls::take(fd, &mut taken) {
             Ok(()) => {}
-            // Nothing was there after all, or the camera stopped: the first of them that stays is an error.
+            // Spurious wake-up, or the camera stopped. A permanent stop returns an error.
             Err(Errno::AGAIN)
                 if !waiting[0]
                     .revents()
@@ -98,7 +98,7 @@ impl Stream {
         }))
     }
 
-    /// Stops the stream, and gives the camera back.
+    /// Stops the stream and returns the camera.
     pub fn stop(mut self) -> Camera {
         self.end();
         self.camera
@@ -108,7 +108,7 @@ impl Stream {
         let mut kind = ioctls::CAPTURE;
         let _ = ioctls::stream_off(self.camera.fd(), &mut kind);
         self.buffers.clear();
-        // None, which frees them.
+        // Requesting 0 buffers frees them.
         let mut none = Request {
             kind: ioctls::CAPTURE,
             memory: ioctls::SHARED,
@@ -127,7 +127,7 @@ fn buffer(index: u32) -> Buffer {
     }
 }
 
-/// A picture, whose buffer is given back once this is dropped.
+/// An image whose buffer is queued again on drop.
 #[derive(Debug)]
 pub struct Filled<'a> {
     stream: &'a mut Stream,
@@ -135,7 +135,7 @@ pub struct Filled<'a> {
 }
 
 impl Filled<'_> {
-    /// The picture as the camera sent it.
+    /// Bytes of the image, as the camera sent it.
     pub fn bytes(&self) -> &[u8] {
         let index = usize::try_from(self.taken.index).unwrap_or(usize::MAX);
         let used = usize::try_from(self.taken.used).unwrap_or(usize::MAX);
@@ -145,17 +145,17 @@ impl Filled<'_> {
         }
     }
 
-    /// The camera's number of the picture, one higher for each that it took: a gap between two is what was missed.
+    /// Sequence number of the image. A gap means missed images.
     pub fn number(&self) -> u32 {
         self.taken.number
     }
 
-    /// Whether the camera says that it is damaged.
+    /// True if the camera marks the image as damaged.
     pub fn is_damaged(&self) -> bool {
         self.taken.flags & ioctls::DAMAGED != 0
     }
 
-    /// When the picture was taken, by the kernel's stamp on the monotonic clock; `None` where the driver stamps by another clock.
+    /// Kernel time stamp on the monotonic clock; `None` if the driver uses another clock.
     pub fn taken_at(&self) -> Option<Duration> {
         if self.taken.flags & ioctls::CLOCKS != ioctls::MONOTONIC {
             return None;
@@ -168,7 +168,7 @@ impl Filled<'_> {
 
 impl Drop for Filled<'_> {
     fn drop(&mut self) {
-        // One that cannot be given back is missing from then on; a camera that is gone says so at the next picture.
+        // A buffer that cannot be queued is lost. A lost camera is reported at the next image.
         let _ = self.stream.queue(self.taken.index);
     }
 }

@@ -1,7 +1,6 @@
-//! The system calls that a child keeps, by number.
+//! Numbers of the allowed system calls.
 
-/// Calls that are allowed whatever their arguments: memory, threads and time of the process itself, and files that are open or that
-/// Landlock lets it open.
+/// Calls allowed with any arguments: memory, threads and time of the process itself, and files that are open or allowed by Landlock.
 pub(super) const ALWAYS: &[i64] = &[
     // Memory.
     libc::SYS_brk,
@@ -33,7 +32,7 @@ pub(super) const ALWAYS: &[i64] = &[
     libc::SYS_statx,
     libc::SYS_write,
     libc::SYS_writev,
-    // Waiting, and the sockets that it was given.
+    // Polling, and the inherited sockets.
     libc::SYS_epoll_create1,
     libc::SYS_epoll_ctl,
     libc::SYS_epoll_pwait,
@@ -89,7 +88,7 @@ pub(super) const ALWAYS: &[i64] = &[
     libc::SYS_uname,
 ];
 
-/// The same calls by the older numbers that one architecture still has.
+/// Older numbers of the same calls, which only x86-64 still has.
 #[cfg(target_arch = "x86_64")]
 pub(super) const ALWAYS_TOO: &[i64] = &[
     libc::SYS_access,
@@ -110,7 +109,7 @@ pub(super) const ALWAYS_TOO: &[i64] = &[
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) const ALWAYS_TOO: &[i64] = &[];
 
-/// Calls of whoever has a socket of its own.
+/// Calls of a process that may open sockets.
 pub(super) const SOCKETS: &[i64] = &[
     libc::SYS_bind,
     libc::SYS_connect,
@@ -120,10 +119,10 @@ pub(super) const SOCKETS: &[i64] = &[
     libc::SYS_setsockopt,
 ];
 
-/// Calls of whoever waits for connections.
+/// Calls of a process that may listen for connections.
 pub(super) const LISTENING: &[i64] = &[libc::SYS_accept, libc::SYS_accept4, libc::SYS_listen];
 
-/// What `fcntl` may do: nothing that lets the kernel signal another process.
+/// Allowed `fcntl` commands. None lets the kernel signal another process.
 pub(super) const FILE_CONTROLS: &[i32] = &[
     libc::F_DUPFD,
     libc::F_DUPFD_CLOEXEC,
@@ -134,7 +133,7 @@ pub(super) const FILE_CONTROLS: &[i32] = &[
     libc::F_GET_SEALS,
 ];
 
-/// What `prctl` may do: names of threads and of memory, and questions.
+/// Allowed `prctl` commands: names of threads and memory, and queries.
 pub(super) const PROCESS_CONTROLS: &[i32] = &[
     libc::PR_SET_NAME,
     libc::PR_GET_NAME,
@@ -142,6 +141,6 @@ pub(super) const PROCESS_CONTROLS: &[i32] = &[
     libc::PR_GET_DUMPABLE,
     libc::PR_GET_PDEATHSIG,
     libc::PR_GET_NO_NEW_PRIVS,
-    // Set already, and asked for again by whoever adds a filter.
+    // Already set; adding a filter sets it again.
     libc::PR_SET_NO_NEW_PRIVS,
 ];
