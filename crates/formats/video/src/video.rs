@@ -16,7 +16,7 @@ use crate::packets::JpegClip;
 
 /// External decoders, for codecs that this process does not decode.
 ///
-/// No further field will be added: a codec is decoded in this process, in a confined child process, or by ffmpeg.
+/// The struct gets no further field: a codec is decoded in this process, in a confined child process, or by ffmpeg.
 ///
 /// ```
 /// use std::path::PathBuf;

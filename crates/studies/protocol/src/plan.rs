@@ -148,8 +148,11 @@ impl Plan {
 /// Plans the studies of `scene`, each with the facts that `source` returns for it. Opens no device.
 ///
 /// # Errors
-/// [`SceneError`] with the line: a limit loosened or absent, a depth beyond the limit, two contradictory statements, too many presses, or a
-/// metric requested by name that applies to no study of the scene.
+/// [`SceneError`] with the line:
+///
+/// - a limit is loosened or absent, or a depth exceeds its limit;
+/// - two statements contradict each other, or there are too many presses;
+/// - a metric requested by name applies to no study of the scene.
 pub fn plan(
     scene: &Scene,
     mut source: impl FnMut(&Study) -> SourceInfo,

@@ -173,8 +173,11 @@ impl RigFile {
     /// Parses the rig file `text`; errors call it `source_name`.
     ///
     /// # Errors
-    /// [`SceneError`] with the line: invalid TOML, an unknown key with the nearest known one, axes that form no right-handed frame, or a
-    /// place, latency, patience or limit out of range.
+    /// [`SceneError`] with the line:
+    ///
+    /// - invalid TOML, or an unknown key, with the nearest known one;
+    /// - axes that form no right-handed frame;
+    /// - a place, latency, patience or limit out of range.
     pub fn parse(source_name: &str, text: &str) -> Result<RigFile, SceneError> {
         let text = Text::new(source_name, text)?;
         let written: WrittenRig = text.read()?;

@@ -75,8 +75,11 @@ impl Scene {
     /// Parses the scene `text`; errors call it `source_name`.
     ///
     /// # Errors
-    /// [`SceneError`] with the line: invalid TOML, an unknown key or name with the nearest known one, a count or number out of range, two
-    /// contradictory statements, or a limit of a study above that of its scene.
+    /// [`SceneError`] with the line:
+    ///
+    /// - invalid TOML, or an unknown key or name, with the nearest known one;
+    /// - a count or number out of range, or two contradictory statements;
+    /// - a limit of a study above that of its scene.
     pub fn parse(source_name: &str, text: &str) -> Result<Scene, SceneError> {
         check::checked(Text::new(source_name, text)?, NamedBy::Scene)
     }

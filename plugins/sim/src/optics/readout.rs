@@ -4,7 +4,7 @@ use super::noise::RowNoise;
 
 /// Conversion of light to samples.
 ///
-/// I′ = I (1 + e) + N(0, g I + s²), with e the flicker of the frame, g the gain of the shot noise and s the read noise. The result is
+/// I′ = I (1 + e) + N(0, g I + s²). Here e is the flicker of the frame, g the gain of the shot noise and s the read noise. The result is
 /// rounded to the nearest count, ties to even, and clipped to the range of the sample.
 ///
 /// # Reference

@@ -24,9 +24,10 @@ pub(super) struct Window {
 ///
 /// Lines are sq(u), dots sq(u) sq(v), with sq the square wave of ±1 and period 2w, u and v along the board's sides.
 ///
-/// * The layer follows a wave of amplitude A and wave number k under a pressure A k E / (1.5 L(k h)), and proportionally less under less. *
-/// The lens passes exp(−k²σ²/2), for harmonic m exp(−2 (π σ m / 2w)²). * A pixel of side p passes sin(k p/2) / (k p/2), the same in every
-/// direction.
+/// * The layer follows a wave of amplitude A and wave number k under a pressure A k E / (1.5 L(k h)). A lower pressure has a proportional
+///   effect.
+/// * The lens passes exp(−k²σ²/2), for harmonic m exp(−2 (π σ m / 2w)²).
+/// * A pixel of side p passes sin(k p/2) / (k p/2), the same in every direction.
 #[derive(Clone, Debug)]
 pub(super) struct Relief {
     /// Amplitude of harmonics 1, 3 and 5 along u, for each of those along v; only the first row for lines. Within ±1.

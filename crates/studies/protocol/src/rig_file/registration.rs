@@ -86,7 +86,7 @@ fn coordinates(point: &Point) -> [f64; 3] {
     [point.x.0, point.y.0, point.z.0]
 }
 
-/// Pose at `place` with rotation `turn`; its angles lie on the branch nearest to `near`.
+/// Pose at `place` with rotation `turn`; its angles are on the branch nearest to `near`.
 fn pose([x, y, z]: [f64; 3], turn: &Matrix, near: &Rotation) -> Pose {
     let [x, y, z] = [x, y, z].map(Millimetre);
     Pose {

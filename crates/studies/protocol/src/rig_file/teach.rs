@@ -91,8 +91,8 @@ impl Jogged {
     /// Computes origin and axes of the rig file for a robot that moves `carries`.
     ///
     /// # Errors
-    /// [`TeachError`] if a way is shorter than 5 mm or more than half a millimetre off the axes of the base, if the tool was rotated, or if
-    /// both ways follow one line.
+    /// [`TeachError`] if a way is shorter than 5 mm, or more than half a millimetre off the axes of the base. Also if the tool was rotated,
+    /// or both ways follow one line.
     pub fn taught(&self, carries: Carried) -> Result<Taught, TeachError> {
         let (x, beside_x) = way(&self.middle, &self.along_x, 'x')?;
         let (y, beside_y) = way(&self.middle, &self.along_y, 'y')?;

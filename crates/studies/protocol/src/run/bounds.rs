@@ -70,7 +70,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::source::SourceInfo;
 
-    /// Half extents of 8 mm and 10 mm, shears of up to 0.25 mm, 2 mm of clearance, 0.5 mm of search and 1 mm of depth.
+    /// Plan with half extents of 8 mm and 10 mm and shears of up to 0.25 mm. Clearance is 2 mm, search 0.5 mm, depth 1 mm.
     fn plan() -> Plan {
         let scene = Scene::parse("small", SMALL).expect("a scene");
         let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));

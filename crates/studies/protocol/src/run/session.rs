@@ -207,8 +207,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Makes one press. Repeats it from its start after stale signals or a release if the tip was raised above the gel, and after a fault
-    /// that the operator acknowledged.
+    /// Makes one press. After stale signals or a release it repeats the press from its start, if the tip was raised above the gel. The same
+    /// follows a fault that the operator acknowledged.
     fn acquire_patiently(
         &mut self,
         planned: &PlannedPress,
