@@ -1,4 +1,4 @@
-//! The arguments of the program. `cmd/` carries them out; nothing here has a side effect.
+//! Arguments of the program. `cmd/` executes them; nothing here has a side effect.
 
 mod bench;
 mod cache;
