@@ -8,8 +8,7 @@ use pyo3::types::PyCapsule;
 
 use crate::arrow::{self, ArrowColumn, Cells};
 
-/// The table of `dataset`: one row for each sample, one column for each label in the unit of its metadata, and the other columns that have
-/// a value.
+/// The table of `dataset`: one row for each sample, one column for each label in its unit, and all other non-empty columns.
 pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<'py, PyCapsule>> {
     let table = dataset.table();
     let mut columns = Vec::new();

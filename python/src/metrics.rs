@@ -14,8 +14,7 @@ use taceva_results::EvaluationReport;
 use crate::arrays::{Points, Table};
 use crate::errors::value_error;
 
-/// Number of rows per block: their columns stay in the L1 and L2 caches. Smaller blocks cost more for points with names, which each block
-/// looks up.
+/// Rows per block: their columns stay in the L1 and L2 caches. Each block looks up the names of points, so smaller ones cost more.
 const BLOCK_ROWS: usize = 4096;
 
 /// The unit of one of the six channels; `None` for another.

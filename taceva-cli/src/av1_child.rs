@@ -25,8 +25,7 @@ pub(crate) fn main_if_child() {
     std::process::exit(i32::from(served.is_err()));
 }
 
-/// The program and the argument that decode AV1; `None` without the feature, or if the program's `main` does not begin with
-/// [`main_if_child`](crate::main_if_child).
+/// The program and argument that decode AV1; `None` without the feature, or without [`main_if_child`](crate::main_if_child) in `main`.
 pub(crate) fn command() -> Option<Vec<OsString>> {
     if !CAN_BE_CHILD.load(Ordering::Relaxed) {
         return None;

@@ -22,8 +22,8 @@ pub(crate) enum BenchSubject {
     Models(BenchModels),
 }
 
-/// Naive, two-pass, pairwise, Kahan, Neumaier and Welford sums and those of TacEva on every instruction set, over inputs on which they
-/// differ, beside the time to read the columns. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
+/// Naive, two-pass, pairwise, Kahan, Neumaier and Welford sums and those of TacEva on every instruction set. Inputs show their differences;
+/// the time to read the columns is the lower limit. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
 #[derive(Debug, Args)]
 pub(crate) struct BenchKernels {
     /// Rows of each of the six channels

@@ -91,7 +91,7 @@ impl From<StageArg> for CachedStage {
     }
 }
 
-/// A number and the letters behind it.
+/// A number and its unit.
 fn parts(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let end = text

@@ -115,8 +115,7 @@ pub(crate) struct Score {
     /// Periods of angles in degrees, as NAME=360, separated by commas: values that differ by a period are equal
     #[arg(long, value_name = "NAME=DEGREES", value_delimiter = ',')]
     pub(crate) periods: Vec<String>,
-    /// Pair rows by this column of both tables, or by `order` [default: by sample, id, sample_id or index if both tables have it, else by
-    /// order]
+    /// Pair rows by this column of both tables, or by `order` [default: by sample, id, sample_id or index of both tables, else by order]
     #[arg(long, value_name = "NAME")]
     pub(crate) key: Option<RowKey>,
     /// Count NaN and infinite cells as n_invalid instead of rejecting the file

@@ -37,14 +37,14 @@ pub(crate) struct RigCheckArgs {
     pub(crate) output: Output<ListFormat>,
 }
 
-/// Nothing is moved by this program: you jog the robot by its own tool, and this program reads where it stands.
+/// This program moves nothing: you jog the robot by its own tool, and the program reads its position.
 ///
 /// 1. until the tip just touches the middle of the untouched gel,
 /// 2. a little up and 5 to 10 mm along x of the sensor,
 /// 3. from the middle 5 to 10 mm along y of the sensor, so that z points into the gel.
 ///
-/// A way that ends more than 0.5 mm off an axis of the robot's base is refused, and so is a turned tool. The file needs both keys
-/// before, with any values: origin_mm = [0.0, 0.0, 0.0] and axes = ["x", "y", "z"]. Everything else in it stays as it is.
+/// A step that ends more than 0.5 mm off an axis of the robot's base is rejected, and so is a turned tool. The file must contain both keys,
+/// with any values: origin_mm = [0.0, 0.0, 0.0] and axes = ["x", "y", "z"]. Everything else in it stays.
 #[derive(Debug, Args)]
 pub(crate) struct RigTeachArgs {
     /// The rig file, which is updated
@@ -53,8 +53,7 @@ pub(crate) struct RigTeachArgs {
 }
 
 /// The robot taps the middle of the gel 20 times, fast and slowly in turn, with the specimen of the first press. Tip, force and picture
-/// change at the same moment, so the delay of a device after the robot is its latency. A spread of more than half a frame between taps is
-/// rejected.
+/// change at the same moment, so a delay after the robot is a latency. A spread of more than half a frame between taps is rejected.
 ///
 /// The gel is touched with the guard and the beginning of a run: you permit motion by typing the name of the robot, it passes through the
 /// air and touches gently, and any contradiction to the rig file ends it. The maximum depth and force of the gel must be stated by the

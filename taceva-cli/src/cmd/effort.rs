@@ -29,8 +29,7 @@ pub(super) fn print(effort: &Effort, dataset: &Dataset, cache: Option<&Cache>, c
     }
 }
 
-/// Estimated time to read the pictures of `rows`, from a sample of them; `None` if they are few, or one cannot be read, which the work
-/// reports.
+/// Estimated time to read the pictures of `rows`; `None` if they are few, or if a sample cannot be read, which the work reports.
 fn time_of(rows: &[usize], dataset: &Dataset, jobs: usize) -> Option<Duration> {
     if rows.len() < MANY {
         return None;

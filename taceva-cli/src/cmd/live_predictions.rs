@@ -57,7 +57,6 @@ impl<'a> LivePredictions<'a> {
         }
     }
 
-    /// Shows a prediction.
     pub(super) fn show(&self, frame: &Frame, prediction: &Prediction, counts: &PredictionCounts) {
         let channels = self.model.channels().iter().zip(&prediction.values);
         let values = channels.clone().map(|(channel, value)| {

@@ -10,9 +10,7 @@ pub(super) struct Line<'a> {
     pub(super) name: String,
     /// The channel or plane.
     pub(super) channel: &'a str,
-    /// The value.
     pub(super) value: &'a Value,
-    /// Unit.
     pub(super) unit: Unit,
     /// Interval; `None` if the number has none by its nature.
     pub(super) interval: Option<&'a Interval>,

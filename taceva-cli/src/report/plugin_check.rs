@@ -49,7 +49,6 @@ pub(crate) fn write(
     )
 }
 
-/// One check.
 pub(crate) fn line(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
     let subject = result.subject.as_deref().unwrap_or("");
     let (word, why) = match &result.outcome {

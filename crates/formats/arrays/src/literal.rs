@@ -4,7 +4,6 @@ use crate::error::Problem;
 use crate::limits;
 use crate::scalar::shown;
 
-/// A literal.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Literal {
     Text(String),

@@ -39,7 +39,6 @@ pub(crate) fn bytes_of(source: &dyn ByteSource, at: u64, length: u64) -> Result<
     Ok(bytes)
 }
 
-/// A file.
 #[derive(Debug)]
 pub(crate) struct FileBytes {
     #[cfg(unix)]

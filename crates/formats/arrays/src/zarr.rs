@@ -1,5 +1,4 @@
-//! zarr, versions 2 and 3: a folder of arrays in chunks, one file each, or a ZIP archive of such a folder. A missing chunk has the fill
-//! value.
+//! zarr, versions 2 and 3: a folder of arrays, one file for each chunk, or a ZIP archive of it. A missing chunk has the fill value.
 
 mod array;
 mod codecs;

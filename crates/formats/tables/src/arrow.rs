@@ -49,8 +49,8 @@ impl ArrowTable {
     /// The table at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no Arrow file, is truncated or inconsistent,
-    /// [`TableError::Unsupported`] if a column has an unsupported type, [`TableError::TooLarge`] above the limits.
+    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if it is no Arrow file, is truncated or inconsistent;
+    /// [`TableError::Unsupported`] for a column of an unsupported type; [`TableError::TooLarge`] above the limits.
     pub fn open(path: &Path) -> Result<ArrowTable, TableError> {
         let source = Source::new(path)?;
         let mut file = source.open()?;
@@ -146,8 +146,8 @@ impl ArrowTable {
     /// `ft[2]`, `ft[2,0]`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such column, [`TableError::Mismatch`] if a list is too short for `name` in some row,
-    /// [`TableError::TooLarge`] if the cells take more than 320 MiB of memory, [`TableError::Damaged`] if a batch cannot be parsed.
+    /// [`TableError::Missing`] if there is no such column; [`TableError::Mismatch`] if a list is too short for `name` in some row;
+    /// [`TableError::TooLarge`] if the cells take more than 320 MiB of memory; [`TableError::Damaged`] if a batch is invalid.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         let found = Found::new(&self.source, &self.columns, name)?;
         let field = self.field(name)?;

@@ -18,13 +18,10 @@ pub(crate) enum Codec {
     Snappy,
     /// Members of gzip.
     Gzip,
-    /// Brotli.
     Brotli,
-    /// A block of LZ4.
     Lz4Block,
     /// Blocks of LZ4, each after its two sizes, as Hadoop writes them.
     Lz4Hadoop,
-    /// Frames of LZ4.
     Lz4Frame,
     /// A stream of bz2.
     Bzip2,

@@ -61,7 +61,7 @@ impl ParquetTable {
     /// The table at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no Parquet file or its footer is inconsistent,
+    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if it is no Parquet file or its footer is inconsistent;
     /// [`TableError::TooLarge`] if the footer or the table exceeds the limits.
     pub fn open(path: &Path) -> Result<ParquetTable, TableError> {
         let source = Source::new(path)?;
@@ -140,9 +140,8 @@ impl ParquetTable {
     /// `ft[2]`, `ft[2,0]`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such column, [`TableError::Mismatch`] if a list is too short for `name` in some row,
-    /// [`TableError::TooLarge`] if the cells take more memory than 96 to 320 MiB by the size of the file, [`TableError::Damaged`] if a page
-    /// cannot be parsed.
+    /// [`TableError::Missing`] if there is no such column; [`TableError::Mismatch`] if a list is too short for `name` in some row;
+    /// [`TableError::TooLarge`] if the cells exceed 96 to 320 MiB, by the size of the file; [`TableError::Damaged`] for an invalid page.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         let mut cells = Vec::new();
         self.read_column(name, &mut 0, &mut cells)?;

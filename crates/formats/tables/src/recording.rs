@@ -87,9 +87,8 @@ impl Recording {
     /// The messages of the topic called `name`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such topic, [`TableError::Unsupported`] if its messages have an unsupported encoding (not ROS
-    /// 1 or 2, JSON or Foxglove pictures) or an incomplete schema; [`TableError::Damaged`] if the messages in the file differ from its
-    /// index.
+    /// [`TableError::Missing`] if there is no such topic; [`TableError::Unsupported`] for an unsupported encoding (not ROS 1 or 2, JSON or
+    /// Foxglove pictures) or an incomplete schema; [`TableError::Damaged`] if the messages in the file differ from its index.
     pub fn table(&self, name: &str) -> Result<TopicTable, TableError> {
         match self.topics.iter().find(|topic| topic.name == name) {
             Some(topic) => TopicTable::new(&self.store, topic.clone()),

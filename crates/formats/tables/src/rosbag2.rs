@@ -50,8 +50,7 @@ impl Rosbag2 {
     /// The recording in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if it has a later schema or is no recording; [`TableError::Damaged`] if a page or a row cannot be
-    /// parsed.
+    /// [`TableError::Unsupported`] for a later schema or no recording; [`TableError::Damaged`] for an invalid page or row.
     pub(crate) fn open(source: Source) -> Result<Rosbag2, TableError> {
         let database = Database::open(source)?;
         check_schema(&database)?;

@@ -1,4 +1,4 @@
-//! An untrusted file; each reader opens it anew, so that threads do not share a cursor.
+//! An untrusted file; each reader opens it separately, so that threads do not share a cursor.
 
 use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom};

@@ -58,8 +58,7 @@ impl Database {
     /// The database in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if a log beside it has changes that are not in it yet; [`TableError::Damaged`] if it is no database or
-    /// truncated.
+    /// [`TableError::Unsupported`] if a log beside it has pending changes; [`TableError::Damaged`] if it is truncated or no database.
     pub(crate) fn open(source: Source) -> Result<Database, TableError> {
         check_logs(&source)?;
         let mut file = source.open()?;

@@ -49,7 +49,6 @@ impl Evidence<'_> {
         pictures.collect()
     }
 
-    /// The names of `rows`.
     pub(crate) fn names<'b>(&'b self, rows: &'b [usize]) -> impl Iterator<Item = &'b str> {
         rows.iter().map(|&row| self.table.samples()[row].as_str())
     }

@@ -91,8 +91,7 @@ impl Live {
         self.shared.inside().state.predicted = Some(frames);
     }
 
-    /// Sets the callback `heard` for pictures with a prediction that were sent to a browser. It receives the stamp of the frame, s, once
-    /// for each picture.
+    /// Sets the callback `heard` for pictures with a prediction sent to a browser. It receives the stamp of each frame once, s.
     ///
     /// It runs on a thread of the page; only the first one is kept.
     pub fn on_sent(&self, heard: impl Fn(f64) + Send + Sync + 'static) {

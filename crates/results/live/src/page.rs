@@ -110,8 +110,7 @@ impl Drop for Page {
     }
 }
 
-/// Starts a thread for every connection. A connection without the token may be closed for a newer one, so that the stop button is always
-/// answered.
+/// Starts a thread for every connection. A new one may close one without the token, so that the stop button is always answered.
 fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsize>) {
     let strangers = Arc::new(Strangers::default());
     loop {

@@ -92,8 +92,7 @@ impl Cache {
         }
     }
 
-    /// A cache for the folds of one call: features of whole recordings are computed once and stay in memory, backed by the folder of
-    /// `outer`.
+    /// A cache for the folds of one call: features of whole recordings stay in memory, backed by the folder of `outer`.
     pub(crate) fn of_folds(outer: Option<&Cache>) -> Cache {
         let folder = outer.map_or_else(PathBuf::new, |outer| outer.folder.clone());
         let models = outer.map_or_else(String::new, |outer| outer.models.clone());

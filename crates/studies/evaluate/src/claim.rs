@@ -3,7 +3,7 @@
 //! A claim is a file that is created exclusively. This needs neither `flock` nor `fcntl` locks, which network file systems may lack: only
 //! exclusive creation and renaming. While the owner lives, it writes a counter into the file. A waiting process checks with its own clock
 //! whether the counter still changes, so no two clocks are compared. An owner that ended on the same machine is detected by its process. A
-//! lost claim costs duplicate work and nothing else: the result has the same bytes whoever computes it.
+//! lost claim costs duplicate work and nothing else: the result has the same bytes in any process.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};

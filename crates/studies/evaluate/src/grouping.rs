@@ -185,8 +185,7 @@ impl SplitFields {
         Some(Note::Neighbours { found, division })
     }
 
-    /// True if each of `rows` is a point of its own: no points are named, the division is random, and neighbours do not resemble each
-    /// other.
+    /// True if each of `rows` is its own point: points are not named, the division is random, and neighbours do not resemble each other.
     pub(crate) fn are_independent(
         &self,
         dataset: &Dataset,

@@ -18,8 +18,7 @@ pub use predictions::Predicted;
 pub use predictor::Predictor;
 pub use target::Target;
 
-/// Predicts a part of `dataset`. By default this is the data that the model has not seen: the test part of its own dataset, or all of
-/// another.
+/// Predicts a part of `dataset`; by default the unseen data: the test part of the model's own dataset, or all of another.
 ///
 /// # Errors
 /// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.

@@ -82,8 +82,8 @@ impl StateFile {
         })
     }
 
-    /// The scores of `evaluator`, whose samples this state describes, with the share of predictions beyond bounds and a mark if the model
-    /// was fitted on the samples.
+    /// The scores of `evaluator` after the samples of this state, with the share of predictions beyond bounds, and marked if the model was
+    /// fitted on the samples.
     ///
     /// # Errors
     /// [`EvaluateError::Scores`] for collected samples that it rejects.

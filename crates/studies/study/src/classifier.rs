@@ -16,7 +16,6 @@ pub(crate) enum SpacingClassifier {
     Spectrum,
     /// A model of the radial spectrum that predicts one of its training labels.
     Model(Box<ModelClassifier>),
-    /// A network.
     Network(Box<NetworkClassifier>),
 }
 

@@ -16,8 +16,7 @@ use dimension::{Dimension, dimensions};
 /// Minimum pairs for an interval.
 const LEAST: usize = 2;
 
-/// One row for each setting, value and channel: the mean difference of test errors to the first value, over all pairs of tasks that agree
-/// in everything else.
+/// One row for each setting, value and channel: the mean difference of test errors to the first value, over otherwise equal tasks.
 pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String]) -> Table {
     let columns = [
         "setting",

@@ -11,17 +11,14 @@ use taceva_results::{EvaluationReport, Score, Value, by_metric};
 
 use crate::key::TaskKey;
 
-/// The schema of a result.
 const SCHEMA: &str = "taceva.sweep-result/1.0";
 
 /// By channel: contact point, number of its samples, and the sum of their absolute errors.
 pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
 
-/// Result of a task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct TaskResult {
     pub(crate) schema: String,
-    /// The task.
     pub(crate) key: TaskKey,
     /// The version of TacEva.
     pub(crate) taceva: String,
@@ -87,7 +84,6 @@ impl TaskResult {
         self
     }
 
-    /// The score of a metric and channel.
     pub(crate) fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == metric && score.channel == channel)

@@ -15,7 +15,6 @@ use crate::progress::spoken;
 
 pub(super) use acquire::{Acquisition, acquire};
 
-/// A scene of a sweep.
 pub(super) struct SweepScene {
     /// The name in the sweep file.
     named: String,

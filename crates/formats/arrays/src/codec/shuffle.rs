@@ -11,8 +11,7 @@ pub(crate) fn unshuffled_bytes(block: &mut [u8], element: usize) {
     }
 }
 
-/// Reverses bit shuffling: all first bits of the elements, then all second ones, and so on, eight elements in a byte. Only a multiple of
-/// eight elements is shuffled.
+/// Reverses bit shuffling: first bits of all elements, then second ones, and so on. Only a multiple of eight elements is shuffled.
 pub(crate) fn unshuffled_bits(block: &mut [u8], element: usize) {
     let count = block.len() / element;
     if !count.is_multiple_of(8) {

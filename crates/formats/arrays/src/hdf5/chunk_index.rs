@@ -22,8 +22,7 @@ impl ChunkIndex {
     /// The index of `dataset` with chunks of the lengths `chunk`; `None` for the one kind of index that is not supported.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] for a chunk off the grid, outside the extent or at the position of another; [`Problem::Structure`] if the index
-    /// cannot be parsed.
+    /// [`Problem::Damaged`] for a chunk off the grid, outside the extent or duplicate; [`Problem::Structure`] for an invalid index.
     pub(super) fn read(
         dataset: &Dataset,
         shape: &[u64],

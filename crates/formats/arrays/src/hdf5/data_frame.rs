@@ -1,7 +1,6 @@
 //! Data frames that pandas stores in its fixed format: blocks of columns of one type, exposed as one array for each column.
 //!
-//! `/run` with `block0_items`, `block0_values` and `axis1` becomes `/run/Fz`, `/run/obj` and `/run/index`. Texts are one pickled array for
-//! each block.
+//! `/run` with `block0_items`, `block0_values` and `axis1` becomes `/run/Fz`, `/run/obj` and `/run/index`. A block of texts is pickled.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -40,7 +39,6 @@ enum Content {
     Texts(BlockColumn),
 }
 
-/// One column of a block.
 #[derive(Clone, Copy, Debug)]
 struct BlockColumn {
     array: usize,

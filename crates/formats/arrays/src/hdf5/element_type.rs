@@ -17,7 +17,7 @@ pub enum WrittenElement {
     I64,
     /// Numbers of single precision.
     F32,
-    /// Numbers of double precision; NaN where there is none.
+    /// Numbers of double precision; NaN for a missing value.
     F64,
     /// UTF-8 texts of at most this many bytes, padded with zeros.
     Text {

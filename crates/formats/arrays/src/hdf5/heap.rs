@@ -134,8 +134,7 @@ impl GlobalHeap {
         Ok(collection)
     }
 
-    /// Parses objects: number (2 bytes), reference count (2), padding (4), length, then the data padded to a multiple of 8. Number 0 is
-    /// free space.
+    /// Parses objects: number (2 bytes), reference count (2), padding (4), length, then data padded to 8 bytes. Number 0 is free space.
     fn objects(&self, collection: &[u8]) -> BTreeMap<u32, Range<usize>> {
         let mut objects = BTreeMap::new();
         let mut at = 8 + self.length_bytes;

@@ -8,7 +8,6 @@ use super::layout_version;
 use super::soft_links::{LONGEST_PATCH, Patches};
 use crate::source::{ByteSource, FileBytes};
 
-/// The patched file.
 pub(super) struct PatchedFile {
     pub(super) bytes: Arc<FileBytes>,
     pub(super) patches: Patches,

@@ -1,8 +1,7 @@
 //! Soft links of groups in symbol tables, the default of HDF5. `hdf5-pure` takes them for damage, so they become hard links to their
 //! targets in the bytes read, not in the file.
 //!
-//! Structures as in the format specification of HDF5 3.0, III.A, C and D: each group has a B-tree of symbol nodes and a local heap with
-//! their names.
+//! Format specification of HDF5 3.0, III.A, C and D: a group has a B-tree of symbol nodes and a local heap with their names.
 
 use std::collections::BTreeMap;
 

@@ -8,7 +8,6 @@ use crate::error::Problem;
 use crate::limits;
 use crate::scalar::shown;
 
-/// A column.
 #[derive(Debug)]
 pub(crate) struct Column {
     pub(crate) name: String,

@@ -358,7 +358,6 @@ impl Machine<'_> {
     }
 }
 
-/// Reads the bytes.
 pub(crate) fn read(source: &dyn ByteSource, bytes: &Bytes) -> Result<Vec<u8>, Problem> {
     match bytes {
         Bytes::InFile { at, length } => bytes_of(source, *at, *length),

@@ -56,7 +56,6 @@ pub(crate) enum DType {
     Objects,
 }
 
-/// A value.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     None,

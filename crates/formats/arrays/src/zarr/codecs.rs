@@ -5,7 +5,6 @@ use crate::error::Problem;
 use crate::order::c_order;
 use crate::scalar::shown;
 
-/// One codec.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Codec {
     /// The axes are in this order.

@@ -25,7 +25,7 @@ pub(super) struct Message {
 }
 
 impl Message {
-    /// Reads the message at `at` and moves `at` behind it; `None` at the end marker.
+    /// Reads the message at `at` and advances `at` past it; `None` at the end marker.
     pub(super) fn next(
         source: &Source,
         file: &mut File,

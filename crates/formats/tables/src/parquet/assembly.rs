@@ -63,7 +63,6 @@ impl Assembly {
         Ok(())
     }
 
-    /// Skips `rows` rows.
     pub(super) fn skip(&mut self, rows: usize) -> Result<(), TableError> {
         self.root.for_each_leaf(&mut |leaf| leaf.skip(rows))
     }

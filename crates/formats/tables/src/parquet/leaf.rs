@@ -146,7 +146,6 @@ impl Leaf {
         }
     }
 
-    /// Skips `rows` rows.
     pub(super) fn skip(&mut self, rows: usize) -> Result<(), TableError> {
         self.handed.store(0, Ordering::Relaxed);
         let skipped = match &mut self.reader {

@@ -38,7 +38,6 @@ impl ValueSize {
     }
 }
 
-/// The encoding with this code.
 pub(super) fn encoding(code: i32) -> Result<Encoding, String> {
     Ok(match code {
         0 => Encoding::PLAIN,

@@ -21,8 +21,7 @@ const GROUP_ROWS: usize = 1000;
 /// Memory of cells that ends a row group early, bytes.
 const GROUP_BYTES: u64 = 16 << 20;
 
-/// A Parquet file that is being written: memory holds the cells of one row group, which is compressed by snappy when it ends. Equal rows
-/// give equal bytes.
+/// A Parquet file that is being written. Memory holds one row group, compressed by snappy at its end. Equal rows give equal bytes.
 ///
 /// ```
 /// use taceva_tables::{Cell, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind};

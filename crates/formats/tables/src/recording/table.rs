@@ -127,8 +127,8 @@ impl TopicTable {
     /// The cells of the columns called `names`, column by column. The file is read once for all of them.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such field, [`TableError::TooLarge`] if the cells take more memory than 96 to 320 MiB by the
-    /// size of the file, [`TableError::Damaged`] if a chunk or a message cannot be parsed.
+    /// [`TableError::Missing`] if there is no such field; [`TableError::TooLarge`] if the cells exceed 96 to 320 MiB of memory, by the size
+    /// of the file; [`TableError::Damaged`] if a chunk or a message cannot be parsed.
     pub fn columns(&self, names: &[&str]) -> Result<Vec<Vec<Cell>>, TableError> {
         let is_time = |name: &&str| TIMES.iter().any(|(time, _)| time == name);
         let of_message: Vec<&str> = names

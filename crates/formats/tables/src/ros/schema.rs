@@ -166,7 +166,6 @@ impl RosSchema {
         self.dialect
     }
 
-    /// The root message.
     pub(crate) fn root(&self) -> &Message {
         &self.messages[0]
     }

@@ -25,8 +25,7 @@ const SAME_PICTURES: usize = 10;
 /// Minimum samples at the limit of a cut force: a number, and one in `CUT_SHARE` of all.
 const CUT: usize = 10;
 const CUT_SHARE: usize = 20;
-/// The limit occurs more than this many times as often as any other value, and there are at least `VALUES` values: commanded levels are no
-/// limit.
+/// The limit occurs this many times as often as any other of at least `VALUES` values: commanded levels are no limit.
 const TIMES: usize = 3;
 const VALUES: usize = 20;
 

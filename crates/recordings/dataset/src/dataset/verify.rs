@@ -15,8 +15,7 @@ use crate::samples::from_parquet;
 use crate::table::{FrameEntry, Table};
 
 impl Dataset {
-    /// Reads every frame, the one without contact, all signals and predictions, and compares them with the recorded digests; decodes no
-    /// frame.
+    /// Reads all frames, signals and predictions, and compares them with the recorded digests; decodes no frame.
     ///
     /// # Errors
     /// As [`frame_bytes`](Dataset::frame_bytes), for the first that differs.

@@ -4,8 +4,8 @@ use super::{Extension, FramesInfo, ViewInfo};
 use crate::digest::{Digest, PartsDigest};
 use crate::signals::SignalsInfo;
 
-/// The digest of a dataset. It covers its table with the digest of each frame, the other settings of frame decoding, its signals, and its
-/// states before rows were added, which decide its parts.
+/// The digest of a dataset. It covers the table with the digests of frames, the settings of frame decoding, and the signals. The states
+/// before rows were added count too, because they decide the parts.
 pub(crate) fn dataset_digest(
     table: Digest,
     frames: Option<&FramesInfo>,

@@ -17,8 +17,7 @@ pub(super) struct PredictedTable {
 }
 
 impl Recorder {
-    /// Stores `table`, CSV with one line for each sample, as the predictions of the model called `by`; it is written when the recording is
-    /// closed.
+    /// Stores the predictions `table`, CSV with one line for each sample, of the model called `by`, until the recording is closed.
     ///
     /// The last one is used. An earlier interruption loses it, but frames and labels are kept, and `taceva predict` can make it again.
     pub fn keep_predictions(&mut self, by: &str, model: Digest, table: Vec<u8>) {

@@ -119,8 +119,7 @@ pub struct Row {
     pub source_table: Option<String>,
     /// The row in that table, from 0.
     pub source_row: Option<u32>,
-    /// The original picture, relative to the folder of its lab: a file, or a file and the index of the picture in it, from 0,
-    /// `clip.mp4#12`.
+    /// The original picture, relative to the folder of its lab: a file, or a file and the index in it, from 0: `clip.mp4#12`.
     pub source_frame: Option<String>,
     /// The part of a declared split.
     pub part: Option<String>,

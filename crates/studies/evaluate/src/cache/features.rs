@@ -30,8 +30,7 @@ pub(super) struct Memory {
 }
 
 impl Cache {
-    /// The features of `rows`, all rows of `dataset` that any fold may need: those in memory, or the result of `make`, which then stays in
-    /// memory.
+    /// The features of `rows`, all rows of `dataset` that any fold may need, from memory or from `make`; they then stay in memory.
     pub(crate) fn whole_features(
         &self,
         dataset: &Dataset,
@@ -98,8 +97,7 @@ impl Cache {
 }
 
 impl Cache {
-    /// Waits until no other task computes the result of `key`. Without a claim, such as in a read-only folder, the work is done twice at
-    /// worst.
+    /// Waits until no other task computes the result of `key`. Without a claim, as in a read-only folder, work may be done twice.
     fn turn(&self, key: &Key) -> Option<Claim> {
         let partial = self.partial();
         fs::create_dir_all(&partial).ok()?;
@@ -130,7 +128,6 @@ impl Cache {
     }
 }
 
-/// Key of the features of `rows`.
 fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key {
     // The model computes principal components from all features.
     let spec = FeatureSpec {

@@ -6,9 +6,7 @@ use taceva_models::{FeatureSpec, RecordedFrames};
 
 /// The frames or the signals of a recording, with those without contact if requested.
 pub(crate) enum Sight {
-    /// Frames.
     Frames(FrameInfo, Option<Frame>),
-    /// Signals.
     Signals(SignalInfo, Option<Signals>),
 }
 

@@ -26,8 +26,7 @@ struct Parts {
 }
 
 impl FitPlan<'_> {
-    /// Tries features from the simplest on and chooses some. Grids finer than the default are tried only if the default improved on the
-    /// coarser ones.
+    /// Tries features from the simplest on and chooses some. Finer grids than the default are tried only if the default improved.
     ///
     /// Features without a possible model are reported with the reason; it is an error only if all fail.
     pub(super) fn choose_features(

@@ -18,8 +18,7 @@ pub enum SampleOrder {
 pub struct Neighbours {
     /// The channel whose neighbours resemble each other most.
     pub channel: String,
-    /// One minus the mean squared difference of the ranks of neighbours over that of random pairs: 0 for independent samples, 1 for equal
-    /// neighbours.
+    /// One minus the mean squared rank difference of neighbours over that of random pairs: 0 if independent, 1 if equal.
     pub resemblance: f64,
     /// Samples between two that hardly resemble each other.
     pub lag: usize,

@@ -1,4 +1,4 @@
-//! Agreement of paired rows: both tables must say the same of a row.
+//! Agreement of paired rows: both tables must have the same values in shared columns.
 
 use taceva_core::{Field, shown};
 use taceva_import::CsvTable;

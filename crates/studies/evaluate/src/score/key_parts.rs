@@ -135,7 +135,7 @@ impl ByKey<'_> {
             .collect()
     }
 
-    /// True if the keys in `own` are the same in both tables row by row, and ascend from the row before on, so that none occurs twice.
+    /// True if the keys in `own` are the same in both tables row by row and ascend. The row before counts too, so that none occurs twice.
     fn is_in_order(
         &self,
         own: &Range<u64>,

@@ -106,8 +106,7 @@ struct Pass<'a> {
 }
 
 impl Pass<'_> {
-    /// Sums of all rows; `None` if they cannot be scored in one pass, or there are none. Sums are exact, so the assignment of rows to
-    /// threads does not matter.
+    /// Sums of all rows; `None` without rows, or if one pass is impossible. Sums are exact, so the number of threads does not matter.
     fn evaluate(&self, threads: usize) -> Result<Option<Evaluator>, EvaluateError> {
         let evaluators = each_part((0..threads).collect(), |_| {
             let found = self.batches();
@@ -209,8 +208,7 @@ mod tests {
 
     const ROWS: usize = 2 * BATCH_ROWS + 100;
 
-    /// A table of two channels, after the columns `front` with the `cells` of each row; `off` is the difference of its numbers from those
-    /// with 0.
+    /// A table of two channels after the columns `front` with the `cells` of each row; `off` scales its errors.
     fn table(front: &str, cells: impl Fn(usize) -> String, off: f64) -> String {
         let mut text = format!("{front}Px,Fz\n");
         for row in 0..ROWS {

@@ -86,8 +86,7 @@ impl ScoreTables {
         })
     }
 
-    /// True if the tables of `request` are read in parts: one is Parquet, so that this takes less memory, or longer than text in memory may
-    /// be.
+    /// True if the tables of `request` are read in parts: one is Parquet, which then takes less memory, or exceeds the limit of text.
     pub fn are_in_parts(request: &ScoreRequest) -> bool {
         let is_long = |path: &Path| {
             let facts = fs::metadata(path);
@@ -161,8 +160,7 @@ impl ScoreTables {
     /// Scores the rows of `shard`. The states of all shards merge to the scores, and to the state, of all rows at once.
     ///
     /// # Errors
-    /// [`EvaluateError`] at the first cell that is no finite number, unless they are allowed; for a key that occurs twice or is missing in
-    /// one table.
+    /// [`EvaluateError`] at the first non-finite cell, unless allowed; for a key that occurs twice or is missing in one table.
     pub fn score(
         &self,
         request: &ScoreRequest,

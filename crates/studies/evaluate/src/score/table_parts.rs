@@ -164,7 +164,6 @@ impl Reader<'_> {
         }
     }
 
-    /// The whole of a table.
     pub(super) fn whole(&self, rows: u64) -> Result<CsvTable, EvaluateError> {
         match self {
             Reader::Csv(parts) => Ok(CsvTable::read(parts.path())?),
@@ -183,7 +182,6 @@ impl Reader<'_> {
     }
 }
 
-/// The rows of a part.
 pub(super) fn rows_of(part: u64, rows: u64) -> Range<u64> {
     let begin = part * CsvParts::ROWS;
     begin.min(rows)..(begin + CsvParts::ROWS).min(rows)

@@ -4,8 +4,7 @@ use taceva_metrics::{Difference, DifferenceTest, SignFlip};
 
 /// The level of the family.
 const LEVEL: f64 = 0.05;
-/// Flips for each test of the family. They make the least p value half of the first step of Holm's procedure, `LEVEL` over the number of
-/// tests.
+/// Flips for each test: the least p value is then half of the first step of Holm's procedure, `LEVEL` over the number of tests.
 const FLIPS_A_TEST: usize = 40;
 /// Maximum flips of all tests together, which are stored until the family is decided: 16 bytes each.
 const MOST_FLIPS: usize = 1 << 24;

@@ -26,7 +26,6 @@ enum What {
     },
 }
 
-/// The dimensions of `list`.
 pub(super) fn dimensions(list: &TaskList) -> Vec<Dimension> {
     let shared: BTreeSet<String> = list.vary.iter().map(|(key, _)| key.clone()).collect();
     let mut whats = vec![What::Split, What::Model];

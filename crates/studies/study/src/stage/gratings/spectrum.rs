@@ -12,8 +12,7 @@ use taceva_evaluate::Work;
 /// Memory limit of the planes held at once, bytes; presses that need more are decoded twice.
 const HELD_BYTES: u64 = 512 << 20;
 
-/// Number of passes over `presses` pictures of `dataset`: one if their planes fit in memory, else one for the mean and one for the
-/// pictures.
+/// Passes over `presses` pictures of `dataset`: one if their planes fit in memory, else one for the mean and one for the pictures.
 pub(super) fn times_decoded(dataset: &Dataset, presses: usize) -> u64 {
     let info = dataset.header().frames.as_ref().map(|frames| frames.info);
     let plane = info.map_or(0, |info| RadialSpectrum::new(info).plane_bytes());
