@@ -62,7 +62,7 @@ pub(crate) struct Listed {
     pub(crate) path: String,
     pub(crate) shape: Vec<u64>,
     pub(crate) item: Item,
-    /// Size of one row after all filters, bytes.
+    /// Unpacked size of one row, bytes.
     pub(crate) row_bytes: u64,
 }
 
@@ -214,7 +214,7 @@ impl Hdf5 {
         self.unpacked.take(index, bytes, self.bytes.length())
     }
 
-    /// The stored bytes of rows, after all filters.
+    /// The bytes of rows, unpacked from all filters.
     pub(crate) fn raw_rows(&self, index: usize, rows: Range<u64>) -> Result<Vec<u8>, Problem> {
         let row_bytes = self.datasets[index].row_bytes;
         let count = rows.end - rows.start;

@@ -15,7 +15,7 @@ pub(crate) const ARRAYS: u64 = 1 << 16;
 /// Maximum size of one element, bytes: a fixed text, or a record.
 #[cfg(feature = "hdf5")]
 pub(crate) const ELEMENT_BYTES: u64 = 64 << 20;
-/// Maximum size of a chunk after all filters, bytes.
+/// Maximum unpacked size of a chunk, bytes.
 pub(crate) const CHUNK_BYTES: u64 = 256 << 20;
 /// Maximum chunks that one call of `read` opens.
 pub(crate) const CHUNKS: u64 = 1 << 16;

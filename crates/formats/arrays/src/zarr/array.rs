@@ -60,7 +60,7 @@ impl ZarrArray {
         })
     }
 
-    /// Size of a chunk after all codecs, bytes.
+    /// Unpacked size of a chunk, bytes.
     pub(crate) fn chunk_bytes(&self) -> Option<u64> {
         let bytes = self
             .chunk

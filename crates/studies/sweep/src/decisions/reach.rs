@@ -9,7 +9,7 @@ const FLIPS_A_TEST: usize = 40;
 /// Maximum flips of all tests together, which are stored until the family is decided: 16 bytes each.
 const MOST_FLIPS: usize = 1 << 24;
 
-/// Number of sign patterns that each of `tests` tests tries; enough for the first step of Holm's procedure.
+/// Number of sign patterns for each of `tests` tests: enough for the first step of Holm's procedure, unless `MOST_FLIPS` limits it.
 pub(super) fn flips_of(tests: usize) -> u32 {
     let wanted = tests
         .saturating_mul(FLIPS_A_TEST)
