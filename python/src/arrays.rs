@@ -1,4 +1,4 @@
-//! Arrays of Python on their way in.
+//! Input arrays from Python.
 
 use std::ops::Range;
 
@@ -10,14 +10,14 @@ use taceva_core::Labels;
 use crate::buffer::{copy_into, values};
 use crate::errors::value_error;
 
-/// An array of float32 or float64 numbers in the order of C, `[rows, width]` or, of one channel, `[rows]`.
+/// A C-order array of float32 or float64 numbers, `[rows, width]` or, for one channel, `[rows]`.
 pub(crate) enum Table {
     Single(PyBuffer<f32>),
     Double(PyBuffer<f64>),
 }
 
 impl Table {
-    /// `array` as a table of `width` columns; `name` says in errors which one it is.
+    /// `array` as a table of `width` columns; errors call it `name`.
     pub(crate) fn of(array: &Bound<'_, PyAny>, name: &str, width: usize) -> PyResult<Table> {
         let table = match PyBuffer::<f64>::get(array) {
             Ok(buffer) => Table::Double(buffer),
@@ -62,7 +62,7 @@ impl Table {
         }
     }
 
-    /// Some rows as a column a channel, behind what `columns` hold; whether all of them are finite.
+    /// Appends some rows to `columns`, channel by channel; returns true if all numbers are finite.
     pub(crate) fn read(
         &self,
         py: Python<'_>,
@@ -75,7 +75,7 @@ impl Table {
         }
     }
 
-    /// Whether all numbers are finite.
+    /// True if all numbers are finite.
     pub(crate) fn is_finite(&self, py: Python<'_>) -> bool {
         match self {
             Table::Single(buffer) => is_finite(py, buffer),
@@ -84,10 +84,10 @@ impl Table {
     }
 }
 
-/// Numbers that are taken out of an array at once: they fit into the fastest cache, with the columns that they go into.
+/// Number of values copied from an array at once: they fit into the L1 cache, with their target columns.
 const AT_ONCE: usize = 1536;
 
-/// Rows after each other as a column a channel; whether all numbers are finite.
+/// Appends consecutive rows to `columns`, channel by channel; returns true if all numbers are finite.
 fn gather<T: Element + Into<f64>>(
     py: Python<'_>,
     array: &PyBuffer<T>,
@@ -102,7 +102,7 @@ fn gather<T: Element + Into<f64>>(
         let end = rows.end.min(first + step);
         copy_into(py, array, first * width..end * width, &mut numbers);
         are_all &= are_finite(&numbers);
-        // The steps from row to row are those of the code where the width is a usual one.
+        // Constant strides for the usual widths.
         match width {
             1 => columns[0].extend(numbers.iter().map(|number| (*number).into())),
             3 => apart::<T, 3>(&numbers, columns),
@@ -117,7 +117,7 @@ fn gather<T: Element + Into<f64>>(
     are_all
 }
 
-/// Rows of `WIDTH` numbers, as a column a channel behind what `columns` hold.
+/// Appends rows of `WIDTH` numbers to `columns`, channel by channel.
 fn apart<T: Copy + Into<f64>, const WIDTH: usize>(numbers: &[T], columns: &mut [Vec<f64>]) {
     let (rows, _) = numbers.as_chunks::<WIDTH>();
     for (at, column) in columns.iter_mut().enumerate().take(WIDTH) {
@@ -134,13 +134,13 @@ fn is_finite<T: Element + Into<f64>>(py: Python<'_>, array: &PyBuffer<T>) -> boo
     })
 }
 
-/// Whether all numbers are finite; all are looked at, which takes less time than to look where to end.
+/// True if all numbers are finite; checking all of them is faster than an early exit.
 fn are_finite<T: Copy + Into<f64>>(numbers: &[T]) -> bool {
     let numbers = numbers.iter().map(|number| (*number).into());
     numbers.fold(true, |all, number: f64| all & number.is_finite())
 }
 
-/// Contact points, a name or a whole number a row.
+/// Contact points, one name or whole number for each row.
 pub(crate) enum Points {
     Numbers(PyBuffer<i64>),
     Names(Vec<String>),
@@ -169,7 +169,7 @@ impl Points {
         }
     }
 
-    /// Those of some rows. A whole number is called by its digits, as a table would have it.
+    /// Labels of some rows. A whole number becomes its digits, as in a table.
     pub(crate) fn read(&self, py: Python<'_>, rows: Range<usize>) -> Labels {
         match self {
             Points::Numbers(buffer) => Labels::of_numbers(values(py, buffer, rows)),

@@ -1,4 +1,4 @@
-//! A table as a stream of Arrow, of one batch, in the capsule that readers ask for.
+//! A table as an Arrow stream of one batch, in the capsule that readers request.
 
 mod structs;
 
@@ -10,7 +10,7 @@ use pyo3::types::PyCapsule;
 use crate::errors::value_error;
 use structs::{Batch, Stream};
 
-/// The cells of a column, absent where a row says nothing.
+/// The cells of a column; missing values are `None`.
 pub(crate) enum Cells {
     Texts(Vec<Option<String>>),
     Numbers(Vec<Option<f64>>),
@@ -18,7 +18,7 @@ pub(crate) enum Cells {
 }
 
 impl Cells {
-    /// Whether no row says anything.
+    /// True if no row has a value.
     pub(crate) fn are_absent(&self) -> bool {
         !self.is_there().contains(&true)
     }
@@ -35,7 +35,7 @@ impl Cells {
 /// A column of a table.
 pub(crate) struct ArrowColumn {
     name: CString,
-    /// Of the field, such as its unit, encoded.
+    /// Encoded metadata of the field, such as its unit.
     metadata: Vec<u8>,
     cells: Cells,
 }
@@ -58,17 +58,17 @@ impl ArrowColumn {
         })
     }
 
-    /// The letter of its type in the interface.
+    /// The format string of its type in the interface.
     const fn format(&self) -> &'static CStr {
         match self.cells {
-            // Offsets of 64 bits: a column has no largest size.
+            // Offsets of 64 bits, so that a column has no size limit.
             Cells::Texts(_) => c"U",
             Cells::Numbers(_) => c"g",
             Cells::Counts(_) => c"I",
         }
     }
 
-    /// What follows the bits of validity: the values, of texts their offsets before.
+    /// The buffers after the validity bitmap: the values, for texts preceded by their offsets.
     fn values(&self) -> Vec<Vec<u64>> {
         match &self.cells {
             Cells::Texts(cells) => {
@@ -94,7 +94,7 @@ impl ArrowColumn {
     }
 }
 
-/// Bytes where numbers of 8 bytes may lie, with zeros behind them.
+/// Bytes in 8-byte alignment, padded with zeros.
 fn aligned(bytes: Vec<u8>) -> Vec<u64> {
     let word = |bytes: &[u8]| {
         let mut word = [0; 8];
@@ -104,7 +104,7 @@ fn aligned(bytes: Vec<u8>) -> Vec<u64> {
     bytes.chunks(8).map(word).collect()
 }
 
-/// Metadata in the form of the interface: counts and lengths of 32 bits, then the letters.
+/// Metadata in the encoding of the interface: 32-bit counts and lengths, then the bytes.
 fn encoded(pairs: &[(&str, &str)]) -> PyResult<Vec<u8>> {
     let size = |length: usize| {
         i32::try_from(length)
@@ -119,7 +119,7 @@ fn encoded(pairs: &[(&str, &str)]) -> PyResult<Vec<u8>> {
     Ok(bytes)
 }
 
-/// `columns` of so many rows as the capsule that `__arrow_c_stream__` returns, with metadata of the whole.
+/// `columns` of `rows` rows as the capsule that `__arrow_c_stream__` returns, with metadata of the table.
 pub(crate) fn stream<'py>(
     py: Python<'py>,
     rows: usize,

@@ -1,4 +1,4 @@
-//! The buffer protocol, in both directions. `unsafe` stands here and in `arrow/structs.rs` alone.
+//! The buffer protocol, in both directions. Only this file and `arrow/structs.rs` use `unsafe`.
 
 use std::ffi::{CStr, c_int, c_void};
 use std::ops::Range;
@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 
 use crate::errors::value_error;
 
-/// Some numbers of an array in the order of C, copied.
+/// A copy of some numbers of an array in C order.
 ///
 /// # Panics
 /// Beyond the end of `array`.
@@ -25,7 +25,7 @@ pub(crate) fn values<T: Element>(
     values
 }
 
-/// The same in the place of what `values` held.
+/// Replaces the content of `values` by some numbers of an array in C order.
 ///
 /// # Panics
 /// Beyond the end of `array`.
@@ -42,9 +42,9 @@ pub(crate) fn copy_into<T: Element>(
     );
     values.clear();
     values.reserve_exact(wanted.len());
-    // SAFETY: the buffer holds the memory of `item_count` numbers, which `get` has found to be aligned numbers of this type. The lock of the
-    // interpreter is held, so no Python code writes to it; of C code that writes without it, numpy gives no better promise, and any bits are
-    // a number.
+    // SAFETY: the buffer holds the memory of `item_count` numbers, which `get` has found to be aligned numbers of this type. The lock of
+    // the interpreter is held, so no Python code writes to it. C code may write without the lock, as with numpy, but any bits are a valid
+    // number.
     unsafe {
         let start = array.buf_ptr().cast::<T>().add(wanted.start);
         ptr::copy_nonoverlapping(start, values.as_mut_ptr(), wanted.len());
@@ -62,7 +62,7 @@ pub(crate) enum Number {
 }
 
 impl Number {
-    /// Its letter in the `struct` module, and its size in bytes.
+    /// The format character of the `struct` module, and the size in bytes.
     const fn form(self) -> (&'static CStr, isize) {
         match self {
             Number::U8 => (c"B", 1),
@@ -73,7 +73,7 @@ impl Number {
     }
 }
 
-/// An array that never changes, in the order of C; `numpy.asarray` takes it without a copy and keeps it alive.
+/// An immutable array in C order; `numpy.asarray` takes it without a copy and keeps it alive.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Buffer {
     bytes: Vec<u8>,
@@ -83,7 +83,7 @@ pub(crate) struct Buffer {
 }
 
 impl Buffer {
-    /// `bytes` as numbers of `shape`; the product of the shape and of a number's size is their length.
+    /// `bytes` as numbers of `shape`; the length must be the product of the shape and the size of a number.
     pub(crate) fn new(bytes: Vec<u8>, number: Number, shape: &[usize]) -> PyResult<Buffer> {
         let sizes: Option<Vec<isize>> = shape
             .iter()
@@ -112,7 +112,7 @@ impl Buffer {
         })
     }
 
-    /// Rows of `width` numbers.
+    /// An array of rows of `width` numbers.
     pub(crate) fn of_rows(numbers: &[f64], width: usize) -> PyResult<Buffer> {
         let bytes = numbers
             .iter()
@@ -132,7 +132,7 @@ impl Buffer {
     /// Fills `view`.
     ///
     /// # Safety
-    /// CPython calls it with a view that is null or may be written to.
+    /// CPython calls it with a view that is null or writable.
     unsafe fn __getbuffer__(
         slf: Bound<'_, Self>,
         view: *mut ffi::Py_buffer,
@@ -141,7 +141,7 @@ impl Buffer {
         if view.is_null() {
             return Err(PyBufferError::new_err("no view to fill"));
         }
-        // SAFETY: CPython hands over a view that is its to fill.
+        // SAFETY: CPython passes a view that it may fill.
         unsafe { (*view).obj = ptr::null_mut() };
         if flags & ffi::PyBUF_WRITABLE == ffi::PyBUF_WRITABLE {
             return Err(PyBufferError::new_err(
@@ -173,20 +173,20 @@ impl Buffer {
             internal: ptr::null_mut(),
             obj: slf.clone().into_any().into_ptr(),
         };
-        // SAFETY: as above; the object that the view holds a reference to keeps every pointer of it alive, and never changes.
+        // SAFETY: as above; the view holds a reference to the object, which keeps all its pointers alive and never changes.
         unsafe { ptr::write(view, filled) };
         Ok(())
     }
 }
 
-/// Pixels of Python: uint8 or uint16 in the order of C, `[rows, height, width, samples]` or `[height, width, samples]`.
+/// Pixels from Python: uint8 or uint16 in C order, `[rows, height, width, samples]` or `[height, width, samples]`.
 pub(crate) enum Pixels {
     Bytes(PyBuffer<u8>),
     Words(PyBuffer<u16>),
 }
 
 impl Pixels {
-    /// `array` as pixels of `axes` axes; `name` says in errors which one it is.
+    /// `array` as pixels of `axes` axes; errors call it `name`.
     pub(crate) fn of(array: &Bound<'_, PyAny>, name: &str, axes: usize) -> PyResult<Pixels> {
         let pixels = match PyBuffer::<u8>::get(array) {
             Ok(buffer) => Pixels::Bytes(buffer),
@@ -214,19 +214,19 @@ impl Pixels {
         }
     }
 
-    /// Height, width and samples a pixel.
+    /// Height, width and samples per pixel.
     pub(crate) fn frame_shape(&self) -> [usize; 3] {
         let shape = self.shape();
         let last = shape.len();
         [shape[last - 3], shape[last - 2], shape[last - 1]]
     }
 
-    /// Whether samples have 16 bits.
+    /// True if samples have 16 bits.
     pub(crate) fn is_deep(&self) -> bool {
         matches!(self, Pixels::Words(_))
     }
 
-    /// The frame at `row`, samples of 16 bits with the low byte first.
+    /// The frame at `row`, with 16-bit samples in little-endian order.
     pub(crate) fn bytes(&self, py: Python<'_>, row: usize) -> Vec<u8> {
         let length: usize = self.frame_shape().iter().product();
         let wanted = row * length..(row + 1) * length;

@@ -1,4 +1,4 @@
-//! The table of a recording, column by column, for readers of Arrow.
+//! The table of a recording in Arrow columns.
 
 use taceva_core::shown;
 use taceva_dataset::{Dataset, Table};
@@ -8,7 +8,7 @@ use pyo3::types::PyCapsule;
 
 use crate::arrow::{self, ArrowColumn, Cells};
 
-/// The table of `dataset`: a row a sample, a column a label in the unit that its metadata names, and of the rest what some row says.
+/// The table of `dataset`: one row for each sample, one column for each label in its unit, and all other non-empty columns.
 pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<'py, PyCapsule>> {
     let table = dataset.table();
     let mut columns = Vec::new();

@@ -1,4 +1,4 @@
-//! Recordings, read.
+//! Reader of recordings.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ use crate::buffer::{Buffer, Number};
 use crate::errors::{dataset_error, dataset_error_at, dataset_error_of, study_error, value_error};
 use crate::watched;
 
-/// A recording on disk. Its rows are samples: labels, and perhaps a frame or signals.
+/// A recording on disk. Its rows are samples: labels, and optionally a frame or signals.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Recording {
     pub(crate) dataset: Dataset,
@@ -49,7 +49,7 @@ impl Recording {
     }
 }
 
-/// 16-bit samples lie in files and frames with the low byte first, and in arrays as the machine has them.
+/// Converts 16-bit samples from little-endian, as in files and frames, to the byte order of the machine.
 fn native(mut bytes: Vec<u8>, number: Number) -> Vec<u8> {
     if matches!(number, Number::U16) && cfg!(target_endian = "big") {
         bytes.chunks_exact_mut(2).for_each(<[u8]>::reverse);
@@ -59,8 +59,7 @@ fn native(mut bytes: Vec<u8>, number: Number) -> Vec<u8> {
 
 #[pymethods]
 impl Recording {
-    /// Opens the folder at `path`, and checks its seal.
-    /// Opens the pictures of `view`, where samples have several.
+    /// Opens the folder at `path` and checks its seal; `view` chooses the pictures if samples have several.
     #[new]
     #[pyo3(signature = (path, view=None))]
     fn open(py: Python<'_>, path: PathBuf, view: Option<String>) -> PyResult<Recording> {
@@ -81,13 +80,13 @@ impl Recording {
         self.dataset.path().to_owned()
     }
 
-    /// The names of the views, where samples have several pictures.
+    /// The names of the views, if samples have several pictures.
     fn views(&self) -> Vec<String> {
         let views = self.dataset.views().into_iter();
         views.map(str::to_owned).collect()
     }
 
-    /// The view that was named.
+    /// The chosen view.
     fn view(&self) -> Option<String> {
         self.dataset.view()
     }
@@ -105,7 +104,7 @@ impl Recording {
         subject_of(&self.dataset).source
     }
 
-    /// Names and units.
+    /// Names and units of the channels.
     fn channels(&self) -> Vec<(String, &'static str)> {
         let channels = self.dataset.table().channels().iter();
         channels
@@ -113,7 +112,7 @@ impl Recording {
             .collect()
     }
 
-    /// `[rows, channels]`; a label that is absent is NaN.
+    /// `[rows, channels]`; a missing label is NaN.
     fn labels(&self) -> PyResult<Buffer> {
         let table = self.dataset.table();
         let width = table.channels().len();
@@ -123,7 +122,7 @@ impl Recording {
         Buffer::of_rows(&labels, width)
     }
 
-    /// A column of the table as texts, `None` where a cell is empty or there is no such column.
+    /// A column of the table as texts; `None` for an empty cell, or if there is no such column.
     fn column(&self, name: &str) -> Option<Vec<Option<String>>> {
         let table = self.dataset.table();
         match name {
@@ -132,23 +131,23 @@ impl Recording {
         }
     }
 
-    /// Names of what a row says beside channels.
+    /// Names of the columns besides channels.
     fn attributes(&self) -> Vec<String> {
         self.dataset.table().attribute_names().to_vec()
     }
 
-    /// The table as a stream of Arrow, in a capsule.
+    /// The table as an Arrow stream, in a capsule.
     fn arrow_stream<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
         crate::columns::stream(py, &self.dataset)
     }
 
-    /// `(height, width, samples a pixel)`.
+    /// `(height, width, samples per pixel)`.
     fn frame_shape(&self) -> Option<(u32, u32, usize)> {
         let info = self.dataset.header().frames.as_ref()?.info;
         Some((info.height, info.width, info.format.samples()))
     }
 
-    /// `[rows, height, width, samples]` of the frames of `rows`.
+    /// The frames of `rows`, `[rows, height, width, samples]`.
     #[pyo3(signature = (rows, jobs, bar = None))]
     fn frames(
         &self,
@@ -171,13 +170,13 @@ impl Recording {
             };
             self.dataset.map_frames(pass, |_, frame| frame, take)
         })?;
-        // Frames are taken in the order of the rows, so the first that is missing was at fault.
+        // Frames are taken in the order of the rows, so the first missing one failed.
         let taken = bytes.len().checked_div(frame).unwrap_or(0);
         decoded.map_err(|error| dataset_error_at(&error, rows.get(taken).copied()))?;
         self.buffer_of(rows.len(), bytes)
     }
 
-    /// `[height, width, samples]` of the picture of the untouched gel, if there is one.
+    /// The picture of the untouched gel, `[height, width, samples]`, if there is one.
     fn reference(&self, py: Python<'_>) -> PyResult<Option<Buffer>> {
         let reference = py
             .detach(|| self.dataset.reference())
@@ -187,13 +186,13 @@ impl Recording {
             .transpose()
     }
 
-    /// Signals of a row; `None` without signals.
+    /// Number of values of a row's signals; `None` without signals.
     fn signal_values(&self) -> Option<usize> {
         let signals = self.dataset.header().signals.as_ref()?;
         Some(signals.spec.info.len())
     }
 
-    /// `[rows, values]` of the signals of `rows`, taxel by taxel.
+    /// The signals of `rows`, `[rows, values]`, taxel by taxel.
     fn signals(&self, py: Python<'_>, rows: Vec<usize>) -> PyResult<Buffer> {
         let Some(header) = &self.dataset.header().signals else {
             return Err(dataset_error_of(
@@ -215,7 +214,7 @@ impl Recording {
         Buffer::new(bytes, Number::F32, &[rows.len(), width])
     }
 
-    /// Rows by part, `(train, validation, test)`, as `evaluate` divides them, and what the division is called.
+    /// Rows by part, `(train, validation, test)`, as `evaluate` divides them, and the name of the division.
     #[pyo3(signature = (split, seed))]
     fn split(&self, split: Option<&str>, seed: u64) -> PyResult<([Vec<usize>; 3], String)> {
         use taceva_evaluate::DataPart::{Test, Train, Validation};
@@ -225,7 +224,7 @@ impl Recording {
         Ok((parts, divided.spec.to_string()))
     }
 
-    /// Writes the folder `out` in a form that other programs read, as `taceva export` does, and returns what the form cannot say.
+    /// Writes the folder `out` in a format of other programs, as `taceva export` does, and returns the data that the format cannot express.
     #[pyo3(signature = (form, out, jobs, bar = None))]
     fn export(
         &self,
@@ -251,7 +250,7 @@ impl Recording {
             .map_err(|error| dataset_error(&error))
     }
 
-    /// What `taceva check` finds, as the JSON it writes.
+    /// The findings of `taceva check`, as its JSON output.
     #[pyo3(signature = (jobs, bar = None))]
     fn check<'py>(
         &self,
@@ -274,13 +273,13 @@ impl Recording {
     }
 }
 
-/// Threads: as many as asked for, or as the machine has where nothing was asked for.
+/// Number of threads: as requested, or all cores for 0.
 pub(crate) fn jobs_of(jobs: usize) -> NonZeroUsize {
     let all = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     NonZeroUsize::new(jobs).unwrap_or_else(all)
 }
 
-/// Every model: those built in and those of libraries.
+/// All models: those built in and those of libraries.
 pub(crate) fn models() -> Models {
     Models::builtin().with_libraries(taceva_models::library_models())
 }

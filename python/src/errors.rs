@@ -1,4 +1,4 @@
-//! What goes wrong, as exceptions of Python.
+//! Errors as Python exceptions.
 
 use std::path::{Path, PathBuf};
 
@@ -31,13 +31,13 @@ pub(crate) fn dataset_error(error: &taceva_dataset::DatasetError) -> PyErr {
     dataset_error_at(error, None)
 }
 
-/// `error` of the recording at `path` as a `DatasetError`, in words.
+/// `problem` of the recording at `path` as a `DatasetError`.
 pub(crate) fn dataset_error_of(path: &Path, problem: &str) -> PyErr {
     let message = format!("{}: {problem}", taceva_core::shown(path));
     placed(message, Some(path.to_owned()), None, None)
 }
 
-/// The same, where it is known which row of the recording was at fault.
+/// `error` of a recording as a `DatasetError`, with the row at fault if known.
 pub(crate) fn dataset_error_at(error: &taceva_dataset::DatasetError, row: Option<usize>) -> PyErr {
     use taceva_dataset::DatasetError as Of;
     let row = row.and_then(|row| u64::try_from(row).ok());
@@ -75,7 +75,7 @@ fn placed(message: String, path: Option<PathBuf>, row: Option<u64>, line: Option
     }
 }
 
-/// `error` of a study as what a Python program catches; what stopped because Ctrl-C was pressed is a `KeyboardInterrupt`.
+/// `error` of a study as a Python exception; a cancellation by Ctrl-C is a `KeyboardInterrupt`.
 pub(crate) fn study_error(error: &EvaluateError) -> PyErr {
     match error {
         error if error.kind() == ErrorKind::Interrupted => PyKeyboardInterrupt::new_err(()),

@@ -64,7 +64,7 @@ pub(crate) fn evaluate_named(
     let part = part.map(part_of).transpose()?;
     let known = models();
     let path = PathBuf::from(&model);
-    // What looks like a path is one; a name that no file has is a model's.
+    // A name of an existing file is a path; any other is the name of a model.
     let fitted = match path.is_file() {
         true => Some(
             known
@@ -106,7 +106,7 @@ pub(crate) fn evaluate_named(
     results::sealed(&evaluated.map_err(|error| study_error(&error))?.report)
 }
 
-/// The part of this name.
+/// The part called `name`.
 pub(crate) fn part_of(name: &str) -> PyResult<DataPart> {
     let all = [
         DataPart::Train,

@@ -1,4 +1,4 @@
-//! Models that Python holds: what they may learn from, and the scores of their predictions, by the rules of the program.
+//! Models held in Python: the rows they may learn from, and the scores of their predictions, by the rules of the program.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -14,10 +14,10 @@ use crate::errors::{study_error, value_error};
 use crate::evaluate::part_of;
 use crate::{results, watched};
 
-/// The rows of a recording for a model that Python holds.
+/// The rows of a recording for a model held in Python.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Given {
-    /// Taken by the one call that scores.
+    /// Taken by the single call of `score`.
     rows: Mutex<Option<GivenRows>>,
 }
 
@@ -76,7 +76,7 @@ impl Given {
         self.with(|rows| rows.target().to_vec())
     }
 
-    /// `[rows, channels]` of the rows to learn from.
+    /// The labels of the rows to learn from, `[rows, channels]`.
     fn labels(&self, recording: &Recording) -> PyResult<Buffer> {
         self.with(|rows| {
             let labels = rows.labels(&recording.dataset);
@@ -84,7 +84,7 @@ impl Given {
         })?
     }
 
-    /// The results file of `predictions`, `[rows, channels]`, of the rows to predict.
+    /// The results file of `predictions`, `[rows, channels]`, for the rows to predict.
     #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
     fn score(
         &self,
@@ -106,7 +106,7 @@ impl Given {
             .take();
         let rows = rows.ok_or_else(|| value_error("scored before"))?;
         let model = GivenModel { name, settings };
-        // Watched: Ctrl-C is heard at once, and the few moments until the scores are there are waited for.
+        // Watched, so that Ctrl-C is handled at once; the short time until the scores are ready is waited for.
         let scored = watched::run(py, None, |_| {
             rows.score(&recording.dataset, model, numbers, metrics, jobs_of(jobs))
         })?;
@@ -114,7 +114,7 @@ impl Given {
     }
 }
 
-/// `[rows, values]` of the features of `rows` that `settings` ask for, what they are called, and height, width and depth of each.
+/// The features of `rows` by `settings`, `[rows, values]`, with their specification, and height, width and depth of each.
 #[pyfunction]
 #[pyo3(signature = (recording, settings, rows, jobs, bar = None))]
 pub(crate) fn features(

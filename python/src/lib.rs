@@ -1,7 +1,7 @@
-//! The module `taceva._taceva`: what the Python package asks of the crates, and nothing of its own.
+//! The module `taceva._taceva`: functions of the crates for the Python package, without logic of its own.
 //!
-//! Arrays come in by the buffer protocol, native float32 or float64; the Python side has brought them to that form. They go out as buffers
-//! that numpy sees without a copy. The lock of the interpreter is released while numbers are summed, frames decoded and models fitted.
+//! Arrays come in by the buffer protocol, as native float32 or float64; the Python side has converted them. They go out as buffers that
+//! numpy wraps without a copy. The interpreter lock is released while numbers are summed, frames decoded and models fitted.
 
 mod arrays;
 mod arrow;
@@ -46,7 +46,7 @@ mod _taceva {
     #[pymodule_export]
     use super::results::{comparison, figure_pdf, figures, read_result, score_table};
 
-    /// What an error says of its place is `None` where nobody knows it.
+    /// Sets the location attributes of an error to `None`, for unknown locations.
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let error = module.py().get_type::<super::errors::DatasetError>();
@@ -55,15 +55,15 @@ mod _taceva {
             .try_for_each(|name| error.setattr(name, module.py().None()))
     }
 
-    /// Carries out the command that `arguments` say, the first being the name of the program, and returns the exit code. The command handles
-    /// signals from then on, and the processes of plugins are this interpreter again.
+    /// Runs the command in `arguments`, of which the first is the name of the program, and returns the exit code. The command handles
+    /// signals from then on, and plugins run in new processes of this interpreter.
     #[pyfunction]
     fn command(py: Python<'_>, arguments: Vec<OsString>) -> PyResult<u8> {
         super::plugin::within(py)?;
         Ok(py.detach(|| taceva_cli::main_with(arguments)))
     }
 
-    /// The version of the crates that the module was built from.
+    /// The version of the crates of the module.
     #[pyfunction]
     fn version() -> &'static str {
         env!("CARGO_PKG_VERSION")

@@ -14,10 +14,10 @@ use taceva_results::EvaluationReport;
 use crate::arrays::{Points, Table};
 use crate::errors::value_error;
 
-/// Rows that are taken in at once: their columns stay in the fastest caches. Fewer cost more where points have names, which each block looks up.
+/// Rows per block: their columns stay in the L1 and L2 caches. Each block looks up the names of points, so smaller ones cost more.
 const BLOCK_ROWS: usize = 4096;
 
-/// The unit of one of the six channels, or `None` of another.
+/// The unit of one of the six channels; `None` for another.
 #[pyfunction]
 pub(crate) fn unit_of(channel: &str) -> Option<&'static str> {
     let known = Channel::SIX
@@ -26,7 +26,7 @@ pub(crate) fn unit_of(channel: &str) -> Option<&'static str> {
     known.map(|channel| channel.unit().symbol())
 }
 
-/// What a row may say beside its numbers and its contact point.
+/// Fields that a row may have besides its numbers and its contact point.
 const FIELDS: [Field; 7] = [
     Field::Scene,
     Field::UnitId,
@@ -71,7 +71,7 @@ impl Said {
     }
 }
 
-/// The field called `name`, of those that arrays may carry.
+/// The field called `name`, if arrays may have it.
 fn field_of(name: &str) -> PyResult<Field> {
     FIELDS
         .into_iter()
@@ -82,7 +82,7 @@ fn field_of(name: &str) -> PyResult<Field> {
         })
 }
 
-/// Streams pairs of truth and prediction into sums that do not depend on their order.
+/// Streams pairs of truth and prediction into order-independent sums.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Sums {
     evaluator: Mutex<Evaluator>,
@@ -103,8 +103,8 @@ impl Sums {
 
 #[pymethods]
 impl Sums {
-    /// Sums of `channels` with their units, for metrics and groups, and for the skill, without which no score claims anything; `is_independent` makes every sample a cluster of its own,
-    /// and every row will carry `fields`. Angles repeat after `periods`, in degrees.
+    /// Sums of `channels` with their units, for metrics and groups, and for the skill, which verdicts require. `is_independent` makes every
+    /// sample its own cluster, and every row has `fields`. Angles repeat after `periods`, in degrees.
     #[new]
     fn new(
         channels: Vec<(String, String)>,
@@ -136,8 +136,8 @@ impl Sums {
         })
     }
 
-    /// Takes in rows, and says whether it did: not where a number is not finite, unless `allows_invalid`. Nothing is taken in where any of them is
-    /// refused, unless these sums are `apart`, which are given up then.
+    /// Adds rows; returns false if a number is not finite, unless `allows_invalid`. No row is then added, except with `apart`, when the
+    /// caller discards these sums.
     #[expect(clippy::too_many_arguments, reason = "what one row carries")]
     fn update(
         &self,
@@ -174,7 +174,7 @@ impl Sums {
                 )));
             }
         }
-        // Of one block nothing is taken in before all of it was looked at.
+        // A single block is checked as a whole before it is added.
         if !allows_invalid && !apart && rows > BLOCK_ROWS {
             for table in [&truth, &prediction] {
                 if !table.is_finite(py) {
@@ -205,33 +205,32 @@ impl Sums {
         Ok(true)
     }
 
-    /// Takes over what another has seen.
+    /// Merges the sums of another object.
     fn merge(&self, py: Python<'_>, other: &Sums) -> PyResult<()> {
         let states = other.states()?;
         py.detach(|| self.evaluator().merge_states(&states))
             .map_err(value_error)
     }
 
-    /// All that was seen, as bytes.
+    /// The states as bytes.
     fn states_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = serde_json::to_vec(&self.states()?).map_err(value_error)?;
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// Takes over what `states_bytes` gave.
+    /// Merges the result of `states_bytes`.
     fn merge_bytes(&self, bytes: &[u8]) -> PyResult<()> {
         let states: Vec<State> = serde_json::from_slice(bytes)
             .map_err(|error| value_error(format_args!("no state of taceva's metrics: {error}")))?;
         self.evaluator().merge_states(&states).map_err(value_error)
     }
 
-    /// Forgets all that was seen.
+    /// Clears the sums.
     fn reset(&self) {
         *self.evaluator() = Evaluator::new(&self.plan);
     }
 
-    /// The scores so far, as the text of a results file; `paired_by` names the keys by which rows of named columns were paired, `""` where
-    /// they were paired by order.
+    /// The scores so far, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order.
     fn compute(&self, py: Python<'_>, paired_by: Vec<String>) -> PyResult<String> {
         py.detach(|| {
             let evaluation = self.evaluator().score().map_err(value_error)?;
@@ -246,7 +245,7 @@ impl Sums {
     }
 }
 
-/// The pairing of rows, from the words of Python.
+/// The pairing of rows, from its form in Python.
 fn paired(key: String) -> PairedBy {
     match key.as_str() {
         "" => PairedBy::Order,
@@ -264,7 +263,7 @@ pub(crate) fn channels_of(channels: &[(String, String)]) -> PyResult<Channels> {
     Channels::new(channels.collect::<PyResult<Vec<_>>>()?).map_err(value_error)
 }
 
-/// The channel `name` in `unit`, which for the six is theirs.
+/// The channel `name` in `unit`; the six have a fixed unit.
 fn channel(name: &str, unit: &str) -> PyResult<Channel> {
     let unit = Unit::from_symbol(unit).ok_or_else(|| {
         let known: Vec<&str> = Unit::ALL.iter().map(|unit| unit.symbol()).collect();

@@ -1,7 +1,7 @@
-//! Plugins written in Python: its objects as devices and estimators, and the process that serves them.
+//! Plugins written in Python: Python objects as devices and estimators, and the process that serves them.
 //!
-//! The objects implement the traits of core as a library's devices do, and are offered to the child's side of the host through the tables of
-//! the interface. So there is one wire, one sandbox and one set of checks, whatever a plugin is written in.
+//! The objects implement the traits of core like the devices of a library. The child process offers them to the host through the tables of
+//! the interface. All plugins thus share one wire, one sandbox and one set of checks, whatever their language.
 
 mod changer;
 mod drivers;
@@ -30,8 +30,8 @@ use crate::errors::value_error;
 pub(crate) use self::training::Training;
 pub(crate) use self::waiting::{Deadline, Interrupted};
 
-/// Becomes the process of a plugin: confines it, has `import_module(folder, name, preload)` import the module and give its plugin, serves that
-/// until the host is gone, and returns the code to end with. Called first of all, before anything is imported that begins threads.
+/// Becomes the process of a plugin: confines it, calls `import_module(folder, name, preload)` for the plugin, serves it until the host
+/// ends, and returns the exit code. Must be called first, before any import that starts threads.
 #[pyfunction]
 pub(crate) fn serve_plugin(py: Python<'_>, import_module: Py<PyAny>) -> i32 {
     py.detach(|| {
@@ -59,7 +59,7 @@ fn imported(
     Ok(Offered::of(plugin.bind(py))?.linked(folder.clone()))
 }
 
-/// The text of a manifest of `plugin`, which the module `name` is: `text` with what the plugin says of itself.
+/// The text of a manifest of `plugin` from the module `name`: `text`, updated with the data of the plugin.
 #[pyfunction]
 #[pyo3(signature = (plugin, name, text, license = None))]
 pub(crate) fn plugin_manifest(
@@ -74,7 +74,7 @@ pub(crate) fn plugin_manifest(
     written.map_err(|error| value_error(format_args!("plugin.toml, {error}")))
 }
 
-/// A line for the log of the host, `level` of `error`, `warn`, `info` and `debug`.
+/// Writes a line to the log of the host; `level` is `error`, `warn`, `info` or `debug`.
 #[pyfunction]
 pub(crate) fn plugin_log(level: &str, message: &str) -> PyResult<()> {
     let level = match level {
@@ -92,7 +92,7 @@ pub(crate) fn plugin_log(level: &str, message: &str) -> PyResult<()> {
     Ok(())
 }
 
-/// Says that the processes of plugins are `interpreter`, with the package `taceva` that lies at `package`.
+/// Makes this interpreter, with its installed package `taceva`, run the processes of plugins.
 pub(crate) fn within(py: Python<'_>) -> PyResult<()> {
     let interpreter: PathBuf = py.import("sys")?.getattr("executable")?.extract()?;
     let files: Vec<PathBuf> = py.import("taceva")?.getattr("__path__")?.extract()?;
@@ -102,7 +102,7 @@ pub(crate) fn within(py: Python<'_>) -> PyResult<()> {
     Ok(())
 }
 
-/// The version of what a host and the process of a plugin say to each other.
+/// The version of the protocol between a host and the process of a plugin.
 #[pyfunction]
 pub(crate) fn wire() -> u32 {
     taceva_host::WIRE

@@ -17,7 +17,7 @@ use crate::errors::{dataset_error, value_error};
 use crate::metrics::channels_of;
 use crate::watched;
 
-/// What a recording is of, as the Python side has read it.
+/// Facts of a recording, parsed by the Python side.
 #[derive(FromPyObject)]
 pub(crate) struct Facts {
     #[pyo3(item)]
@@ -73,7 +73,7 @@ impl Facts {
     }
 }
 
-/// Writes a recording at `path`: a row a sample, NaN where a label is absent.
+/// Writes a recording at `path`: one row for each sample, NaN for a missing label.
 #[pyfunction]
 #[pyo3(signature = (path, facts, channels, labels, points, times, columns, frames, reference, bar = None))]
 #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
@@ -168,7 +168,7 @@ pub(crate) fn record(
     })?
 }
 
-/// The form of one frame of `[rows, height, width, samples]`, or of `[height, width, samples]`.
+/// Format of one frame of `[rows, height, width, samples]`, or of `[height, width, samples]`.
 fn frame_info(pixels: &Pixels) -> PyResult<FrameInfo> {
     let [height, width, samples] = pixels.frame_shape();
     let format = match (samples, pixels.is_deep()) {
@@ -205,7 +205,7 @@ pub(crate) fn import_recording(
     bar: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<()> {
     let imported = watched::run(py, bar, |progress: &dyn Progress| {
-        // What a kill left of an earlier one first: a dataset that was set aside stands in its place again.
+        // Recovers an interrupted replacement first: a dataset that was set aside is restored.
         settle(&out)?;
         let decoders = Decoders { ffmpeg, av1: None };
         let plan = ImportPlan::with_decoders(&source, &ImportMap::read(&map)?, &decoders)?;

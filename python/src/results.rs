@@ -9,13 +9,13 @@ use taceva_results::{Interval, Score, Value};
 
 use crate::errors::value_error;
 
-/// `report` as the text of a results file: what the program writes with `--format json`.
+/// `report` as the text of a results file, as the program writes it with `--format json`.
 pub(crate) fn sealed(report: &impl Serialize) -> PyResult<String> {
     let sealed = taceva_results::sealed(report).map_err(value_error)?;
     Ok(sealed + "\n")
 }
 
-/// Results of one evaluation as Python holds them.
+/// Results of one evaluation for Python.
 #[derive(IntoPyObject)]
 pub(crate) struct ReadResult {
     source: String,
@@ -24,7 +24,7 @@ pub(crate) struct ReadResult {
     scores: Vec<ReadScore>,
 }
 
-/// Score as the arguments of Python's `Score`.
+/// Arguments of Python's `Score`.
 #[derive(IntoPyObject)]
 pub(crate) struct ReadScore {
     metric: String,
@@ -61,7 +61,7 @@ impl From<Score> for ReadScore {
     }
 }
 
-/// Reads the results file of one evaluation; one that was changed after it was sealed is refused.
+/// Reads the results file of one evaluation; rejects one that was changed after it was sealed.
 #[pyfunction]
 pub(crate) fn read_result(text: &str) -> PyResult<ReadResult> {
     let mut reports = taceva_results::read(text).map_err(value_error)?;
@@ -77,7 +77,7 @@ pub(crate) fn read_result(text: &str) -> PyResult<ReadResult> {
     })
 }
 
-/// A table of the scores of some results, `texts` of results files: `text`, `csv`, `md`, `tex` or `html`.
+/// A table of the scores in `texts` of results files; `form` is `text`, `csv`, `md`, `tex` or `html`.
 #[pyfunction]
 pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     let scores = ScoreTable::of(&studies(&texts)?);
@@ -88,7 +88,7 @@ pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     }
 }
 
-/// A figure as a file of SVG, with what a reader must know.
+/// A figure as an SVG file, with notes for the reader.
 #[derive(IntoPyObject)]
 pub(crate) struct Drawn {
     name: String,
@@ -98,7 +98,7 @@ pub(crate) struct Drawn {
     svg: String,
 }
 
-/// Every figure that `texts` of results files have something to draw of, in the order of reports.
+/// All figures with data in `texts` of results files, in the order of reports.
 #[pyfunction]
 pub(crate) fn figures(texts: Vec<String>) -> PyResult<Vec<Drawn>> {
     let figures = taceva_report::figures(&studies(&texts)?).into_iter();
@@ -112,7 +112,7 @@ pub(crate) fn figures(texts: Vec<String>) -> PyResult<Vec<Drawn>> {
     Ok(drawn.collect())
 }
 
-/// The figure called `name` as a file of PDF.
+/// The figure called `name` as a PDF file.
 #[pyfunction]
 pub(crate) fn figure_pdf(texts: Vec<String>, name: &str) -> PyResult<Vec<u8>> {
     let figures = taceva_report::figures(&studies(&texts)?);

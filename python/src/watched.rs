@@ -1,4 +1,4 @@
-//! Long work for a Python program: in a thread of its own, while the thread that asked for it notices Ctrl-C and moves the caller's bar.
+//! Long work for a Python program: on its own thread, while the calling thread handles Ctrl-C and updates the caller's progress bar.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -11,17 +11,17 @@ use taceva_core::Progress;
 
 use crate::errors::value_error;
 
-/// How often signals are looked at, which is half of what Ctrl-C may take, and the bar is moved.
+/// Interval of signal checks and updates of the bar; Ctrl-C takes at most twice as long.
 const PERIOD: Duration = Duration::from_millis(50);
 
-/// What happened to a stage.
+/// Event of a stage.
 enum Event {
     Begun(String, Option<u64>),
     Advanced(u64),
     Ended,
 }
 
-/// The work's side: notes what happens, and learns whether to stop.
+/// The worker's side: records events, and checks for cancellation.
 struct Noted<'a> {
     events: Mutex<Vec<Event>>,
     is_stopped: &'a AtomicBool,
@@ -59,10 +59,10 @@ impl Progress for Noted<'_> {
     }
 }
 
-/// The result of `work`, done without the interpreter's lock. `bar` has `begin(stage, steps or None)`, `advance(steps)` and `end()`.
+/// The result of `work`, run without the interpreter lock. `bar` has `begin(stage, steps or None)`, `advance(steps)` and `end()`.
 ///
 /// # Errors
-/// What a signal handler or the bar raises, `KeyboardInterrupt` at Ctrl-C; the work is stopped and has ended then.
+/// Exceptions of a signal handler or the bar, such as `KeyboardInterrupt` at Ctrl-C; the work has then been cancelled and has ended.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     bar: Option<&Bound<'_, PyAny>>,
@@ -75,12 +75,12 @@ pub(crate) fn run<T: Send>(
     };
     thread::scope(|scope| {
         let (done, is_done) = channel();
-        // It is used by one thread at a time: by this one, without the lock of the interpreter.
+        // Used by one thread at a time: this one, without the interpreter lock.
         let is_done = Mutex::new(is_done);
         let worker = {
             let noted = &noted;
             scope.spawn(move || {
-                // Dropped also where the work panics.
+                // Dropped also if the work panics.
                 let _done: Sender<()> = done;
                 work(noted)
             })

@@ -1,4 +1,4 @@
-//! The arguments of the program. `cmd/` carries them out; nothing here has a side effect.
+//! Arguments of the program. `cmd/` executes them; nothing here has a side effect.
 
 mod bench;
 mod cache;
@@ -138,14 +138,14 @@ pub(crate) enum Command {
     Run(Run),
     /// Print what `run` would do with a scene, keep and skip, and why; opens no device
     Plan(PlanArgs),
-    /// Set up a rig: learn where its robot stands, and see whether its devices do what a run needs
+    /// Set up a rig: measure the position of its robot, and check its devices for a run
     Rig(RigCommand),
     /// List every driver, what it can do, its arguments, and the devices that are present
     Devices(Output<ListFormat>),
     /// List, inspect, check or create plugins
     #[command(subcommand)]
     Plugin(Plugin),
-    /// Diagnose this machine: what a rig could use, what is missing, and what to do about it
+    /// Diagnose this machine: the devices it could use, missing parts, and remedies
     Doctor(Output<ListFormat>),
     /// Print a script that completes taceva's arguments in a shell
     Completions(Completions),

@@ -1,15 +1,15 @@
-//! The program runs itself again to decode AV1 in a process that can do nothing else.
+//! Child process of this program that decodes AV1 and can do nothing else.
 
 use std::ffi::OsString;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What the second argument of such a process is.
+/// Second argument of the child process.
 const WORD: &str = "decode-av1-for-its-parent";
 
-/// Whether the `main` of this program would serve such a process.
+/// True if the `main` of this program serves such a child process.
 static CAN_BE_CHILD: AtomicBool = AtomicBool::new(false);
 
-/// Decodes for the parent and ends the process, if that is what it was started for.
+/// Decodes for the parent and exits, if this is the child process.
 #[cfg(feature = "av1")]
 pub(crate) fn main_if_child() {
     CAN_BE_CHILD.store(true, Ordering::Relaxed);
@@ -19,13 +19,13 @@ pub(crate) fn main_if_child() {
     }
     let served = taceva_video::av1::serve(std::io::stdin().lock(), std::io::stdout().lock());
     if let Err(error) = &served {
-        // The parent passes it on.
+        // The parent forwards it.
         crate::stderr::write(&format!("{error}\n"));
     }
     std::process::exit(i32::from(served.is_err()));
 }
 
-/// The program and the argument that decode AV1; `None` without the feature, and in a program whose `main` does not begin with [`main_if_child`](crate::main_if_child).
+/// The program and argument that decode AV1; `None` without the feature, or without [`main_if_child`](crate::main_if_child) in `main`.
 pub(crate) fn command() -> Option<Vec<OsString>> {
     if !CAN_BE_CHILD.load(Ordering::Relaxed) {
         return None;

@@ -49,7 +49,7 @@ use crate::{exit, output};
 pub(crate) use crate::context::Context;
 use attachments::Attachments;
 
-/// Arguments that parse but make no sense together.
+/// Arguments that parse but contradict each other.
 #[derive(Debug)]
 pub(crate) struct Usage(String);
 
@@ -71,7 +71,7 @@ impl std::fmt::Display for Usage {
 
 impl std::error::Error for Usage {}
 
-/// Refuses an instruction set that TACEVA_ISA names and this processor lacks: a measurement would be of another one.
+/// Rejects an instruction set that TACEVA_ISA names and this processor lacks: a measurement would use another one.
 pub(crate) fn check_isa() -> anyhow::Result<()> {
     match taceva_metrics::Isa::requested() {
         Ok(_) => Ok(()),
@@ -98,14 +98,14 @@ pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
     Ok(Dataset::open(path)?)
 }
 
-/// The recordings at `paths` as one; a single one as it is.
+/// The recordings at `paths` as one; a single one unchanged.
 pub(crate) fn open_all(paths: &[PathBuf]) -> anyhow::Result<Dataset> {
     let recordings = paths.iter().map(|path| open(path));
     let recordings = recordings.collect::<anyhow::Result<Vec<_>>>()?;
     Ok(Dataset::joined(recordings)?)
 }
 
-/// The same, seen by the view that the arguments name, or else by that of the model that is used.
+/// The same recordings, seen in the view of the arguments, or else of the model.
 pub(crate) fn open_seen(
     paths: &[PathBuf],
     view: &ViewArgs,
@@ -113,7 +113,7 @@ pub(crate) fn open_seen(
 ) -> anyhow::Result<Dataset> {
     let dataset = open_all(paths)?;
     let of_model = model.and_then(|model| model.card().provenance.view.as_deref());
-    // A model of one view may well be used on a recording with one picture.
+    // A model of one view may be used on a recording with one picture.
     let of_model = of_model.filter(|_| !dataset.views().is_empty());
     Ok(match view.name.as_deref().or(of_model) {
         Some(view) => dataset.seen(view)?,
@@ -121,7 +121,7 @@ pub(crate) fn open_seen(
     })
 }
 
-/// Refuses to write over the files that `scoring` and `output` name, before any work is done for them.
+/// Rejects overwriting the files of `scoring` and `output` before any work.
 fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
     let files = output.path.iter().chain(&scoring.state_out);
     let files = files.chain(&scoring.page.path).chain(&scoring.samples_out);

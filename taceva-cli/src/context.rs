@@ -1,4 +1,4 @@
-//! What every command works with.
+//! Common state of all commands.
 
 use std::num::NonZeroUsize;
 
@@ -43,7 +43,7 @@ impl Context {
         }
     }
 
-    /// The environment of a stage.
+    /// The threads, progress and cache of a stage.
     pub(crate) fn work<'a>(&'a self, cache: Option<&'a Cache>) -> Work<'a> {
         Work {
             jobs: self.jobs,
@@ -52,14 +52,14 @@ impl Context {
         }
     }
 
-    /// Prints a remark on standard error, unless `--quiet` is given.
+    /// Prints a message on standard error, unless `--quiet` is given.
     pub(crate) fn say(&self, words: std::fmt::Arguments<'_>) {
         if !self.quiet {
             stderr::say(words);
         }
     }
 
-    /// Prints a remark if `-v` is given.
+    /// Prints a message if `-v` is given.
     pub(crate) fn say_more(&self, words: std::fmt::Arguments<'_>) {
         if self.verbose {
             self.say(words);

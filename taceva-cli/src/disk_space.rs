@@ -1,13 +1,13 @@
-//! Whether the files that a command is going to write fit on the disk, checked before the work begins.
+//! Check of the free disk space before a command writes files.
 
 use std::path::Path;
 
 use crate::amount::bytes;
 
-/// Pictures of a run are packed without loss: a run is refused only where a fiftieth of their bytes would not fit.
+/// Compression factor of pictures in the best case: a run is rejected only if a fiftieth of their bytes exceeds the free space.
 const PACKED: u64 = 50;
 
-/// How many bytes a command is going to write.
+/// Bytes that a command will write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Need {
     /// The lower bound.
@@ -16,7 +16,7 @@ pub(crate) struct Need {
     pub(crate) at_most: u64,
 }
 
-/// The files of a command do not fit.
+/// Error of files that exceed the free space.
 #[derive(Debug)]
 pub(crate) struct NoRoom {
     need: Need,
@@ -39,7 +39,7 @@ impl std::fmt::Display for NoRoom {
 impl std::error::Error for NoRoom {}
 
 impl Need {
-    /// That of a run whose unpacked pictures have this many bytes.
+    /// The need of a run with `bytes` bytes of uncompressed pictures.
     pub(crate) fn of_pictures(bytes: u64) -> Need {
         Need {
             at_least: bytes / PACKED,
@@ -47,10 +47,10 @@ impl Need {
         }
     }
 
-    /// The bytes needed and the bytes free, in words; `None` where nothing is going to be written.
+    /// The bytes needed and the bytes free, in words; `None` if nothing will be written.
     ///
     /// # Errors
-    /// [`NoRoom`] if it cannot fit.
+    /// [`NoRoom`] if even the lower bound exceeds the free space.
     pub(crate) fn hold_against(
         self,
         free: Option<u64>,
@@ -87,7 +87,7 @@ fn holder(target: &Path) -> &Path {
     above.unwrap_or(Path::new("."))
 }
 
-/// Free bytes on the disk of `target`, without those reserved for the administrator; `None` where that is not known.
+/// Free bytes on the disk of `target`, without those reserved for the administrator; `None` if unknown.
 pub(crate) fn free(target: &Path) -> Option<u64> {
     #[cfg(unix)]
     {

@@ -10,7 +10,7 @@ pub(crate) const USAGE: u8 = 2;
 pub(crate) const BAD_INPUT: u8 = 3;
 /// A device failed; the run can be resumed.
 pub(crate) const DEVICE: u8 = 4;
-/// Stopped by a signal; the files written before are whole.
+/// Stopped by a signal; files written before are complete.
 pub(crate) const STOPPED: u8 = 5;
 /// An internal error.
 pub(crate) const BUG: u8 = 70;

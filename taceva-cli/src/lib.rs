@@ -18,7 +18,7 @@ mod progress;
 mod report;
 mod stderr;
 
-// Its drivers are found by being linked, and what is only named in Cargo.toml is not linked.
+// Linked for its drivers: a crate that is only named in Cargo.toml is not linked.
 use taceva_sim as _;
 
 use std::ffi::OsString;
@@ -37,9 +37,9 @@ use args::{Cli, Command};
 use cmd::Context;
 use invocation::Invocation;
 
-/// Serves as the child process of another `taceva` and ends, if this process was started for that; returns otherwise. A `main` that does not
-/// begin with it has no child processes: plugins in libraries are refused, unless an interpreter was named for them
-/// ([`taceva_host::run_within`]), and clips of AV1 are decoded by an ffmpeg, if there is one.
+/// Serves as the child process of another `taceva` and exits, if this process was started for that; else returns. A `main` that does not
+/// begin with it has no child processes. Plugins in libraries are then rejected unless an interpreter was named for them
+/// ([`taceva_host::run_within`]), and AV1 clips are decoded by an ffmpeg, if there is one.
 ///
 /// ```
 /// taceva_cli::main_if_child();
@@ -51,8 +51,8 @@ pub fn main_if_child() {
     av1_child::main_if_child();
 }
 
-/// Carries out the command that `arguments` say, of which the first is the name of the program, and returns the exit code. SIGINT and SIGTERM
-/// of the process are handled from then on, so a program calls it once, and ends with its result.
+/// Runs the command in `arguments`, of which the first is the name of the program, and returns the exit code. SIGINT and SIGTERM of the
+/// process are handled from then on, so a program calls it once and exits with its result.
 ///
 /// ```
 /// assert_eq!(taceva_cli::main_with(["taceva", "catalogue", "show", "TacTip", "--quiet"]), 0);
@@ -118,7 +118,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
 fn complain(error: &Error) {
     let mut text = String::new();
     for cause in error.chain().map(ToString::to_string) {
-        // An error that already names its cause need not be followed by it.
+        // Skips a cause that the error already contains.
         if !text.contains(&cause) {
             text.push_str(if text.is_empty() { "" } else { ": " });
             text.push_str(&cause);
@@ -131,7 +131,7 @@ fn complain(error: &Error) {
     stderr::say(format_args!("{text}"));
 }
 
-/// The folder that was named as a dataset and is none.
+/// The folder that was named as a dataset but is none.
 fn missing_dataset(error: &Error) -> Option<&Path> {
     error.chain().find_map(|cause| {
         let study = cause.downcast_ref::<StudyError>();
@@ -208,7 +208,7 @@ fn code_of(error: &Error) -> u8 {
     exit::BAD_INPUT
 }
 
-/// The exit code of what was acquired, evaluated or both.
+/// The exit code of an error of acquisition or evaluation.
 fn code_of_study(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     let (is_usage, is_of_device, kind) = if let Some(error) = cause.downcast_ref::<EvaluateError>()
     {

@@ -1,4 +1,4 @@
-//! Writing of results: to standard output, or to a file that is absent or whole.
+//! Output of results: to standard output, or to a file that appears atomically.
 
 mod guard;
 
@@ -33,7 +33,7 @@ impl From<ListFormat> for Form {
     }
 }
 
-/// Refuses to write over `path` without `force`, before any work is done for it.
+/// Rejects overwriting `path` without `force`, before any work.
 pub(crate) fn check_free(path: &Path, force: bool) -> anyhow::Result<()> {
     if path.exists() && !force {
         bail!("{} exists already; --force replaces it", shown(path));
@@ -43,7 +43,7 @@ pub(crate) fn check_free(path: &Path, force: bool) -> anyhow::Result<()> {
 
 /// Writes text to standard output, or a file of any kind to `path`.
 ///
-/// A file is written beside its place, forced to disk and renamed, so that it is absent or whole.
+/// A file is written to a temporary path, synced and renamed, so that it is absent or complete.
 pub(crate) fn write(
     path: Option<&Path>,
     render: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -71,7 +71,7 @@ pub(crate) fn write_as(
     };
     let mut out = BufWriter::new(out);
     match guarded(form, &mut out, render).and_then(|()| out.flush()) {
-        // Whoever reads us has read enough.
+        // The reader closed the pipe.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => result.context("cannot write to standard output"),
     }
@@ -99,7 +99,7 @@ fn write_file(
         .and_then(|()| fs::rename(&beside, path))
         .and_then(|()| sync_parent(path));
     if written.is_err() {
-        // The error that counts is the one reported below.
+        // The first error is reported.
         drop(fs::remove_file(&beside));
     }
     written.with_context(|| format!("cannot write {}", shown(path)))

@@ -1,13 +1,13 @@
-//! Limits of the process that are handled before any work: a closed standard output, and the limit of file sizes.
+//! Process limits handled before any work: a closed standard output, and the limit of file sizes.
 
-/// Whether standard output was closed when the program began (`>&-`): Rust opens `/dev/null` in its place before `main`, where every result
+/// True if standard output was closed when the program started (`>&-`). Rust replaces it with `/dev/null` before `main`, where every result
 /// would be lost without a message.
 #[cfg(unix)]
 pub(crate) fn standard_output_is_closed() -> bool {
     before_main::WAS_CLOSED.load(std::sync::atomic::Ordering::Relaxed)
 }
 
-/// On other systems a write to a closed standard output fails as any other.
+/// Other systems report a closed standard output as a write error.
 #[cfg(not(unix))]
 pub(crate) fn standard_output_is_closed() -> bool {
     false
@@ -23,7 +23,7 @@ mod before_main {
     pub(super) static WAS_CLOSED: AtomicBool = AtomicBool::new(false);
 
     ctor::declarative::ctor! {
-        /// One system call and one store: it runs before the runtime of `main` is set up.
+        /// One system call and one store, because it runs before the runtime of `main` is set up.
         #[ctor(unsafe)]
         fn look() {
             let is_closed = fcntl_getfd(stdout()) == Err(Errno::BADF);
@@ -32,7 +32,7 @@ mod before_main {
     }
 }
 
-/// From now on a write beyond the limit of file sizes (`ulimit -f`) fails instead of ending the program: the error is reported, and the
+/// Makes a write beyond the limit of file sizes (`ulimit -f`) fail instead of ending the program: the error is then reported, and the
 /// incomplete file removed.
 #[cfg(unix)]
 pub(crate) fn refuse_to_end_at_the_limit_of_file_sizes() {
@@ -41,7 +41,7 @@ pub(crate) fn refuse_to_end_at_the_limit_of_file_sizes() {
 
     use signal_hook::{consts::SIGXFSZ, flag};
 
-    // The write returns the error; if the handler cannot be set, the signal ends the program as by default.
+    // The write returns the error. If the handler cannot be set, the signal ends the program as by default.
     drop(flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))));
 }
 

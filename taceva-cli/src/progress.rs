@@ -10,14 +10,14 @@ use taceva_core::{Progress, shown};
 
 use crate::stderr;
 
-/// Set once by a signal, read by all work.
+/// Set by the first signal, read by all work.
 static STOPPED: AtomicBool = AtomicBool::new(false);
-/// Set by a second one.
+/// Set by a second signal.
 static INSISTED: AtomicBool = AtomicBool::new(false);
-/// A robot is halted within this before the program ends.
+/// Time to halt a robot before the program ends.
 const HALTING: Duration = Duration::from_millis(250);
 
-/// Stops work on SIGINT and SIGTERM: a robot leaves the gel, and what was recorded is whole. A second signal halts the robot where it is and
+/// Stops work on SIGINT and SIGTERM: a robot leaves the gel, and the recording stays complete. A second signal halts the robot in place and
 /// ends the program.
 pub(crate) fn listen_for_signals() {
     let listening = ctrlc::set_handler(|| {
@@ -31,14 +31,14 @@ pub(crate) fn listen_for_signals() {
     drop(listening);
 }
 
-/// Stops work as a signal does, for a page: asked twice, a robot is halted where it is, and the program ends as the run does.
+/// Stops work like a signal, for a page. A second call halts a robot in place; the program then ends with the run.
 pub(crate) fn stop() {
     if STOPPED.swap(true, Ordering::SeqCst) {
         INSISTED.store(true, Ordering::SeqCst);
     }
 }
 
-/// Whether a signal came.
+/// True after a signal.
 pub(crate) fn is_stopped() -> bool {
     STOPPED.load(Ordering::SeqCst)
 }
@@ -74,7 +74,7 @@ impl Pace {
         }
     }
 
-    /// Counts `steps` more; the line to print, if it is time for one.
+    /// Counts `steps` more; returns a line if it is time to print one.
     fn advance(&mut self, steps: u64, now: Instant) -> Option<String> {
         self.done = self.done.saturating_add(steps);
         if now.duration_since(self.said) < EVERY {
@@ -91,7 +91,7 @@ impl Pace {
     }
 }
 
-/// The time left at the pace so far; `None` where too little is done for an estimate.
+/// Estimated time left at the current pace; `None` if too little is done.
 fn left(done: u64, all: u64, elapsed: Duration) -> Option<Duration> {
     if done == 0 || done > all || elapsed < Duration::from_secs(1) {
         return None;
@@ -195,8 +195,7 @@ impl Progress for TerminalProgress {
     }
 }
 
-/// One line of standard error that says how something without a known end is going: anew in its place on a terminal, every half minute
-/// otherwise.
+/// A status line on standard error for work without a known end: updated in place on a terminal, else printed every half minute.
 pub(crate) struct StatusLine {
     mode: Mode,
     bar: ProgressBar,
@@ -257,12 +256,12 @@ fn draw(stage: &str, steps: Option<u64>) -> ProgressBar {
     };
     bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
     if let Ok(style) = ProgressStyle::with_template(template) {
-        // Of what is not known yet nothing is said, where a bar of its own would say 0 s.
+        // Shows nothing while the time is unknown; a bar would show 0 s.
         let left = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
             let all = state.len().unwrap_or(0);
             let words = left(state.pos(), all, state.elapsed()).map(spoken);
             let words = words.unwrap_or_else(|| "…".to_owned());
-            // What cannot be written is no reason to stop.
+            // A write error must not stop the work.
             let _ = write!(out, "{words} left");
         };
         bar.set_style(style.with_key("left", left));

@@ -1,4 +1,4 @@
-//! How results look: pure functions of finished reports.
+//! Rendering of results: pure functions of finished reports.
 
 mod bench;
 mod chart;
@@ -29,7 +29,7 @@ use taceva_study::bench::KernelBench;
 
 use crate::args::Format;
 
-/// Writes an evaluation in the form asked for.
+/// Writes an evaluation in the requested format.
 pub(crate) fn evaluation(
     report: &EvaluationReport,
     format: Format,
@@ -47,7 +47,7 @@ pub(crate) fn evaluation(
     }
 }
 
-/// Writes the evaluations of the studies of a scene: for people side by side where they are several, else one after the other.
+/// Writes the evaluations of the studies of a scene: as text side by side if there are several, else in sequence.
 pub(crate) fn profiles(
     reports: &[EvaluationReport],
     format: Format,
@@ -68,7 +68,7 @@ pub(crate) fn profiles(
     Ok(())
 }
 
-/// Writes what was found in each recording, in the form asked for: one after the other, and as JSON a list where they are several.
+/// Writes the findings of each recording in the requested format: in sequence, or as a JSON list if there are several.
 pub(crate) fn findings(
     reports: &[(String, CheckReport)],
     format: Format,
@@ -104,7 +104,7 @@ fn findings_of(report: &CheckReport, format: Format, out: &mut dyn Write) -> io:
     }
 }
 
-/// Writes a benchmark of kernels in the form asked for.
+/// Writes a benchmark of kernels in the requested format.
 pub(crate) fn kernel_bench(
     bench: &KernelBench,
     format: Format,

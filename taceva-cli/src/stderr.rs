@@ -1,11 +1,11 @@
-//! Remarks and errors on standard error, with control characters escaped.
+//! Messages and errors on standard error, with control characters escaped.
 
 use std::fmt::Arguments;
 use std::io::Write as _;
 
 use taceva_core::shown_lines;
 
-/// Writes a line, begun with the name of the program.
+/// Writes a line that begins with the name of the program.
 pub(crate) fn say(words: Arguments<'_>) {
     write(&format!("taceva: {words}\n"));
 }

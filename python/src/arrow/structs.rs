@@ -1,6 +1,6 @@
-//! The structs of Arrow's C interface, which this file alone fills.
+//! Structs of Arrow's C interface; only this file fills them.
 //!
-//! A schema and a batch own their memory, and are freed by the functions in them, in whatever order and thread the reader likes.
+//! A schema and a batch own their memory. Their release functions free it, in any order and on any thread.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
@@ -24,7 +24,7 @@ struct Schema {
     private_data: *mut c_void,
 }
 
-/// What the pointers of a [`Schema`] lead to.
+/// Memory behind the pointers of a [`Schema`].
 struct SchemaMemory {
     name: CString,
     metadata: Vec<u8>,
@@ -62,8 +62,8 @@ impl Schema {
 
 #[expect(unsafe_code, reason = "the interface is C's")]
 unsafe extern "C" fn release_schema(schema: *mut Schema) {
-    // SAFETY: a reader calls it once, with the struct that `Schema::new` filled or a copy of it; the children are boxes of ours, of which those
-    // that the reader took over say so by having no `release`.
+    // SAFETY: a reader calls it once, with the struct that `Schema::new` filled or a copy of it. The children are boxes of ours; those that
+    // the reader took over have no `release`.
     unsafe {
         let memory = Box::from_raw((*schema).private_data.cast::<SchemaMemory>());
         for child in memory.children {
@@ -91,16 +91,16 @@ struct Array {
     private_data: *mut c_void,
 }
 
-/// What the pointers of an [`Array`] lead to.
+/// Memory behind the pointers of an [`Array`].
 struct ArrayMemory {
     buffers: Vec<*const c_void>,
     children: Vec<*mut Array>,
-    /// Kept for `buffers`.
+    /// Owns the memory of `buffers`.
     _values: Vec<Vec<u64>>,
 }
 
 impl Array {
-    /// `values` of so many rows, of which those that are not there are null; a struct has children and no values.
+    /// `values` of `rows` rows, with null where `is_there` is false; a struct has children and no values.
     fn new(rows: usize, is_there: &[bool], values: Vec<Vec<u64>>, children: Vec<Array>) -> Array {
         let mut all = Vec::new();
         let nulls = is_there.iter().filter(|is_there| !**is_there).count();
@@ -111,7 +111,7 @@ impl Array {
             });
             all.push(aligned(bits.collect()));
         }
-        // Without a null there are no bits of validity, and the pointer to them is null.
+        // Without nulls there is no validity bitmap, and its pointer is null.
         let mut buffers: Vec<*const c_void> = match nulls {
             0 => vec![ptr::null()],
             _ => Vec::new(),
@@ -143,7 +143,7 @@ impl Array {
 
 #[expect(unsafe_code, reason = "the interface is C's")]
 unsafe extern "C" fn release_array(array: *mut Array) {
-    // SAFETY: as of `release_schema`.
+    // SAFETY: as for `release_schema`.
     unsafe {
         let memory = Box::from_raw((*array).private_data.cast::<ArrayMemory>());
         for child in memory.children {
@@ -166,14 +166,14 @@ pub(super) struct Stream {
     private_data: *mut c_void,
 }
 
-/// Columns of so many rows, with metadata of the whole.
+/// Columns of `rows` rows, with metadata of the table.
 pub(super) struct Batch {
     pub(super) rows: usize,
     pub(super) columns: Vec<ArrowColumn>,
     pub(super) metadata: Vec<u8>,
 }
 
-/// What a [`Stream`] gives.
+/// Data of a [`Stream`].
 struct StreamMemory {
     batch: Batch,
     is_given: bool,
@@ -200,14 +200,14 @@ impl Stream {
     unsafe_code,
     reason = "the memory behind the pointer belongs to the struct"
 )]
-// SAFETY: what it leads to is a box of plain memory that nobody else reaches.
+// SAFETY: its pointer is to a box of plain memory that nothing else accesses.
 unsafe impl Send for Stream {}
 
 impl Drop for Stream {
     #[expect(unsafe_code, reason = "the interface is C's")]
     fn drop(&mut self) {
         if let Some(release) = self.release {
-            // SAFETY: nobody has taken the stream over, who would have left no `release`.
+            // SAFETY: the stream was not taken over, since that clears `release`.
             unsafe { release(self) };
         }
     }
@@ -215,7 +215,7 @@ impl Drop for Stream {
 
 #[expect(unsafe_code, reason = "the interface is C's")]
 unsafe extern "C" fn get_schema(stream: *mut Stream, into: *mut Schema) -> c_int {
-    // SAFETY: a reader hands over a stream that it has not released, and a struct to fill.
+    // SAFETY: a reader passes a stream that it has not released, and a struct to fill.
     unsafe {
         let batch = &(*(*stream).private_data.cast::<StreamMemory>()).batch;
         let fields = batch.columns.iter().map(|column| {
@@ -235,12 +235,12 @@ unsafe extern "C" fn get_schema(stream: *mut Stream, into: *mut Schema) -> c_int
 
 #[expect(unsafe_code, reason = "the interface is C's")]
 unsafe extern "C" fn get_next(stream: *mut Stream, into: *mut Array) -> c_int {
-    // SAFETY: as of `get_schema`.
+    // SAFETY: as for `get_schema`.
     unsafe {
         let memory = &mut *(*stream).private_data.cast::<StreamMemory>();
         let rows = memory.batch.rows;
         let batch = match std::mem::replace(&mut memory.is_given, true) {
-            // An array that is released says that there is no more.
+            // A released array marks the end of the stream.
             true => {
                 let mut none = Array::new(0, &[], Vec::new(), Vec::new());
                 release_array(&raw mut none);
@@ -260,7 +260,7 @@ unsafe extern "C" fn get_next(stream: *mut Stream, into: *mut Array) -> c_int {
 
 #[expect(unsafe_code, reason = "the interface is C's")]
 unsafe extern "C" fn get_last_error(_stream: *mut Stream) -> *const c_char {
-    // Nothing fails: all values are in memory.
+    // No call fails: all values are in memory.
     ptr::null()
 }
 

@@ -1,4 +1,4 @@
-//! A class of Python as a driver of devices.
+//! A Python class as a driver of devices.
 
 use pyo3::prelude::*;
 use taceva_core::{
@@ -22,7 +22,7 @@ pub(super) struct PythonDriver {
 }
 
 impl PythonDriver {
-    /// The driver that `class` is; none of a kind that is newer than this.
+    /// The driver of `class`; `None` for a kind newer than this version.
     pub(super) fn made(descriptor: Descriptor, class: Py<PyAny>) -> Option<Made> {
         let kind = descriptor.kind();
         let driver = PythonDriver { descriptor, class };
@@ -36,7 +36,7 @@ impl PythonDriver {
         }
     }
 
-    /// An object of the class, made with `args`.
+    /// Creates an object of the class from `args`.
     fn object(&self, args: &Args) -> Result<Object, DriverError> {
         const DOING: Doing = Doing::Opening("open the device");
         let key = self.descriptor.key();
@@ -48,7 +48,7 @@ impl PythonDriver {
         })
     }
 
-    /// What `discover` of the class finds, if it has one.
+    /// The devices that `discover` of the class finds, if it has that method.
     fn found(&self) -> Result<Vec<Found>, DriverError> {
         const DOING: Doing = Doing::Working("look for devices");
         let key = self.descriptor.key();

@@ -1,4 +1,4 @@
-//! An estimator in Python, and what it fitted.
+//! A Python estimator, and its fitted objects.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -42,7 +42,7 @@ impl PythonEstimator {
     }
 }
 
-/// What was raised; which estimator it is of, and what it was doing, the host says.
+/// The exception as an error; the host adds the estimator and the operation.
 fn model_error(py: Python<'_>, error: &PyErr) -> ModelError {
     ModelError::new(kind(py, error), short_words(py, error))
 }
@@ -121,7 +121,7 @@ impl EstimatorFactory for PythonEstimator {
             let shape = (shape.height, shape.width, shape.depth);
             let bytes = PyBytes::new(py, saved.bytes);
             let loaded = self.class.call_method1(py, "load", (bytes, names, shape));
-            // Whatever it raises: the bytes are none of its models.
+            // Any exception means that the bytes are no model of this estimator.
             loaded.map_err(|error| ModelError::new(ErrorKind::Protocol, short_words(py, &error)))
         })?;
         Ok(Box::new(Fitted {

@@ -1,4 +1,4 @@
-//! What Python raises, as errors of devices and models.
+//! Python exceptions as errors of devices and models.
 
 use pyo3::exceptions::{
     PyConnectionError, PyEOFError, PyFileNotFoundError, PyModuleNotFoundError,
@@ -9,7 +9,7 @@ use taceva_core::{DriverError, DriverKey, ErrorKind, Fault};
 
 use super::waiting::Interrupted;
 
-/// What was tried, in words that follow "cannot", and whether a value is the caller's: the arguments of a device that is opened are.
+/// The failed operation, in words that follow "cannot". While opening, an invalid value is the caller's argument.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Doing {
     Opening(&'static str),
@@ -35,7 +35,7 @@ pub(super) fn device_error(
     }
 }
 
-/// Why a device stopped by itself, where the exception names that.
+/// The reason why a device stopped by itself, if the exception names one.
 fn fault(py: Python<'_>, error: &PyErr) -> Option<Fault> {
     let named = error.value(py).getattr("fault").ok()?;
     let named: String = named.extract().ok()?;
@@ -47,7 +47,7 @@ fn is_of_value(py: Python<'_>, error: &PyErr) -> bool {
     error.is_instance_of::<PyValueError>(py) || error.is_instance_of::<PyTypeError>(py)
 }
 
-/// The kind that an exception stands for: the one that it names, or that of its class.
+/// The kind of an exception: its own attribute, or the kind of its class.
 pub(super) fn kind(py: Python<'_>, error: &PyErr) -> ErrorKind {
     let named = error.value(py).getattr("kind").ok();
     let named = named.and_then(|kind| kind.extract::<String>().ok());
@@ -82,17 +82,17 @@ pub(super) fn kind(py: Python<'_>, error: &PyErr) -> ErrorKind {
     }
 }
 
-/// What an error of the interface holds, in bytes.
+/// Maximum size of an error in the interface, bytes.
 const ERROR_MAX: usize = taceva_plugin::abi::MESSAGE_SIZE - 1;
-/// What an answer of the process holds with ease, in bytes.
+/// Size of a reply of the process that always fits, bytes.
 const ANSWER_MAX: usize = 1_900;
 
-/// What was raised and where, in one line: the class, its message, the remedy, and the innermost file and line.
+/// The exception in one line: class, message, remedy, and the innermost file and line.
 pub(super) fn words(py: Python<'_>, error: &PyErr) -> String {
     words_within(py, error, ANSWER_MAX)
 }
 
-/// The same in as many bytes as an error of the interface holds.
+/// The same line, shortened to the size of an error in the interface.
 pub(super) fn short_words(py: Python<'_>, error: &PyErr) -> String {
     words_within(py, error, ERROR_MAX)
 }
@@ -104,7 +104,7 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
     let message = message.map_or_else(|_| String::new(), |message| message.to_string());
     let (said, mut behind) = match message.trim() {
         "" => (name, String::new()),
-        // The loader's words for a library that comes too late.
+        // The loader's message for a library that is loaded too late.
         message if message.contains(TOO_LATE) => {
             let module = error.value(py).getattr("name").ok();
             let module = module.and_then(|module| module.extract::<String>().ok());
@@ -120,15 +120,15 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
     if let Some(place) = place(py, error) {
         behind.push_str(&format!(" ({place})"));
     }
-    // A path that fills all the room is cut as the message is.
+    // A path that fills the whole space is shortened like the message.
     let behind = shortened(&behind, room / 2);
     let said = shortened(&said, room - behind.len());
     said + &behind
 }
 
-/// `text` in at most `room` bytes: its beginning and its end, and between them how much is missing.
+/// `text` in at most `room` bytes: its beginning and its end, and between them the number of omitted bytes.
 fn shortened(text: &str, room: usize) -> String {
-    /// Longer than what is put between them.
+    /// Maximum size of the text between them, bytes.
     const BETWEEN: usize = 48;
     if text.len() <= room || room < 2 * BETWEEN {
         return text.to_owned();
@@ -151,13 +151,13 @@ fn shortened(text: &str, room: usize) -> String {
 
 const TOO_LATE: &str = "failed to map segment";
 
-/// The file that the loader complains of, without its folder.
+/// The file name in the message of the loader, without its folder.
 fn library(message: &str) -> &str {
     let path = message.split(": ").next().unwrap_or(message);
     path.rsplit('/').next().unwrap_or(path)
 }
 
-/// The innermost file and line that the exception passed.
+/// The innermost file and line of the exception's traceback.
 fn place(py: Python<'_>, error: &PyErr) -> Option<String> {
     let mut trace = error.traceback(py)?.into_any();
     while let Ok(next) = trace.getattr("tb_next")

@@ -1,4 +1,4 @@
-//! A force transducer in Python.
+//! A Python force transducer.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::errors::value_error;
 
 const READ: &str = "read the force";
 
-/// An object with `start`, `read(deadline)`, `stop` and, where it says so, `zero(deadline)`.
+/// An object with `start`, `read(deadline)`, `stop` and, if it declares so, `zero(deadline)`.
 pub(super) struct PythonForce {
     object: Object,
     axes: Axes,
@@ -42,7 +42,7 @@ impl PythonForce {
     }
 }
 
-/// What `read` returned: the force in N, its time, and the number that the device gave it.
+/// Parses the result of `read`: the force in N, its time, and the sequence number of the device.
 fn reading(said: &Bound<'_, PyAny>) -> PyResult<(Wrench, Stamp, Option<u64>)> {
     let parts: Vec<Bound<'_, PyAny>> = said.extract().unwrap_or_default();
     let (force, time, number) = match parts.as_slice() {

@@ -1,4 +1,4 @@
-//! A lighting in Python.
+//! A Python lighting.
 
 use pyo3::prelude::*;
 use taceva_core::{Deadline, Descriptor, DriverError, ErrorKind, Facts, Lighting};

@@ -1,4 +1,4 @@
-//! An object of Python that is a device: called by one thread at a time, and closed when it is dropped.
+//! A Python object that is a device: called by one thread at a time, and closed on drop.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use taceva_plugin::{HaltLatch, Interruption};
 use super::failure::{Doing, device_error, short_words, words};
 use super::waiting::{Deadline, Ends};
 
-/// A device that Python holds.
+/// A Python device.
 pub(super) struct Object {
     key: DriverKey,
     object: Py<PyAny>,
@@ -30,20 +30,20 @@ impl Object {
         &self.key
     }
 
-    /// Does `work` with the object, in time for `deadline`; what Python raises is an error of the device while it was `doing`.
+    /// Calls `work` with the object and `deadline`; a Python exception becomes an error of the device with the operation `doing`.
     pub(super) fn call<T>(
         &self,
         doing: &'static str,
         deadline: taceva_core::Deadline,
         work: impl FnOnce(&Bound<'_, PyAny>, Bound<'_, Deadline>) -> PyResult<T>,
     ) -> Result<T, DriverError> {
-        // Held until Python has returned, so that an interrupt meets this call and no other.
+        // Held until Python has returned, so that an interrupt affects only this call.
         let _call = self.interruption.call();
         let ends = Ends::Interrupt(Arc::clone(&self.interruption));
         self.called(doing, Deadline::new(deadline, ends), work)
     }
 
-    /// As [`call`](Object::call), of a motion: what rests by its deadline ends at a halt.
+    /// As [`call`](Object::call), for a motion: a halt ends the waits of its deadline.
     pub(super) fn call_until_halted<T>(
         &self,
         doing: &'static str,
@@ -68,7 +68,7 @@ impl Object {
         })
     }
 
-    /// Calls a method that takes a deadline.
+    /// Calls a method with a deadline.
     pub(super) fn method(
         &self,
         name: &str,
@@ -80,7 +80,7 @@ impl Object {
         })
     }
 
-    /// Calls a method that takes nothing.
+    /// Calls a method without arguments.
     pub(super) fn plain_method(&self, name: &str, doing: &'static str) -> Result<(), DriverError> {
         Python::attach(|py| {
             let called = self.object.call_method0(py, name).map(drop);
@@ -88,12 +88,12 @@ impl Object {
         })
     }
 
-    /// What ends a call that rests by its deadline.
+    /// A handle that interrupts a call while it waits by its deadline.
     pub(super) fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         self.interruption.handle()
     }
 
-    /// What calls its method `halt` from any thread.
+    /// A handle that calls its method `halt` from any thread.
     pub(super) fn stopper(&self) -> Stopper {
         Stopper {
             key: self.key.clone(),
@@ -101,13 +101,13 @@ impl Object {
         }
     }
 
-    /// Whether it has a method of that name.
+    /// True if it has a method called `name`.
     pub(super) fn has(&self, name: &str) -> bool {
         Python::attach(|py| self.object.bind(py).hasattr(name).unwrap_or(false))
     }
 }
 
-/// Has an object stop its motion, while another thread may be in a call of it.
+/// Stops the motion of an object, while another thread may be in a call of it.
 pub(super) struct Stopper {
     key: DriverKey,
     object: Py<PyAny>,
@@ -118,7 +118,7 @@ impl Stopper {
         &self.key
     }
 
-    /// Calls `halt`; what it raises in words.
+    /// Calls `halt`; the error is the exception as text.
     pub(super) fn stop(&self) -> Result<(), String> {
         Python::attach(|py| {
             let halted = self.object.call_method0(py, "halt").map(drop);
@@ -139,7 +139,7 @@ impl Drop for Object {
     }
 }
 
-/// The arguments that are given, by name.
+/// The given arguments, by name.
 pub(super) fn keywords<'py>(
     py: Python<'py>,
     specs: &[ArgSpec],
@@ -156,7 +156,7 @@ pub(super) fn keywords<'py>(
                 given.set_item(&spec.key, path)?;
             }
             Some(value) => given.set_item(&spec.key, value.to_string())?,
-            // Its own default says what is meant by nothing.
+            // Python's own default applies.
             None => {}
         }
     }

@@ -1,4 +1,4 @@
-//! What a plugin in Python offers, and the table that is made of it.
+//! A plugin in Python, and its interface table.
 
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -12,10 +12,10 @@ use super::drivers::PythonDriver;
 use super::estimator::PythonEstimator;
 use crate::errors::value_error;
 
-/// A process serves one plugin.
+/// The plugin of this process; there is only one.
 static OFFERED: OnceLock<Offered> = OnceLock::new();
 
-/// The plugin that a module of Python is: what it says of itself, and the classes of its devices.
+/// A plugin in a Python module: its identity, and the classes of its devices.
 pub(super) struct Offered {
     id: String,
     version: String,
@@ -24,7 +24,7 @@ pub(super) struct Offered {
 }
 
 impl Offered {
-    /// What an object of `taceva.plugin.Plugin` offers.
+    /// Reads an object of `taceva.plugin.Plugin`.
     pub(super) fn of(plugin: &Bound<'_, PyAny>) -> PyResult<Offered> {
         let id: String = plugin.getattr("id")?.extract()?;
         let parsed: PluginId = id.parse().map_err(value_error)?;
@@ -46,7 +46,7 @@ impl Offered {
         })
     }
 
-    /// The table of it, made of the code at `path`. The first plugin of a process is the one that it serves.
+    /// The interface table, for the code at `path`. The first plugin of a process is the one that it serves.
     pub(super) fn linked(self, path: PathBuf) -> Linked {
         let offered = OFFERED.get_or_init(|| self);
         let mut table: Plugin = plugin::<Offered>();
@@ -59,7 +59,7 @@ impl Offered {
 }
 
 impl Export for Offered {
-    /// Both are written over by [`Offered::linked`], which knows them.
+    /// Replaced by [`Offered::linked`], which knows both.
     const ID: &'static str = "";
     const VERSION: &'static str = "";
 

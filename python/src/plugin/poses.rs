@@ -1,4 +1,4 @@
-//! Poses as Python has them: six numbers, mm and degrees.
+//! Poses in Python: six numbers, mm and degrees.
 
 use pyo3::prelude::*;
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation, Stamp};
@@ -16,7 +16,7 @@ pub(super) fn python_pose<'py>(py: Python<'py>, pose: &Pose) -> PyResult<Bound<'
     py.import("taceva.plugin")?.getattr("Pose")?.call1(numbers)
 }
 
-/// A pose that `method` returned: three numbers are a place, six a place and how the tip is turned.
+/// Parses the pose returned by `method`: three numbers are a position, six a position and an orientation of the tip.
 pub(super) fn pose_of(said: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
     let numbers: Vec<f64> = said.extract().unwrap_or_default();
     let (place, turn) = match numbers.as_slice() {
@@ -40,7 +40,7 @@ pub(super) fn pose_of(said: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
     })
 }
 
-/// A pose and when the tip was there.
+/// Parses a pose and its time.
 pub(super) fn placed(said: &Bound<'_, PyAny>, method: &str) -> PyResult<(Pose, Stamp)> {
     let parts: Result<(Bound<'_, PyAny>, Bound<'_, PyAny>), _> = said.extract();
     let Ok((pose, time)) = parts else {

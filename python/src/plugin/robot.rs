@@ -1,4 +1,4 @@
-//! A robot in Python: halted by a latch of its own before Python is asked, so that code which hangs starts no further motion.
+//! A Python robot. A latch halts it before Python is called, so that hanging code starts no further motion.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -17,8 +17,8 @@ use crate::errors::value_error;
 
 const MOVE: &str = "move";
 
-/// An object with `pose(deadline)`, `move_to(target, speed, deadline)`, `halt()` and `clear_halt(deadline)`; of `move_guarded` and
-/// `move_expiring` what it has.
+/// An object with `pose(deadline)`, `move_to(target, speed, deadline)`, `halt()` and `clear_halt(deadline)`; `move_guarded` and
+/// `move_expiring` are optional.
 pub(super) struct PythonRobot {
     object: Object,
     latch: Arc<HaltLatch>,
@@ -46,7 +46,7 @@ impl PythonRobot {
         DriverError::new(kind, self.object.key(), MOVE).because(why.into())
     }
 
-    /// Does a motion. One that fails is stopped before its error is returned, and one that was halted on its way has not arrived.
+    /// Runs a motion. A failed motion is stopped before its error is returned, and a motion that was halted on its way is an error.
     fn motion<T>(
         &self,
         deadline: Deadline,
@@ -68,10 +68,10 @@ impl PythonRobot {
         }
     }
 
-    /// The error of a motion, after which the robot is told to stand still.
+    /// The error of a motion, after the robot was told to stop.
     fn stopped(&self, error: DriverError) -> DriverError {
         let kind = match self.is_halted() {
-            // Devices call a motion that was stopped by many names.
+            // Devices report a stopped motion by various kinds.
             true if error.fault().is_none() => ErrorKind::Interrupted,
             _ => error.kind(),
         };
@@ -167,7 +167,7 @@ impl GuardedMotion for PythonRobot {
     }
 }
 
-/// What `move_guarded` returned: a time where it arrived, a pose and a time where it stopped at the force.
+/// Parses the result of `move_guarded`: a time on arrival, a pose and a time on a stop at the force.
 fn stop(said: &Bound<'_, PyAny>) -> PyResult<GuardedStop> {
     if let Ok((place, time)) = said.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()
         && place.extract::<f64>().is_err()

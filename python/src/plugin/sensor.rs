@@ -1,4 +1,4 @@
-//! A sensor in Python: it writes its frames into an array of numpy, from which they are copied.
+//! A Python sensor: it writes its frames into a numpy array, from which they are copied.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -19,7 +19,7 @@ const CAPTURE: &str = "capture a frame";
 pub(super) struct PythonSensor {
     object: Object,
     frame: FrameInfo,
-    /// The array that frames are written into, and its bytes; made for the first of them.
+    /// The target array of frames, and its bytes; created for the first frame.
     into: Option<(Py<PyAny>, PyBuffer<u8>)>,
 }
 
@@ -59,7 +59,7 @@ fn array(py: Python<'_>, frame: FrameInfo) -> PyResult<(Py<PyAny>, PyBuffer<u8>)
     Ok((array.unbind(), PyBuffer::get(&bytes)?))
 }
 
-/// When a frame or a reading was taken: seconds of the host's clock, two of them where it was received later, or now.
+/// The time of a frame or a reading: seconds of the host's clock, two of them if it was received later, or now.
 pub(super) fn stamp(said: &Bound<'_, PyAny>, method: &str) -> PyResult<Stamp> {
     let seconds = |number: f64| {
         Duration::try_from_secs_f64(number).map_err(|_| {

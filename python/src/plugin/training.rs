@@ -1,4 +1,4 @@
-//! A fit as Python sees it: how far it is, and whether it should go on.
+//! A fit as seen by Python: progress, and cancellation.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,20 +10,20 @@ use taceva_core::{ErrorKind, ModelError, Progress};
 
 use super::waiting::Interrupted;
 
-/// How often it is asked whether a fit should end.
+/// Interval at which a fit checks for cancellation.
 const ASKED_EVERY: Duration = Duration::from_millis(20);
 
-/// What a thread of a C program has, in bytes: numpy takes more of it for a system of equations than the 2 MiB of Rust.
+/// Stack size of the thread, bytes, as in C programs: numpy needs more for a system of equations than the 2 MiB of Rust.
 const STACK: usize = 8 << 20;
 
-/// What a fit tells.
+/// Event of a fit.
 enum Event {
     Begins(String, Option<u64>),
     Advances(u64),
     Ends,
 }
 
-/// What a fit is told and asked by Python.
+/// Progress and cancellation of a fit, for Python.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Training {
     to: std::sync::Mutex<Sender<Event>>,
@@ -36,7 +36,7 @@ impl Training {
             .to
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner);
-        // Nobody listens to a fit that was given up.
+        // The receiver is gone if the fit was abandoned.
         let _ = to.send(event);
         drop(to);
         match self.is_cancelled() {
@@ -48,30 +48,30 @@ impl Training {
 
 #[pymethods]
 impl Training {
-    /// A stage begins, of so many steps where that is known.
+    /// Begins a stage of `steps` steps, or of unknown length.
     #[pyo3(signature = (stage, steps = None))]
     fn begin(&self, stage: String, steps: Option<u64>) -> PyResult<()> {
         self.send(Event::Begins(stage, steps))
     }
 
-    /// So many steps are done; raises `Interrupted` where the fit should end.
+    /// Counts `steps` finished steps; raises `Interrupted` if the fit was cancelled.
     #[pyo3(signature = (steps = 1))]
     fn advance(&self, steps: u64) -> PyResult<()> {
         self.send(Event::Advances(steps))
     }
 
-    /// The stage ends.
+    /// Ends the stage.
     fn end(&self) -> PyResult<()> {
         self.send(Event::Ends)
     }
 
-    /// Whether somebody asked the fit to end.
+    /// True if the fit was cancelled.
     fn is_cancelled(&self) -> bool {
         self.is_cancelled.load(Ordering::Acquire)
     }
 }
 
-/// Runs `fit` on a thread of its own while this one passes on what it tells to `progress`, which only this one may call.
+/// Runs `fit` on its own thread, while this thread forwards its events to `progress`, which only this thread may call.
 pub(super) fn watched<T: Send>(
     progress: &dyn Progress,
     fit: impl FnOnce(Training) -> T + Send,
@@ -86,7 +86,7 @@ pub(super) fn watched<T: Send>(
         let (done, is_done) = channel::<()>();
         let fitting = std::thread::Builder::new().stack_size(STACK);
         let fitting = fitting.spawn_scoped(scope, move || {
-            // Dropped when it is done, however it ends.
+            // Dropped at the end, also on a panic.
             let _done = done;
             fit(training)
         });
@@ -113,7 +113,7 @@ fn pass_on(
             Ok(Event::Advances(steps)) => progress.advance(steps),
             Ok(Event::Ends) => progress.end(),
             Err(RecvTimeoutError::Disconnected) => return,
-            // Python may keep what it was given, but the fit is over.
+            // Python may keep the object, but the fit is over.
             Err(RecvTimeoutError::Timeout) => {
                 if is_done.try_recv() == Err(std::sync::mpsc::TryRecvError::Disconnected) {
                     return;

@@ -1,4 +1,4 @@
-//! Until when a call may last, for Python: how it waits so that it can be interrupted.
+//! Deadlines of calls for Python, with interruptible waits.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -17,10 +17,10 @@ create_exception!(
     "Somebody asked the call to end."
 );
 
-/// Longer than any call lasts, in seconds.
+/// Longer than any call, s.
 const LONG_S: f64 = 1e9;
 
-/// What ends a rest before its time.
+/// Signal that ends a wait early.
 pub(super) enum Ends {
     /// An interrupt of the call.
     Interrupt(Arc<Interruption>),
@@ -40,7 +40,7 @@ impl Ends {
     }
 }
 
-/// When a call must have ended.
+/// Deadline of a call.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Deadline {
     end: Instant,
@@ -63,12 +63,12 @@ impl Deadline {
 
 #[pymethods]
 impl Deadline {
-    /// How many seconds are left; 0 when it has passed.
+    /// Seconds left; 0 after the deadline.
     fn remaining(&self) -> f64 {
         self.left().as_secs_f64()
     }
 
-    /// Rests for `seconds`; raises `Interrupted` as soon as somebody asks the call to end, and `TimeoutError` at the deadline.
+    /// Waits for `seconds`; raises `Interrupted` as soon as the call is interrupted, and `TimeoutError` at the deadline.
     fn rest(&self, py: Python<'_>, seconds: f64) -> PyResult<()> {
         if seconds.is_nan() || seconds < 0.0 {
             return Err(value_error(format_args!(

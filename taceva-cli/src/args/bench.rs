@@ -13,7 +13,7 @@ pub(crate) struct Bench {
     pub(crate) subject: BenchSubject,
 }
 
-/// What to benchmark.
+/// Subject of a benchmark.
 #[derive(Debug, Subcommand)]
 pub(crate) enum BenchSubject {
     /// Summation kernels: nanoseconds for each pair of values against correct digits
@@ -22,14 +22,14 @@ pub(crate) enum BenchSubject {
     Models(BenchModels),
 }
 
-/// Naive, two-pass, pairwise, Kahan, Neumaier and Welford sums and those of TacEva on every instruction set, over inputs on which they
-/// differ, beside the time to read the columns. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
+/// Naive, two-pass, pairwise, Kahan, Neumaier and Welford sums and those of TacEva on every instruction set. Inputs show their differences;
+/// the time to read the columns is the lower limit. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
 #[derive(Debug, Args)]
 pub(crate) struct BenchKernels {
     /// Rows of each of the six channels
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     pub(crate) rows: usize,
-    /// How often each kernel is timed
+    /// Number of times each kernel is timed
     #[arg(long, value_name = "N", default_value_t = 15)]
     pub(crate) rounds: usize,
     #[command(flatten)]
@@ -41,8 +41,8 @@ pub(crate) struct BenchKernels {
 }
 
 /// Fits every model on the training part of one recording and scores it on the test part of the same split: mean absolute errors with
-/// intervals by contact point, beside seconds to fit, to predict, and from one frame to its prediction. A model that cannot be fitted on
-/// the recording is listed with the reason, and the others go on.
+/// intervals by contact point, beside seconds to fit, to predict, and from one frame to its prediction. A model that cannot be fitted is
+/// listed with the reason, and the others continue.
 #[derive(Debug, Args)]
 pub(crate) struct BenchModels {
     /// The dataset [default: one of the simulated bench, 400 points of four presses]
@@ -52,7 +52,7 @@ pub(crate) struct BenchModels {
     /// [default: all but resnet10, resnet18, resnet34, cnn-ensemble, smartcore/lasso, smartcore/gradient-boosting and auto, which take long]
     #[arg(long = "model", value_name = "NAME[:KEY=VALUE,…]")]
     pub(crate) models: Vec<String>,
-    /// How often each model is fitted, in turns; the shortest processor time is reported
+    /// Number of times each model is fitted, in turns; the shortest processor time is reported
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) rounds: NonZeroUsize,
     /// Fewer simulated presses, and short trainings where no model is named

@@ -14,16 +14,16 @@ pub(crate) struct CacheCommand {
     pub(crate) subject: CacheSubject,
 }
 
-/// What to do with the cache.
+/// Operation on the cache.
 #[derive(Debug, Subcommand)]
 pub(crate) enum CacheSubject {
-    /// List what is kept: kinds, sizes, ages, and the runs that use it
+    /// List cache entries: kinds, sizes, ages, and the runs that use them
     List(CacheList),
     /// Remove entries by age or total size; runs in progress are not affected
     Prune(CachePrune),
 }
 
-/// Runs name the entries they use in their stages.json: those in the folder `runs` are read, and those of --run.
+/// Runs list their entries in stages.json. Those in the folder `runs` are read, and those of --run.
 #[derive(Debug, Args)]
 pub(crate) struct CacheList {
     #[command(flatten)]
@@ -38,7 +38,7 @@ pub(crate) struct CacheList {
     pub(crate) output: Output,
 }
 
-/// What is removed is computed again when it is needed.
+/// Removed entries are computed again when needed.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("what").required(true).multiple(true).args(["older_than", "keep"]))]
 pub(crate) struct CachePrune {
@@ -91,7 +91,7 @@ impl From<StageArg> for CachedStage {
     }
 }
 
-/// A number and the letters behind it.
+/// A number and its unit.
 fn parts(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let end = text

@@ -1,4 +1,4 @@
-//! Arguments of the commands that make datasets and look at them.
+//! Arguments of the commands that make and inspect datasets.
 
 use std::path::PathBuf;
 
@@ -6,11 +6,11 @@ use clap::{ArgGroup, Args};
 
 use super::{ExplainArgs, ListFormat, Output, SplitArgs};
 
-/// The map says, in TOML, which column is which channel, in which unit, and where the pictures are.
+/// The map states, in TOML, the column and unit of each channel, and the location of the pictures.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("layout").required(true).args(["map", "preset", "draft", "presets"]))]
 pub(crate) struct Import {
-    /// The folder that holds the table and the pictures, or a tar of it (.tar, .tar.gz, .tgz)
+    /// The folder with the table and the pictures, or a tar of it (.tar, .tar.gz, .tgz)
     #[arg(required_unless_present = "presets")]
     pub(crate) source: Option<PathBuf>,
     /// The map; see the documentation of taceva-import for its keys
@@ -19,13 +19,13 @@ pub(crate) struct Import {
     /// A known layout, which needs no map: --presets lists them
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
-    /// List the known layouts: what lies where, what of it is read, what it leaves open
+    /// List the known layouts: their files, the content that is read, and the settings left open
     #[arg(long, conflicts_with_all = ["source", "out", "explain", "force", "ffmpeg"])]
     pub(crate) presets: bool,
     /// Print the map of --preset instead of importing, to be adapted; to --out, else to the terminal
     #[arg(long, requires = "preset", conflicts_with_all = ["explain", "map", "draft"])]
     pub(crate) print: bool,
-    /// How --presets is written
+    /// Format of the list of --presets
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t = ListFormat::Text, requires = "presets")]
     pub(crate) format: ListFormat,
     /// Look at the folder and write a first map for it, with reasons as comments and units left open; to --out, else to the terminal
@@ -42,13 +42,14 @@ pub(crate) struct Import {
     /// Replace a dataset that exists already
     #[arg(long)]
     pub(crate) force: bool,
-    /// The program that decodes clips which are not decoded here, such as HEVC or FFV1; without it TACEVA_FFMPEG, or else ffmpeg on the PATH
+    /// The program that decodes unsupported clips, such as HEVC or FFV1; default: TACEVA_FFMPEG, or else ffmpeg on the PATH
     #[arg(long, value_name = "PROGRAM")]
     pub(crate) ffmpeg: Option<PathBuf>,
 }
 
-/// Labels and signals are kept to the last bit, pictures to the last pixel, and their files byte for byte where the form holds files; `map.toml` beside
-/// them brings all of it back: `taceva import FOLDER --map FOLDER/map.toml --out DATASET`. What no map can say (settings of the camera, how presses ended) is named.
+/// Labels and signals are kept to the last bit, pictures to the last pixel, and their files byte for byte if the format contains files.
+/// `map.toml` beside them restores all of it: `taceva import FOLDER --map FOLDER/map.toml --out DATASET`. Data that no map can express
+/// (settings of the camera, how presses ended) is listed.
 ///
 /// Read by: huggingface: `datasets.load_dataset("FOLDER")`; lerobot: `LeRobotDataset("me/it", root="FOLDER")`; hdf5: `h5py.File("FOLDER/recording.h5")`;
 /// csv: anything.
@@ -56,24 +57,24 @@ pub(crate) struct Import {
 pub(crate) struct Export {
     /// The dataset
     pub(crate) dataset: PathBuf,
-    /// The folder to write: a new one, there whole or not at all
+    /// The folder to write: a new one, created completely or not at all
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: PathBuf,
-    /// In which form
+    /// The format
     #[arg(long, value_name = "FORM", value_enum, default_value_t = Form::Huggingface)]
     pub(crate) format: Form,
 }
 
-/// The form of an export.
+/// Format of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Form {
-    /// A table, labels.csv, and a file a picture in the bytes it came in
+    /// A table, labels.csv, and one file for each picture in its original bytes
     Csv,
     /// Parquet with the pictures in a column, as Hugging Face writes it
     Huggingface,
-    /// One file of HDF5: an array a column with its unit, the pictures as an array of pixels
+    /// One HDF5 file: an array for each column with its unit, the pictures as an array of pixels
     Hdf5,
-    /// LeRobot 3.0: an episode a press, the pictures in the tables
+    /// LeRobot 3.0: an episode for each press, the pictures in the tables
     Lerobot,
 }
 
@@ -88,26 +89,27 @@ impl From<Form> for taceva_import::ExportForm {
     }
 }
 
-/// Files that decide a number or a claim are sealed: dataset.toml, results, states and models. One that was changed is refused until the edit
-/// is accepted here; reports show the history. A model is not edited but fitted again.
+/// Files that decide a number or a claim are sealed: dataset.toml, results, states and models. A changed file is rejected until the edit is
+/// accepted here; reports show the history. A model is not edited but fitted again.
 #[derive(Debug, Args)]
 pub(crate) struct Reseal {
     /// The dataset, or the file: dataset.toml, results or a state
     #[arg(value_name = "FILE|DATASET")]
     pub(crate) file: PathBuf,
-    /// Why it was changed; reports show it
+    /// The reason of the edit; reports show it
     #[arg(long, value_name = "TEXT")]
     pub(crate) reason: String,
 }
 
-/// Every finding has a stable code, from TAC001 to TAC044, and a hint. `--explain` lists the checks and what each looks for: units, copies, doubled and dropped frames,
-/// clocks that jump, lags, blank frames, saturation, leakage between parts, what an import left out, and more. The exit code is 1 if a finding is an error.
+/// Every finding has a stable code, from TAC001 to TAC044, and a hint. `--explain` lists the checks and their defects: units, copies,
+/// doubled and dropped frames, clocks that jump, lags, blank frames, saturation, leakage between parts, data that an import left out, and
+/// more. The exit code is 1 if a finding is an error.
 #[derive(Debug, Args)]
 pub(crate) struct Check {
-    /// The dataset to check; of several recordings each is checked, and then whether they can be taken as one
+    /// The dataset to check; several recordings are checked one by one, and then whether they can be joined
     #[arg(required = true, value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
-    /// Make only the checks with these codes, separated by commas
+    /// Run only the checks with these codes, separated by commas
     #[arg(long, value_name = "CODES", value_delimiter = ',')]
     pub(crate) only: Vec<String>,
     #[command(flatten)]

@@ -1,11 +1,11 @@
-//! Arguments of the commands that look at a sensor without a robot.
+//! Arguments of the commands that use a sensor without a robot.
 
 use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{ArgGroup, Args};
 
-/// What is looked at.
+/// Devices of a capture or a preview.
 #[derive(Debug, Args)]
 pub(crate) struct LiveArgs {
     /// The sensor, as `taceva devices` lists it: camera/mjpeg:url=http://192.168.1.20:8080/?action=stream
@@ -14,8 +14,8 @@ pub(crate) struct LiveArgs {
     /// The force transducer under the sensor or in the indenter: sri/m8128:host=192.168.0.108
     #[arg(long, value_name = "DRIVER")]
     pub(crate) force: Option<String>,
-    /// A rig file with a sensor and perhaps a transducer, instead of the two options; it also says which axis presses into the gel and the
-    /// latency of devices, see docs/capture.md. Its robot is left alone
+    /// A rig file with a sensor and optionally a transducer, instead of the two options; it also states the axis that presses into the gel
+    /// and the latency of devices, see docs/capture.md. Its robot is not used
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
 }
@@ -50,13 +50,13 @@ pub(crate) struct Capture {
     pub(crate) path: PathBuf,
     #[command(flatten)]
     pub(crate) live: LiveArgs,
-    /// How long, by the stamps of the frames: 60s, 5min [default: until Ctrl-C]
+    /// Duration by the stamps of the frames: 60s, 5min [default: until Ctrl-C]
     #[arg(long = "for", value_name = "TIME", value_parser = duration)]
     pub(crate) lasts: Option<Duration>,
-    /// How many frames
+    /// Number of frames
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) frames: Option<u64>,
-    /// What the sensor is called in reports [default: the name of its driver]
+    /// Name of the sensor in reports [default: the name of its driver]
     #[arg(long, value_name = "NAME")]
     pub(crate) name: Option<String>,
     /// The serial number of the sensor
@@ -65,21 +65,21 @@ pub(crate) struct Capture {
     /// The id of the gel
     #[arg(long, value_name = "TEXT")]
     pub(crate) gel: Option<String>,
-    /// A fitted model, as `taceva fit` writes it, that predicts every frame it has time for, on a page and into OUT/predictions.csv
+    /// A fitted model, as `taceva fit` writes it; predicts as many frames as time permits, on a page and into OUT/predictions.csv
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
-    /// The port of the page of --model on 127.0.0.1, 0 for any that is free
+    /// The port of the page of --model on 127.0.0.1, 0 for any free port
     #[arg(long, value_name = "N", default_value_t = 0, requires = "model")]
     pub(crate) port: u16,
-    /// Open no device: close a capture that a full disk, a power cut or a kill has left open
+    /// Open no device: close a capture that was interrupted by a full disk, a power cut or a kill
     #[arg(long, conflicts_with_all = ["sensor", "force", "rig", "lasts", "frames", "name", "serial", "gel", "model"])]
     pub(crate) close: bool,
 }
 
-/// Where the page of a preview or a run is.
+/// Port of the page of a preview or a run.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct PortArgs {
-    /// The port of the page on 127.0.0.1, 0 for any that is free
+    /// The port of the page on 127.0.0.1, 0 for any free port
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) port: u16,
 }
@@ -111,7 +111,7 @@ pub(crate) struct Preview {
     pub(crate) page: PortArgs,
 }
 
-/// The longest capture: a day.
+/// Maximum duration of a capture, s: a day.
 const LONGEST_S: f64 = 86_400.0;
 
 fn duration(text: &str) -> Result<Duration, String> {

@@ -11,11 +11,11 @@ use super::{
     SplitOutArgs, ViewArgs,
 };
 
-/// While a network is trained, a checkpoint is written every half a minute, and when the training is stopped, to the file MODEL.checkpoint;
-/// the same command goes on from it, writes the same bytes as an uninterrupted one, and removes it.
+/// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every half a minute, and when the training is
+/// stopped. The same command resumes from it, writes the same bytes as an uninterrupted one, and removes it.
 #[derive(Debug, Args)]
 pub(crate) struct Fit {
-    /// The dataset to train on; several recordings of one kind of sensor are taken as one
+    /// The dataset to train on; several recordings of one kind of sensor are joined
     #[arg(required = true, value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
     #[command(flatten)]
@@ -44,7 +44,7 @@ pub(crate) struct Fit {
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("which").args(["with", "name"]))]
 pub(crate) struct Evaluate {
-    /// The dataset to evaluate; several recordings of one kind of sensor are taken as one
+    /// The dataset to evaluate; several recordings of one kind of sensor are joined
     #[arg(required = true, value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
     #[command(flatten)]
@@ -70,7 +70,7 @@ pub(crate) struct Evaluate {
 
 #[derive(Debug, Args)]
 pub(crate) struct Predict {
-    /// The dataset to predict; several recordings of one kind of sensor are taken as one
+    /// The dataset to predict; several recordings of one kind of sensor are joined
     #[arg(required = true, value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
     #[command(flatten)]
@@ -85,10 +85,10 @@ pub(crate) struct Predict {
     /// The table of predictions to write; `score --pred` reads it
     #[arg(long, value_name = "PRED.csv")]
     pub(crate) out: PathBuf,
-    /// Write predictions as the model gives them, not clamped to its bounds; robustness is computed from these
+    /// Write unclamped predictions, beyond the bounds of the model; robustness is computed from these
     #[arg(long)]
     pub(crate) unbounded: bool,
-    /// Also write the standard deviation of each prediction, of a model that estimates it: gaussian-process
+    /// Also write the standard deviation of each prediction, for a model that estimates it: gaussian-process
     #[arg(long, value_name = "DEVIATIONS.csv")]
     pub(crate) deviations_out: Option<PathBuf>,
     /// Also write the truth of the same samples; `score --truth` reads it
@@ -99,30 +99,30 @@ pub(crate) struct Predict {
     pub(crate) force: bool,
 }
 
-/// Both tables have a header with channel names. Rows are paired by `sample`, `id`, `sample_id` or `index` where both tables have it, else by order;
-/// rows that disagree in another key, in `t_s`, `point_id` or `frame_sha256` are refused.
+/// Both tables have a header with channel names. Rows are paired by `sample`, `id`, `sample_id` or `index` if both tables have it, else by
+/// order. Rows that disagree in another key, in `t_s`, `point_id` or `frame_sha256` are rejected.
 #[derive(Debug, Args)]
 pub(crate) struct Score {
-    /// The truth: a table, CSV or Parquet, with columns Px,Py,Pz (mm), Fx,Fy,Fz (N) or named others
+    /// The truth: a table, CSV or Parquet, with columns Px,Py,Pz (mm), Fx,Fy,Fz (N) or others
     #[arg(long, value_name = "TRUTH.csv")]
     pub(crate) truth: PathBuf,
     /// The predictions: a table with the same channels
     #[arg(long, value_name = "PRED.csv")]
     pub(crate) pred: PathBuf,
-    /// Units of channels beside the six, as NAME=UNIT, separated by commas [default: 1]
+    /// Units of channels besides the six, as NAME=UNIT, separated by commas [default: 1]
     #[arg(long, value_name = "NAME=UNIT", value_delimiter = ',')]
     pub(crate) units: Vec<String>,
-    /// Periods of angles in degrees, as NAME=360, separated by commas: values that differ by a period say the same
+    /// Periods of angles in degrees, as NAME=360, separated by commas: values that differ by a period are equal
     #[arg(long, value_name = "NAME=DEGREES", value_delimiter = ',')]
     pub(crate) periods: Vec<String>,
-    /// Pair rows by this column of both tables, or by `order` [default: by sample, id, sample_id or index, where both tables have it; else by order]
+    /// Pair rows by this column of both tables, or by `order` [default: by sample, id, sample_id or index of both tables, else by order]
     #[arg(long, value_name = "NAME")]
     pub(crate) key: Option<RowKey>,
-    /// Count NaN and infinite cells as n_invalid instead of refusing the file
+    /// Count NaN and infinite cells as n_invalid instead of rejecting the file
     #[arg(long)]
     pub(crate) allow_invalid: bool,
-    /// Score shard K of N alone: rows that follow each other, of tables of any length; --state-out keeps what `taceva merge` joins to the
-    /// scores of all rows
+    /// Score only shard K of N: consecutive rows, of tables of any length; `taceva merge` merges the states of --state-out to the scores of
+    /// all rows
     #[arg(long, value_name = "K/N", conflicts_with_all = ["samples_out", "html", "figures"])]
     pub(crate) shard: Option<Shard>,
     #[command(flatten)]
@@ -131,7 +131,7 @@ pub(crate) struct Score {
     pub(crate) output: Output,
 }
 
-/// States are what `evaluate` and `score` write with --state-out. They must be of the same metrics, channels and settings.
+/// States are written by `evaluate` and `score` with --state-out. They must have the same metrics, channels and settings.
 #[derive(Debug, Args)]
 pub(crate) struct Merge {
     /// The states to merge

@@ -8,13 +8,13 @@ use taceva_template::{Kind, Name};
 
 use super::{ListFormat, Output, SeedArgs};
 
-/// Where plugins are searched for, and which of them are trusted; options of every command.
+/// Search path of plugins, and trusted plugins; options of every command.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct PluginArgs {
     /// Also search this folder for plugins, before all others; may be repeated
     #[arg(long = "plugin-dir", global = true, value_name = "DIR")]
     pub(crate) folders: Vec<PathBuf>,
-    /// Ask this interpreter of Python for the plugins in its environment, and run plugins in Python by it; may be repeated
+    /// Ask this Python interpreter for the plugins in its environment, and run Python plugins with it; may be repeated
     #[arg(long = "python", global = true, value_name = "FILE")]
     pub(crate) interpreters: Vec<PathBuf>,
     /// Run the code of this plugin in this process instead of a sandboxed one; may be repeated
@@ -25,27 +25,27 @@ pub(crate) struct PluginArgs {
 /// Plugins add sensors, robots, force transducers, lightings, changers and estimators in any language.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Plugin {
-    /// List the plugins that are found, and how each would be isolated; none of their code runs
+    /// List the plugins that are found, and their isolation; runs none of their code
     List(PluginList),
-    /// Print the manifest of a plugin; none of its code runs
+    /// Print the manifest of a plugin; runs none of its code
     Info(PluginInfo),
-    /// Create a plugin in Rust or Python: a project that works as it is, with one driver to be replaced
+    /// Create a plugin in Rust or Python: a working project with one driver to be replaced
     New(PluginNew),
     /// Write the headers for plugins in C and C++
     Headers(PluginHeaders),
-    /// Check a plugin against its interface, each check in a process of its own with a time limit
+    /// Check a plugin against its interface, each check in its own process with a time limit
     Check(PluginCheck),
-    /// Write plugin.toml from what the library says of itself
+    /// Write plugin.toml from the data in the library
     Manifest(PluginManifest),
-    /// Pack a plugin into one file, to be handed on: its manifest, libraries, licences and their digests
+    /// Pack a plugin into one file for distribution: its manifest, libraries, licences and their digests
     Pack(PluginPack),
-    /// Copy or unpack a plugin to where every command finds it: ~/.local/share/taceva/plugins
+    /// Copy or unpack a plugin to the search path of every command: ~/.local/share/taceva/plugins
     Install(PluginInstall),
-    /// Remove a plugin that was installed
+    /// Remove an installed plugin
     Uninstall(PluginUninstall),
-    /// Let a plugin reach what its manifest needs: a camera, a port, a machine, a file
+    /// Allow a plugin access to the needs of its manifest: a camera, a port, a machine, a file
     Allow(PluginAllow),
-    /// Take back what a plugin may reach
+    /// Revoke access of a plugin
     Deny(PluginDeny),
     /// Release a crashed plugin from quarantine
     Release(PluginRelease),
@@ -53,7 +53,7 @@ pub(crate) enum Plugin {
 
 #[derive(Debug, Args)]
 pub(crate) struct PluginList {
-    /// Also list plugins that are not used, and why
+    /// Also list unused plugins, with the reason
     #[arg(long)]
     pub(crate) all: bool,
     #[command(flatten)]
@@ -70,26 +70,26 @@ pub(crate) struct PluginInfo {
 
 #[derive(Debug, Args)]
 pub(crate) struct PluginNew {
-    /// What the plugin provides
+    /// The kind of plugin
     pub(crate) kind: NewKind,
-    /// Its name: lower-case letters, digits and `-`; the project is written to a folder of that name
+    /// The name: lower-case letters, digits and `-`; the project is written to a folder of that name
     pub(crate) name: Name,
     /// Depend on crates of the registry, by version, instead of copies under vendor/
     #[arg(long, conflicts_with = "language")]
     pub(crate) registry: bool,
-    /// What it is written in
+    /// The programming language
     #[arg(long, value_enum, default_value_t = Language::Rust)]
     pub(crate) language: Language,
 }
 
-/// What a new plugin is written in.
+/// Programming language of a new plugin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Language {
     Rust,
     Python,
 }
 
-/// What a new plugin provides.
+/// Kind of a new plugin.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum NewKind {
     Sensor,
@@ -120,22 +120,22 @@ pub(crate) struct PluginHeaders {
     pub(crate) out: Option<PathBuf>,
 }
 
-/// Each check runs in a sandboxed process that reaches what `taceva plugin allow` lets the plugin reach; with `--trust ID`, in one that
-/// is not confined. A real device is opened at most three times a check, and what needs one that is not there is skipped. A cause for
-/// which several checks fail is reported once. The exit code is 1 if a check fails.
+/// Each check runs in a sandboxed process with the access that `taceva plugin allow` grants; with `--trust ID`, in one that is not
+/// confined. A real device is opened at most three times for each check, and checks of a missing device are skipped. A common cause of
+/// several failures is reported once. The exit code is 1 if a check fails.
 #[derive(Debug, Args)]
 pub(crate) struct PluginCheck {
     /// The id of the plugin
     pub(crate) id: String,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    /// Make only the checks whose names begin so, separated by commas
+    /// Run only the checks whose names begin with these, separated by commas
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(crate) only: Vec<String>,
     /// The arguments of a driver, as DRIVER:KEY=VALUE;KEY=VALUE; may be repeated
     #[arg(long = "with", value_name = "DRIVER:ARGUMENTS")]
     pub(crate) arguments: Vec<String>,
-    /// Allow moving real robots, by up to 1 mm away from the gel and back, and real changers, to each thing that they hold
+    /// Allow moving real robots, by up to 1 mm away from the gel and back, and real changers, to each of their specimens or units
     #[arg(long = "move")]
     pub(crate) moves: bool,
     /// The time limit of each check, in seconds
@@ -145,32 +145,31 @@ pub(crate) struct PluginCheck {
     pub(crate) output: Output<ListFormat>,
 }
 
-/// Its manifest is read first, and its library loaded in a sandboxed process: one that is not what its manifest says is not installed.
-/// The manifest, the library for this machine and the licences beside them are copied.
+/// Reads the manifest first, and loads the library in a sandboxed process: a library that differs from its manifest is not installed. The
+/// manifest, the library for this machine and the licences beside them are copied.
 ///
-/// Of a file that `taceva plugin pack` wrote every part is compared with its digest, and whatever its manifest does not name is refused.
+/// Every part of a file from `taceva plugin pack` is compared with its digest; files that its manifest does not name are rejected.
 #[derive(Debug, Args)]
 pub(crate) struct PluginInstall {
-    /// The folder of its plugin.toml, or the file into which it was packed
+    /// The folder of its plugin.toml, or the packed file
     #[arg(value_name = "DIR|FILE.tar")]
     pub(crate) plugin: PathBuf,
-    /// Replace a plugin of that id that is installed already
+    /// Replace an installed plugin with the same id
     #[arg(long)]
     pub(crate) force: bool,
 }
 
-/// The library is loaded in a sandboxed process that reaches nothing, and asked for its id, its version, its drivers and what it needs.
-/// Comments stay, and so does `usb`. Without --write the manifest is printed, and the exit code is 1 if the file says
-/// otherwise.
+/// The library is loaded in a sandboxed process without any access, and asked for its id, its version, its drivers and its needs. Comments
+/// and `usb` stay. Without --write the manifest is printed, and the exit code is 1 if the file differs.
 #[derive(Debug, Args)]
 pub(crate) struct PluginManifest {
     /// The folder of plugin.toml
     #[arg(default_value = ".", value_name = "DIR")]
     pub(crate) folder: PathBuf,
-    /// The library, below that folder; as plugin.toml names it unless it is given
+    /// The library, below that folder [default: as plugin.toml names it]
     #[arg(long, value_name = "FILE")]
     pub(crate) library: Option<PathBuf>,
-    /// The licence of a manifest that is new, such as MIT
+    /// The licence of a new manifest, such as MIT
     #[arg(long, value_name = "SPDX")]
     pub(crate) license: Option<String>,
     /// Write plugin.toml instead of printing it
@@ -178,8 +177,8 @@ pub(crate) struct PluginManifest {
     pub(crate) write: bool,
 }
 
-/// The library is loaded in a sandboxed process first: one that is not what its manifest says is not packed. Whatever the manifest does not
-/// name is left out, but for licences. The same plugin gives the same bytes.
+/// The library is loaded in a sandboxed process first: a library that differs from its manifest is not packed. Files that the manifest does
+/// not name are left out, except licences. The same plugin gives the same bytes.
 #[derive(Debug, Args)]
 pub(crate) struct PluginPack {
     /// The folder of its plugin.toml
@@ -188,7 +187,7 @@ pub(crate) struct PluginPack {
     /// The file to write [default: ID-VERSION.tar]
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace a file that is there
+    /// Replace an existing file
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -208,24 +207,24 @@ pub(crate) struct PluginPack {
 pub(crate) struct PluginAllow {
     /// The id of the plugin
     pub(crate) id: String,
-    /// What it may reach, of what its manifest needs
+    /// Access to grant, from the needs of the manifest
     #[arg(required = true, value_name = "NEED")]
     pub(crate) needs: Vec<Need>,
 }
 
-/// What it may reach stays in the settings, for another version of it.
+/// The granted access stays in the settings, for another version of the plugin.
 #[derive(Debug, Args)]
 pub(crate) struct PluginUninstall {
     /// The id of the plugin
     pub(crate) id: PluginId,
 }
 
-/// Without NEED, everything is taken back that it may reach.
+/// Without NEED, all access is revoked.
 #[derive(Debug, Args)]
 pub(crate) struct PluginDeny {
     /// The id of the plugin
     pub(crate) id: PluginId,
-    /// What it may not reach any more, as it was allowed
+    /// Access to revoke, as it was granted
     #[arg(value_name = "NEED")]
     pub(crate) needs: Vec<Need>,
 }

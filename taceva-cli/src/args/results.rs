@@ -6,15 +6,16 @@ use clap::{ArgGroup, Args, Subcommand};
 
 use super::{Output, PageArgs, SeedArgs};
 
-/// Results are JSON files of `evaluate` and `score`, folders of runs (or their results.json), or names of the catalogue. Where two of them
-/// predict the same samples, mean absolute errors are compared sample by sample: the samples are read from `<name>.samples.csv` beside
-/// `<name>.json` (`--samples-out` writes it) and from `reports/` of a run. Other scores are compared by the intervals of both, with Holm's adjustment.
+/// Results are JSON files of `evaluate` and `score`, folders of runs (or their results.json), or names of the catalogue. If two of them
+/// predict the same samples, mean absolute errors are compared sample by sample. The samples are read from `<name>.samples.csv` beside
+/// `<name>.json` (`--samples-out` writes it) and from `reports/` of a run. Other scores are compared by the intervals of both, with Holm's
+/// adjustment.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
     /// The results to compare
     #[arg(required = true, value_name = "RESULT", num_args = 1..)]
     pub(crate) results: Vec<PathBuf>,
-    /// Metrics, separated by commas [default: all that have a direction]
+    /// Metrics, separated by commas [default: all with a direction]
     #[arg(long, value_name = "METRICS", value_delimiter = ',')]
     pub(crate) metrics: Vec<String>,
     /// The largest difference of scores that still counts as equal, such as mae.Fz=0.01; may be repeated
@@ -22,7 +23,7 @@ pub(crate) struct Compare {
     pub(crate) margins: Vec<String>,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    /// Print every pair with both p values and its interval, not only the decisions; the other formats always do
+    /// Print every pair with both p values and its interval, not only the decisions; other formats always do
     #[arg(long)]
     pub(crate) all: bool,
     #[command(flatten)]
@@ -72,7 +73,7 @@ Limits:
 A file to start from, with the measured value beside each limit:
   taceva accept --template RESULT.json --out limits.toml";
 
-/// The exit code is 1 if a limit is not met. A score that is missing or undefined meets none.
+/// The exit code is 1 if a limit is not met. A missing or undefined score meets no limit.
 #[derive(Debug, Args)]
 #[command(after_help = LIMITS_HELP)]
 pub(crate) struct Accept {
@@ -82,7 +83,7 @@ pub(crate) struct Accept {
     /// The limits: `[[limit]]` with metric, channel, unit, and most or least
     #[arg(long, value_name = "LIMITS.toml", required_unless_present = "template")]
     pub(crate) limits: Option<PathBuf>,
-    /// Write limits that this result meets, to start from: a fifth worse than measured, or the worse end of the interval
+    /// Write limits that this result meets, as a starting point: a fifth worse than measured, or the worse end of the interval
     #[arg(long, value_name = "RESULT.json", conflicts_with_all = ["result", "limits", "html", "date", "format"])]
     pub(crate) template: Option<PathBuf>,
     /// Write the data sheet: one HTML file that needs no network
@@ -101,14 +102,14 @@ pub(crate) struct CatalogueArgs {
     pub(crate) subject: CatalogueSubject,
 }
 
-/// What to do with the catalogue.
+/// Operation on the catalogue.
 #[derive(Debug, Subcommand)]
 pub(crate) enum CatalogueSubject {
     /// List every sensor
     List(Output),
-    /// Show what was published of one sensor, each number with its source
+    /// Show the published numbers of one sensor, each with its source
     Show(CatalogueShow),
-    /// Write the catalogue as pages: a list that filters and sorts, and one page for each sensor
+    /// Write the catalogue as pages: a list to filter and sort, and one page for each sensor
     Site(CatalogueSite),
 }
 

@@ -1,4 +1,4 @@
-//! Options that several commands have in common, each described once.
+//! Options that several commands share, each described once.
 
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ pub(crate) struct ModelArgs {
     pub(crate) settings: SettingArgs,
 }
 
-/// As [`ModelArgs`], where a fitted model can be given instead.
+/// As [`ModelArgs`], if a fitted model can be given instead.
 #[derive(Debug, Args)]
 pub(crate) struct OptionalModelArgs {
     #[arg(long = "model", value_name = "NAME", help = MODEL_HELP)]
@@ -35,9 +35,9 @@ pub(crate) struct OptionalModelArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SettingArgs {
-    /// A setting of the features or of the model, such as features=markers (pixels, markers, gradients, statistics, or several joined by +),
-    /// size=32x32, color=gray, difference=true, strength=0.1, input=signals where a recording has frames too, and device=wgpu for networks
-    /// in a program built for GPUs; may be repeated
+    /// A setting of the features or of the model, such as features=markers (pixels, markers, gradients, statistics, or several joined by
+    /// +), size=32x32, color=gray, difference=true, strength=0.1, input=signals for a recording that also has frames, and device=wgpu for
+    /// networks in a program built for GPUs; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
     /// Channels to predict, separated by commas [default: all]
@@ -47,17 +47,19 @@ pub(crate) struct SettingArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ViewArgs {
-    /// The view of recordings whose samples have several pictures, such as left, or several that stand side by side: left+right [default: the
-    /// only picture, or the view that a fitted model was fitted on]
+    /// The view of recordings whose samples have several pictures, such as left, or several side by side: left+right [default: the only
+    /// picture, or the view that a fitted model was fitted on]
     #[arg(id = "view", long = "view", value_name = "VIEW")]
     pub(crate) name: Option<String>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
-    /// How samples are divided: random, chronological, by-point, by-block, declared, by-column:NAME[=train:1,2;val:3;test:4], or all: every sample
-    /// is trained on, for a final model; cv:K or loo, alone or with random, by-point, by-block or by-column:NAME behind it, predicts each sample
-    /// once; of several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model for each [default: by-point where points have repeats, by groups or blocks of time where neighbours resemble each other, else random; `evaluate` of fewer than 1,000 groups: cv:5 of these]
+    /// The division of samples: random, chronological, by-point, by-block, declared, by-column:NAME[=train:1,2;val:3;test:4], or all: every
+    /// sample is trained on, for a final model; cv:K or loo, alone or followed by random, by-point, by-block or by-column:NAME, predicts
+    /// each sample once; for several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model for
+    /// each [default: by-point where points have repeats, by groups or blocks of time where neighbours resemble each other, else random;
+    /// `evaluate` of fewer than 1,000 groups: cv:5 of these]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,
     #[command(flatten)]
@@ -87,16 +89,16 @@ pub(crate) struct PartArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CacheArgs {
-    /// The folder in which results of earlier commands are found and kept: features of frames, and simulated recordings, models and
-    /// predictions of runs [default: taceva in the user's cache folder]
+    /// The folder for results of earlier commands: features of frames, and simulated recordings, models and predictions of runs [default:
+    /// taceva in the user's cache folder]
     #[arg(long, value_name = "DIR", conflicts_with = "no_cache")]
     pub(crate) cache: Option<PathBuf>,
-    /// Compute everything anew, and keep nothing
+    /// Compute everything again, and store nothing
     #[arg(long)]
     pub(crate) no_cache: bool,
 }
 
-/// What is scored, and what is written beside the scores.
+/// Options of scoring, and of the files beside the scores.
 #[derive(Debug, Args)]
 pub(crate) struct ScoringArgs {
     /// Metrics, separated by commas: ids, or the groups accuracy and all
@@ -107,10 +109,10 @@ pub(crate) struct ScoringArgs {
         default_value = "all"
     )]
     pub(crate) metrics: Vec<String>,
-    /// Take each sample as independent of the others: intervals are of samples then, and not of contact points
+    /// Treat each sample as independent of the others: intervals are then over samples instead of contact points
     #[arg(long)]
     pub(crate) independent: bool,
-    /// Facts about the sensor: footprint, greatest depth, opacity; metrics that need a fact that is missing are skipped
+    /// Facts about the sensor: footprint, greatest depth, opacity; metrics that need a missing fact are skipped
     #[arg(long, value_name = "SENSOR.toml")]
     pub(crate) sensor: Option<PathBuf>,
     /// Write the sums behind the scores, for `taceva merge`
@@ -142,7 +144,7 @@ pub(crate) struct ExplainArgs {
     pub(crate) is_wanted: bool,
 }
 
-/// Format and place of a result; `F` lists the formats.
+/// Format and path of a result; `F` lists the formats.
 #[derive(Debug, Args)]
 pub(crate) struct Output<F: ValueEnum + Default + Send + Sync + 'static = Format> {
     /// The format of the result

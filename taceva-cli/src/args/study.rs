@@ -1,4 +1,4 @@
-//! Arguments of the commands that plan and carry out scenes.
+//! Arguments of the commands that plan and run scenes.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{CacheArgs, Format, ListFormat, Output};
 
-/// A scene, and what overrides it.
+/// A scene, and its overrides.
 #[derive(Debug, Args)]
 pub(crate) struct SceneArgs {
     /// A file, or the name of a built-in scene: quick, paper
@@ -15,12 +15,13 @@ pub(crate) struct SceneArgs {
     /// The seed of all random numbers, instead of the scene's
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
-    /// The rig file with the robot, the force transducer and the sensor to measure with, instead of those that the scene names; an enabling switch that it names is held by somebody while the robot moves; see docs/rig.md
+    /// The rig file with the robot, the force transducer and the sensor to measure with, instead of those that the scene names; an operator
+    /// holds its enabling switch, if it names one, while the robot moves; see docs/rig.md
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
 }
 
-/// The folder of the run holds `report.html`, one file that needs no network; every figure as SVG and PDF in `figures/`; `results.json`
+/// The folder of the run contains `report.html`, one file that needs no network; every figure as SVG and PDF in `figures/`; `results.json`
 /// with every number; and the tables `scores.csv`, `scores.md` and `scores.tex`.
 #[derive(Debug, Args)]
 pub(crate) struct Run {
@@ -29,14 +30,14 @@ pub(crate) struct Run {
     /// The model of every sensor, instead of the scene's and its settings: ridge, fast, cnn, auto and others of `taceva fit`
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
-    /// A setting of the model or of its features, such as epochs=30 or size=32x32, beside those of the scene; may be repeated
+    /// A setting of the model or of its features, such as epochs=30 or size=32x32, in addition to those of the scene; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// Seeds that the model is fitted with, such as 1-5 or 1,2,7, to estimate the spread of scores over trainings. Presses and split stay the
-    /// same; reports are those of the first seed, with means and intervals over all of them
+    /// Seeds of the model, such as 1-5 or 1,2,7, to estimate the spread of scores over trainings. Presses and split stay the same; reports
+    /// are those of the first seed, with means and intervals over all of them
     #[arg(long, value_name = "SEEDS", value_parser = Seeds::read)]
     pub(crate) seeds: Option<Seeds>,
-    /// Visit every place in the air, 10 mm above the height of travel, with the guard of a run: nothing is pressed or recorded. Worth doing
+    /// Visit every place in the air, 10 mm above the height of travel, with the guard of a run: nothing is pressed or recorded. Recommended
     /// on a real rig before the first press
     #[arg(long, conflicts_with_all = ["resume", "force", "folder"])]
     pub(crate) air: bool,
@@ -49,11 +50,11 @@ pub(crate) struct Run {
     /// Remove the run in that folder, or the last one, and start again
     #[arg(long)]
     pub(crate) force: bool,
-    /// Show the run on a page of this machine, whose address is printed: frames, force against its limits, presses, questions and a stop button. It is
-    /// no safety function
+    /// Show the run on a page of this machine, whose address is printed: frames, force against its limits, presses, questions and a stop
+    /// button. It is no safety function
     #[arg(long)]
     pub(crate) page: bool,
-    /// The port of that page on 127.0.0.1, 0 for any that is free
+    /// The port of that page on 127.0.0.1, 0 for any free port
     #[arg(long, value_name = "N", default_value_t = 0, requires = "page")]
     pub(crate) port: u16,
     #[command(flatten)]
@@ -76,7 +77,7 @@ pub(crate) struct PlanArgs {
 pub(crate) struct Seeds(pub(crate) Vec<u64>);
 
 impl Seeds {
-    /// The largest number of seeds; more are taken for a typing error.
+    /// Maximum number of seeds; more are treated as a typing error.
     const MOST: usize = 100;
 
     fn read(text: &str) -> Result<Seeds, String> {

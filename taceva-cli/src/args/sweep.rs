@@ -6,7 +6,7 @@ use clap::{Args, Subcommand, ValueEnum};
 
 use super::{CacheArgs, Output};
 
-/// An example of the file.
+/// An example of a sweep file.
 const FILE_HELP: &str = "\
 The file:
   sweep_version = 1
@@ -35,8 +35,8 @@ Tables that somebody else predicted, in shards, instead of recordings and models
 
 The same command again goes on where it was stopped. `taceva sweep show FILE --by model,size` prints results.";
 
-/// Every combination of recordings, models, settings, splits and seeds is a task; its result is a file named after all that decides it. The
-/// table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed.
+/// Every combination of recordings, models, settings, splits and seeds is a task; its result file is named by the digest of all its inputs.
+/// The table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = FILE_HELP)]
 pub(crate) struct Sweep {
@@ -54,45 +54,45 @@ pub(crate) struct SweepRun {
     /// The folder of results [default: FILE.sweep, beside the file]
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Print how many tasks there are, what is found already, and what the rest would take by what was measured so far; carry nothing out
+    /// Print the number of tasks and of results found, and the estimated cost of the rest; run nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
-    /// Try tasks again that failed before
+    /// Retry tasks that failed before
     #[arg(long)]
     pub(crate) retry_failed: bool,
-    /// Only tasks of which this holds: a key or how it begins, or terms such as "model = ridge and seed != 3"
+    /// Only tasks that match: a key or its beginning, or terms such as "model = ridge and seed != 3"
     #[arg(long, value_name = "KEY|WHERE")]
     pub(crate) only: Option<String>,
-    /// Where tasks run
+    /// The engine that runs the tasks
     #[arg(long, value_enum, value_name = "ENGINE", default_value_t = SweepEngine::Here)]
     pub(crate) on: SweepEngine,
     #[command(flatten)]
     pub(crate) cache: CacheArgs,
 }
 
-/// Where tasks run.
+/// Engine that runs the tasks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum SweepEngine {
-    /// In workers of this process, as many as --jobs says
+    /// In workers of this process, as many as --jobs states
     Here,
     /// As jobs of Slurm; the command returns once they are submitted
     Slurm,
-    /// By another engine: the list of tasks is written, and how one of them is carried out is printed
+    /// By another engine: writes the list of tasks, and prints the command of a task
     List,
 }
 
-/// What to do with a sweep.
+/// Operation on a sweep.
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepSubject {
-    /// Print means over tasks, by whatever varies
+    /// Print means over tasks, grouped by any varying word
     Show(SweepShow),
-    /// Print how many tasks are done, and the jobs that the scheduler has
+    /// Print the number of finished tasks, and the jobs of the scheduler
     Status(SweepFolderArgs),
     /// Cancel the jobs of a sweep; results stay
     Cancel(SweepFolderArgs),
-    /// Make the table and the pages of the results that are there; the exit code is 1 if some are missing
+    /// Make the table and the pages of the existing results; the exit code is 1 if some are missing
     Collect(SweepCollect),
-    /// Carry out some tasks of a list, as a job of a scheduler does
+    /// Run some tasks of a list, as a job of a scheduler does
     Task(SweepTask),
 }
 
@@ -142,7 +142,7 @@ pub(crate) struct SweepTask {
     /// Positions in the list, from 0, separated by commas
     #[arg(long, value_name = "N,…", value_delimiter = ',', required = true)]
     pub(crate) at: Vec<usize>,
-    /// Try tasks again that failed before
+    /// Retry tasks that failed before
     #[arg(long)]
     pub(crate) retry_failed: bool,
     #[command(flatten)]

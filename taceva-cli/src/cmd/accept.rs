@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
     })
 }
 
-/// The one sensor of a result.
+/// The single sensor of a result.
 fn study_of(result: &Path) -> anyhow::Result<Study> {
     let mut studies = results::read(result)?;
     match (studies.pop(), studies.len()) {
@@ -78,7 +78,7 @@ fn study_of(result: &Path) -> anyhow::Result<Study> {
     }
 }
 
-/// The pictures of the sensor, where `result` is a report of a run with its recording; a failure to read them is reported and does not stop the
+/// The pictures of the sensor, if `result` is a report of a run with its recording. A read failure is reported and does not stop the
 /// command, since limits apply to numbers.
 fn pictures(result: &Path, context: &Context) -> Option<Triple> {
     let recording = recording_of(result)?;

@@ -1,4 +1,4 @@
-//! What is written beside the scores of an evaluation.
+//! Files beside the scores of an evaluation.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::args::ScoringArgs;
 use crate::output;
 use crate::report::page::Page;
 
-/// Files beside the scores, where they are asked for.
+/// Requested files beside the scores.
 pub(super) struct Attachments<'a> {
     page: Option<&'a Path>,
     figures: Option<&'a Path>,
@@ -47,7 +47,7 @@ impl<'a> Attachments<'a> {
     }
 }
 
-/// Adds to a report the digest of the table of its samples, which ties the two files together.
+/// Adds the digest of the table of samples to a report, which ties the two files together.
 pub(super) fn note_samples(report: &mut EvaluationReport) -> anyhow::Result<()> {
     if let Some(samples) = &report.samples {
         let mut table = Vec::new();

@@ -1,4 +1,4 @@
-//! Who is there while a run goes on: somebody at the terminal, at a page, or nobody.
+//! Operator and viewer of a run: at the terminal, at a page, or none.
 
 use std::sync::{Arc, Mutex};
 
@@ -11,7 +11,7 @@ use super::operator;
 use crate::args::Run;
 use crate::stderr;
 
-/// The page of a run, if one was asked for, and whoever can be asked.
+/// The page of a run, if requested, and the operator, if any.
 pub(super) struct Attended {
     page: Option<OnPage>,
     operator: Option<Box<Mutex<dyn Operator + Send>>>,
@@ -19,7 +19,7 @@ pub(super) struct Attended {
 }
 
 impl Attended {
-    /// Opens the page that `args` asks for and prints its address, even if nothing else is to be said: without it nobody finds the page.
+    /// Opens the page of `args` and prints its address even with `--quiet`, because the page cannot be found without it.
     pub(super) fn open(args: &Run, scene: &str) -> anyhow::Result<Attended> {
         let page = args
             .page
@@ -43,17 +43,17 @@ impl Attended {
         })
     }
 
-    /// Who can be asked.
+    /// The operator who can be asked, if any.
     pub(super) fn operator(&self) -> Option<&Mutex<dyn Operator + Send>> {
         self.operator.as_deref()
     }
 
-    /// Who looks on.
+    /// The viewer of the devices, if any.
     pub(super) fn viewer(&self) -> Option<&Arc<dyn Viewer>> {
         self.viewer.as_ref()
     }
 
-    /// Says on the page how it ended.
+    /// Shows the end of the run on the page.
     pub(super) fn ended(&self, words: &str) {
         let live: Option<Live> = self.page.as_ref().map(OnPage::live);
         if let Some(live) = live {

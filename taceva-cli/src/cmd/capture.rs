@@ -140,7 +140,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     })
 }
 
-/// The devices that the arguments name, open.
+/// Opens the devices of the arguments.
 pub(super) fn open(args: &LiveArgs, context: &Context) -> anyhow::Result<(LiveSpec, LiveDevices)> {
     let spec = LiveSpec::new(
         args.sensor.as_deref(),
@@ -170,7 +170,7 @@ fn line(state: &CaptureState, has_force: bool) -> String {
     line
 }
 
-/// A force that is so far below 0 pulls, which no hand does to a gel, in N.
+/// Force below which a reading means pulling, N; a hand does not pull a gel.
 const PULLED_N: f64 = -0.3;
 
 fn summarise(

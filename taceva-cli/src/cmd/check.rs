@@ -43,7 +43,7 @@ pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::findings(&found, args.output.format, out)
     })?;
-    // What cannot be taken as one is refused after each was looked at.
+    // Recordings that cannot be joined are rejected after each was checked.
     Dataset::joined(recordings)?;
     let worst = found.iter().filter_map(|(_, report)| report.worst()).max();
     Ok(match worst {

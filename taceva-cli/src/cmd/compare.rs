@@ -31,7 +31,7 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
         seed: args.seed.value,
     };
     let comparison = compare(&studies, &request);
-    // Only a terminal has no room for whole lines.
+    // Only a terminal has too little width for whole lines.
     let is_seen = args.output.path.is_none() && std::io::stdout().is_terminal();
     if args.output.format == Format::Text {
         let text = match args.all {

@@ -30,7 +30,7 @@ pub(crate) fn run(args: &Output<ListFormat>, context: &Context) -> anyhow::Resul
     })
 }
 
-/// The plugins that need what their user does not allow.
+/// The plugins with needs that their user does not allow.
 fn permissions(host: &PluginHost) -> Vec<Diagnosis> {
     let findings = host.plugins().iter().filter_map(|plugin| {
         let remedy = report::plugin::remedy(host, plugin)?;

@@ -11,10 +11,10 @@ use crate::amount::bytes;
 use crate::disk_space;
 use crate::progress::spoken;
 
-/// Work that takes less time is not announced, nor is work that writes fewer bytes.
+/// Minimum duration of announced work, and minimum number of bytes written.
 const LONG: Duration = Duration::from_secs(5);
 const MUCH: u64 = 50_000_000;
-/// The number of pictures that are read without an estimate of the time, and how many are read for an estimate.
+/// Number of pictures up to which no time is estimated, and number of pictures read for an estimate.
 const MANY: usize = 200;
 const TRIED: usize = 4;
 
@@ -29,7 +29,7 @@ pub(super) fn print(effort: &Effort, dataset: &Dataset, cache: Option<&Cache>, c
     }
 }
 
-/// The time to read the pictures of `rows`, estimated from a few of them; `None` where they are few, or one cannot be read, which the work reports.
+/// Estimated time to read the pictures of `rows`; `None` if they are few, or if a sample cannot be read, which the work reports.
 fn time_of(rows: &[usize], dataset: &Dataset, jobs: usize) -> Option<Duration> {
     if rows.len() < MANY {
         return None;

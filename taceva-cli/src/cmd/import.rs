@@ -39,7 +39,7 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         );
     }
     if let Some(target) = target {
-        // What a kill left of an earlier one first: a dataset that was set aside stands in its place again.
+        // Recovers an interrupted replacement first: a dataset that was set aside is restored.
         settle(target)?;
         match args.extend.is_some() {
             true => drop(super::open(target)?),
@@ -88,16 +88,16 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Letters of a line where standard output is no terminal, and the most of one where it is.
+/// Maximum length of a line, characters; also the length without a terminal.
 const LINE: usize = 110;
 
-/// Letters of a line of the terminal.
+/// Length of a line of the terminal.
 fn line() -> usize {
     let size = terminal_size::terminal_size();
     size.map_or(LINE, |(width, _)| usize::from(width.0).min(LINE))
 }
 
-/// The folder that is imported: the one that was named, or what an archive holds.
+/// The folder to import: the named one, or the content of an archive.
 enum Source {
     Folder(PathBuf),
     Archive(UnpackedArchive),
@@ -112,7 +112,7 @@ impl Source {
         if !UnpackedArchive::is_archive(path) {
             return Ok(Source::Folder(path.to_owned()));
         }
-        // On the disk of the dataset, which will hold as much.
+        // On the disk of the dataset, which needs as much space.
         let beside = match target.filter(|_| !args.explain.is_wanted) {
             Some(target) => parent_of(target).to_owned(),
             None => std::env::temp_dir(),
@@ -127,7 +127,7 @@ impl Source {
         }
     }
 
-    /// What came of it; an error names the member of an archive, and not where that was unpacked.
+    /// Converts an error to name the member of an archive instead of its unpacked path.
     fn named<T>(&self, outcome: Result<T, DatasetError>) -> Result<T, DatasetError> {
         outcome.map_err(|error| match self {
             Source::Folder(_) => error,
@@ -135,7 +135,7 @@ impl Source {
         })
     }
 
-    /// What is said of it, likewise.
+    /// Converts a message to name the member of an archive instead of its unpacked path.
     fn said(&self, what: &impl std::fmt::Display) -> String {
         match self {
             Source::Folder(_) => what.to_string(),
@@ -180,7 +180,7 @@ fn map_written(
     Ok(exit::DONE)
 }
 
-/// The programs that decode clips which are not decoded here.
+/// The programs that decode unsupported clips.
 fn decoders(args: &Import) -> anyhow::Result<Decoders> {
     let named = args.ffmpeg.clone();
     let named = named.or_else(|| std::env::var_os("TACEVA_FFMPEG").map(PathBuf::from));
@@ -199,7 +199,7 @@ fn decoders(args: &Import) -> anyhow::Result<Decoders> {
     })
 }
 
-/// The program of this name in a folder of PATH.
+/// Path of the program of this name on PATH.
 fn on_path(name: &Path) -> Option<PathBuf> {
     let folders = std::env::var_os("PATH")?;
     let mut programs = std::env::split_paths(&folders).map(|folder| folder.join(name));
@@ -217,7 +217,7 @@ fn map(args: &Import, source: &Source) -> anyhow::Result<ImportMap> {
     Ok(ImportMap::read(path)?)
 }
 
-/// The preset that is named.
+/// The named preset.
 fn preset(args: &Import) -> anyhow::Result<Option<Preset>> {
     let Some(name) = &args.preset else {
         return Ok(None);

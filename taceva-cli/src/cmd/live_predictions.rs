@@ -1,4 +1,4 @@
-//! Predictions of a fitted model while a camera runs: over the picture of a page, on the terminal, and summed up at the end.
+//! Predictions of a fitted model while a camera runs: over the picture of a page, on the terminal, and as a summary at the end.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,12 +10,12 @@ use taceva_live::{Live, Overlay, PredictedFrames, PredictedValue};
 
 use super::Context;
 
-/// The time after their stamps within which most pictures are to be shown, in ms.
+/// Target latency of pictures after their stamps, ms.
 const SOON_MS: usize = 100;
-/// Most, as a share.
+/// Share of pictures that should meet the target.
 const MOST: f64 = 0.95;
 
-/// Reads the model at `path`, before any device is opened for it.
+/// Reads the model at `path`, before any device is opened.
 pub(super) fn read_model(path: &Path, context: &Context) -> anyhow::Result<LiveModel> {
     Ok(LiveModel::new(context.models()?.open(path)?, path)?)
 }
@@ -26,12 +26,12 @@ pub(super) struct LivePredictions<'a> {
     page: Live,
     /// The newest prediction in words.
     latest: Mutex<String>,
-    /// From the stamps of frames until their pictures went to a browser.
+    /// Latencies from the stamps of frames until their pictures were sent to a browser.
     sent: Arc<Mutex<Latencies>>,
 }
 
 impl<'a> LivePredictions<'a> {
-    /// Predictions of `model` on `page`, which is told whose they are.
+    /// Predictions of `model` on `page`, which shows the name of the model.
     pub(super) fn new(model: &'a LiveModel, page: Live, context: &Context) -> LivePredictions<'a> {
         let words = by(model);
         page.predictor(&words);
@@ -57,7 +57,6 @@ impl<'a> LivePredictions<'a> {
         }
     }
 
-    /// Shows a prediction.
     pub(super) fn show(&self, frame: &Frame, prediction: &Prediction, counts: &PredictionCounts) {
         let channels = self.model.channels().iter().zip(&prediction.values);
         let values = channels.clone().map(|(channel, value)| {
@@ -79,7 +78,7 @@ impl<'a> LivePredictions<'a> {
         lock(&self.latest).clone()
     }
 
-    /// Says what became of the frames, however the work ended.
+    /// Prints the statistics of the frames, however the work ended.
     pub(super) fn summarise(&self, counts: &PredictionCounts, context: &Context) {
         for line in summary(self.model, counts, &lock(&self.sent)) {
             context.say(format_args!("{line}"));

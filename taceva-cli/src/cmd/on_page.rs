@@ -1,4 +1,4 @@
-//! What devices do, shown on a page.
+//! Devices shown on a page.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -12,14 +12,14 @@ use taceva_protocol::{ContentId, Event, Plan};
 
 use crate::progress;
 
-/// A page that is open, and who writes on it.
+/// An open page, and its writer.
 pub(crate) struct OnPage {
     page: Page,
     shown: Arc<Shown>,
 }
 
 impl OnPage {
-    /// Opens a page called `title` whose button stops the program as a signal does.
+    /// Opens a page called `title` whose stop button acts like a signal.
     pub(crate) fn open(title: &str, port: u16) -> anyhow::Result<OnPage> {
         let live = Live::new(title);
         let page = Page::open(&live, port, progress::stop)?;
@@ -33,31 +33,31 @@ impl OnPage {
         })
     }
 
-    /// What a browser opens.
+    /// The address for a browser.
     pub(crate) fn url(&self) -> String {
         self.page.url()
     }
 
-    /// What it shows.
+    /// The state that the page shows.
     pub(crate) fn live(&self) -> Live {
         self.shown.live.clone()
     }
 
-    /// Who sees the devices for it.
+    /// The viewer that shows the devices on the page.
     pub(crate) fn viewer(&self) -> Arc<dyn Viewer> {
         Arc::clone(&self.shown) as Arc<dyn Viewer>
     }
 }
 
-/// Writes what it sees on the page.
+/// Writes device data to the page.
 struct Shown {
     live: Live,
     presses: Mutex<Presses>,
-    /// Frames of a run that were taken again.
+    /// Number of frames of a run that were retried.
     retried: AtomicU64,
 }
 
-/// Which place on the page each press is.
+/// Index of each press among the places on the page.
 #[derive(Default)]
 struct Presses {
     numbers: HashMap<ContentId, usize>,

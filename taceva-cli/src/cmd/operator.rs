@@ -1,4 +1,4 @@
-//! The person at a rig, asked at the terminal.
+//! The operator of a rig, asked at the terminal.
 
 use std::io::{BufRead, BufReader, IsTerminal, Read, Stdin};
 use std::time::Duration;
@@ -10,19 +10,19 @@ use taceva_core::shown;
 
 use crate::{progress, stderr};
 
-/// A terminal that somebody reads and types at.
+/// An interactive terminal.
 pub(in crate::cmd) struct Terminal<I: Read> {
     input: BufReader<I>,
     say: fn(&str),
     is_stopped: fn() -> bool,
-    /// The page that shows each question too, whichever is answered first.
+    /// The page that shows each question too; the first answer is used.
     page: Option<Live>,
 }
 
-/// Whoever is at the terminal of this program.
+/// The terminal of this program.
 pub(in crate::cmd) type AtTerminal = Terminal<Stdin>;
 
-/// The terminal of this program, if there is somebody at it; what it asks stands on `page` too.
+/// The terminal of this program, if it is interactive; questions are also shown on `page`.
 pub(in crate::cmd) fn terminal(page: Option<Live>) -> Option<AtTerminal> {
     let is_there = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
     is_there.then(|| Terminal {
@@ -33,7 +33,7 @@ pub(in crate::cmd) fn terminal(page: Option<Live>) -> Option<AtTerminal> {
     })
 }
 
-/// What is typed for each answer.
+/// The keys for each answer.
 fn keys(question: &Question) -> String {
     match question {
         Question::Enable(robot) => {
@@ -70,7 +70,7 @@ impl<I: Read + Waits> Operator for Terminal<I> {
             }
             let mut line = String::new();
             match self.input.read_line(&mut line) {
-                // Who closed the terminal is gone.
+                // The terminal was closed.
                 Ok(0) | Err(_) => return Answer::Stop,
                 Ok(_) => {}
             }
@@ -82,7 +82,7 @@ impl<I: Read + Waits> Operator for Terminal<I> {
     }
 }
 
-/// The answer that a line means. A robot is let move by its name alone.
+/// The answer in a line. Only the name of a robot permits its motion.
 fn answer(question: &Question, line: &str) -> Option<Answer> {
     let typed = line.trim_end_matches(['\r', '\n']).trim();
     match (question, typed) {
@@ -96,9 +96,9 @@ fn answer(question: &Question, line: &str) -> Option<Answer> {
     }
 }
 
-/// Input that can be waited for without being read.
+/// Input that can be waited for without reading.
 pub(in crate::cmd) trait Waits {
-    /// Waits for a tenth of a second at most; whether there is something to read, or an end.
+    /// Waits for at most a tenth of a second; true if there is input, or an end.
     fn has_input(&self) -> bool;
 }
 
@@ -113,7 +113,7 @@ impl<I: std::os::fd::AsFd> Waits for I {
         };
         match poll(&mut polled, Some(&tenth)) {
             Ok(ready) => ready > 0,
-            // A signal came: whoever asks looks why.
+            // A signal arrived: the caller checks for it.
             Err(rustix::io::Errno::INTR) => false,
             Err(_) => true,
         }
@@ -134,7 +134,7 @@ mod tests {
 
     use super::*;
 
-    /// What is answered to each of `count` questions by who types `text` and hangs up.
+    /// The answers to `count` questions if the user types `text` and hangs up.
     fn answers(text: &str, count: usize) -> Vec<Answer> {
         answers_to(&Question::Unit("b".to_owned()), text, count)
     }
@@ -169,7 +169,7 @@ mod tests {
     fn a_robot_is_let_move_by_its_whole_name_and_by_nothing_else() {
         use Answer::{Done, Stop};
         let enable = Question::Enable("ufactory/xarm".to_owned());
-        // An Enter that was meant for another question, a part of the name, and no skip.
+        // An Enter meant for another question, a part of the name, and no skip.
         let typed = "\ns\nyes\nxarm\n ufactory/xarm \n";
         assert_eq!(answers_to(&enable, typed, 1), [Done]);
         assert_eq!(answers_to(&enable, "\nq\n", 1), [Stop]);

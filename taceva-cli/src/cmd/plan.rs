@@ -31,7 +31,7 @@ pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     })
 }
 
-/// Says which devices of the scene need what their user does not allow, each once; whether there are any.
+/// Prints the devices of the scene with needs that their user does not allow, each once; returns true if there are any.
 fn say_withheld(planned: &PlannedScene, host: &PluginHost) -> bool {
     let mut said = BTreeSet::new();
     for (_, device) in planned.scene.drivers() {

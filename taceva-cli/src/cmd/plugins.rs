@@ -1,4 +1,4 @@
-//! The plugins of this program, and its drivers with theirs.
+//! The plugins of this program, and its drivers including theirs.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -16,25 +16,25 @@ use taceva_models::Models;
 use super::Context;
 use crate::stderr;
 
-/// The models that this program was built with.
+/// The built-in models.
 fn compiled() -> Models {
     Models::builtin().with_libraries(taceva_models::library_models())
 }
 
 impl Context {
-    /// Every driver: those linked in, and those of plugins, also beside the scene at `scene`.
+    /// All drivers: those linked in, and those of plugins, also beside the scene at `scene`.
     pub(crate) fn drivers(&self, scene: Option<&Path>) -> anyhow::Result<Drivers> {
         let host = self.plugins(scene)?;
         Ok(Drivers::builtin()?.with_plugins(&host)?)
     }
 
-    /// Every model: those built in, those of libraries, and those of plugins.
+    /// All models: those built in, those of libraries, and those of plugins.
     pub(crate) fn models(&self) -> anyhow::Result<Models> {
         let host = self.plugins(None)?;
         Ok(compiled().with(host.models()))
     }
 
-    /// Every driver and every model, also of plugins beside the scene at `scene`.
+    /// All drivers and models, also of plugins beside the scene at `scene`.
     pub(crate) fn equipment(&self, scene: &Path) -> anyhow::Result<(Drivers, Models)> {
         let host = self.plugins(Some(scene))?;
         let drivers = Drivers::builtin()?.with_plugins(&host)?;
@@ -64,8 +64,7 @@ impl Context {
         Ok(PluginHost::new(plugins, config, self.plugin_log()))
     }
 
-    /// The interpreters that are asked for plugins: those that were typed, those of the settings, and that of the environment in which
-    /// this program lies.
+    /// The interpreters to ask for plugins: those of the arguments, those of the settings, and that of the environment of this program.
     fn interpreters(&self, config: &PluginConfig) -> anyhow::Result<Vec<PathBuf>> {
         let typed = self
             .plugins
@@ -80,7 +79,7 @@ impl Context {
         Ok(interpreters)
     }
 
-    /// Logs of plugins go to standard error: warnings always, everything with `-v`.
+    /// Logs of plugins on standard error: warnings always, everything with `-v`.
     fn plugin_log(&self) -> PluginLog {
         let least = match (self.quiet, self.verbose) {
             (true, _) => Level::Error,

@@ -29,7 +29,7 @@ pub(crate) fn run(args: &Preview, context: &Context) -> anyhow::Result<u8> {
     }
     page.live()
         .stage(&format!("{}; nothing is recorded", live.frame_info()));
-    // Even if nothing else is to be said: without it nobody finds the page.
+    // Printed even with `--quiet`, because the page cannot be found without it.
     stderr::say(format_args!("page: {}", page.url()));
     context.say(format_args!("Ctrl-C ends it"));
     let shown = model

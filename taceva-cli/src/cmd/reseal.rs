@@ -13,9 +13,9 @@ use super::{Context, Usage};
 use crate::args::Reseal;
 use crate::{exit, output};
 
-/// What describes a dataset.
+/// Name of the header of a dataset.
 const HEADER: &str = "dataset.toml";
-/// Files larger than this are not edited by hand.
+/// Maximum file size, bytes: larger files are not edited by hand.
 const MOST: u64 = 1 << 30;
 
 pub(crate) fn run(args: &Reseal, context: &Context) -> anyhow::Result<u8> {
@@ -46,7 +46,7 @@ pub(crate) fn run(args: &Reseal, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// The file that is sealed: of a dataset its description.
+/// The sealed file; for a dataset its header.
 fn file_of(named: &Path) -> PathBuf {
     match named.is_dir() {
         true => named.join(HEADER),
@@ -72,7 +72,7 @@ fn text_of(path: &Path) -> anyhow::Result<String> {
     })
 }
 
-/// Replaces the file by the accepted one if that can be read back; else leaves it unchanged.
+/// Replaces the file by the accepted text if that can be read back; else leaves it unchanged.
 fn replace(path: &Path, before: &str, accepted: &str, is_header: bool) -> anyhow::Result<()> {
     let write = |text: &str| output::write(Some(path), |out| out.write_all(text.as_bytes()));
     write(accepted)?;
@@ -96,12 +96,12 @@ fn readable(path: &Path, text: &str) -> anyhow::Result<()> {
     }
 }
 
-/// The day of a time, in UTC: `2026-11-22`.
+/// The UTC day of a time: `2026-11-22`.
 fn date_of(time: SystemTime) -> String {
     let days = time
         .duration_since(UNIX_EPOCH)
         .map_or(0, |since| since.as_secs() / 86_400);
-    // Of the calendar that repeats every 400 years, whose years begin in March here.
+    // In the calendar that repeats every 400 years, with years that begin in March.
     let days = days + 719_468;
     let (era, day) = (days / 146_097, days % 146_097);
     let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;

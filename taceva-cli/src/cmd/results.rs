@@ -1,4 +1,4 @@
-//! Reading of existing results.
+//! Reader of existing results.
 
 mod samples;
 
@@ -19,13 +19,13 @@ const RESULTS: &str = "results.json";
 /// Results with the samples behind them.
 #[derive(Default)]
 pub(super) struct Found {
-    /// The studies, each with its samples where they were found.
+    /// The studies, each with its samples if they were found.
     pub(super) studies: Vec<Study>,
-    /// A remark for each study whose samples were not found.
+    /// A message for each study whose samples were not found.
     pub(super) missing: Vec<String>,
 }
 
-/// Refuses a result that is named twice.
+/// Rejects a result that is named twice.
 pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
     let meant = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
     for (position, path) in named.iter().enumerate() {
@@ -42,7 +42,7 @@ pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The studies of every result: of files, of folders of runs, or of the catalogue where no file has that name.
+/// The studies of all results: files, folders of runs, or names of the catalogue if there is no such file.
 pub(super) fn find_all(named: &[PathBuf]) -> anyhow::Result<Found> {
     let mut all = Found::default();
     for path in named {
@@ -53,7 +53,7 @@ pub(super) fn find_all(named: &[PathBuf]) -> anyhow::Result<Found> {
     Ok(all)
 }
 
-/// The studies of every result, without remarks on samples.
+/// The studies of all results, without messages about samples.
 pub(super) fn read_all(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
     find_all(named).map(|found| found.studies)
 }
@@ -94,7 +94,7 @@ fn find(path: &Path) -> anyhow::Result<Found> {
     samples::beside(&file, studies)
 }
 
-/// Writes a table to the place and in the format of `to`; `json` makes JSON.
+/// Writes a table to the path and in the format of `to`; `json` makes JSON.
 pub(super) fn write(
     table: &Table,
     to: &Output,

@@ -23,7 +23,7 @@ pub(crate) fn run(args: &RigCommand, context: &Context) -> anyhow::Result<u8> {
     }
 }
 
-/// Replaces the rig file at `path` by `text`, whole or not at all.
+/// Replaces the rig file at `path` by `text` atomically.
 fn write_anew(path: &Path, text: &str) -> anyhow::Result<()> {
     let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());

@@ -18,11 +18,11 @@ use super::{Context, Usage, cache, scene};
 use crate::args::{Format, Run};
 use crate::{exit, output, progress, report};
 
-/// The folder in which runs are numbered.
+/// The parent folder of numbered runs.
 const RUNS: &str = "runs";
 /// The page that shows a run.
 const PAGE: &str = "report.html";
-/// Every number of a run.
+/// The file with every number of a run.
 const RESULTS: &str = "results.json";
 
 pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {

@@ -40,7 +40,7 @@ pub(super) fn to_run(args: &Run, drivers: &Drivers) -> anyhow::Result<PlannedSce
 /// Prints the cost of a scene: presses, the time of their motion on a rig, and bytes on the disk of `target`.
 ///
 /// # Errors
-/// If its pictures cannot fit there.
+/// If its pictures exceed the free space there.
 pub(super) fn print_cost(
     planned: &PlannedScene,
     target: &Path,
@@ -64,7 +64,7 @@ pub(super) fn print_cost(
     Ok(())
 }
 
-/// Prints what a person at a real rig should know before anything moves: the limits that hold there, and what hands are needed for.
+/// Prints what the operator of a real rig must know before any motion: the limits, and the manual steps.
 pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Context) {
     for study in &planned.studies {
         let (Some(rig), Some(limits)) = (study.rig(), &study.plan.limits) else {
@@ -90,7 +90,7 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
     }
 }
 
-/// A file of that name comes first, so that a built-in scene never hides it.
+/// The text of a scene; a file of that name comes first, so that a built-in scene never hides it.
 fn text(named: &str) -> anyhow::Result<SceneText> {
     let path = Path::new(named);
     if path.is_file() {

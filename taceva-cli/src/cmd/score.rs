@@ -58,12 +58,12 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Whether nothing is asked for but the scores, and the state, of all rows: no plan, which says how many there are before any is scored.
+/// True if only the scores, and the state, of all rows are requested, without a plan, which needs the number of rows first.
 fn scores_alone(args: &Score, context: &Context) -> bool {
     args.shard.is_none() && !args.scoring.explain.is_wanted && !context.verbose
 }
 
-/// Scores tables that fit the memory; `None` where only the plan is asked for.
+/// Scores tables that fit in memory; `None` if only the plan is requested.
 fn whole(
     request: ScoreRequest,
     args: &Score,
@@ -83,7 +83,7 @@ fn whole(
     Ok(Some(scored))
 }
 
-/// Scores a shard of tables of any length, or all of it; `None` where only the plan is asked for.
+/// Scores a shard of tables of any length, or all of it; `None` if only the plan is requested.
 fn by_shard(
     request: &ScoreRequest,
     args: &Score,
@@ -100,7 +100,7 @@ fn by_shard(
     Ok(Some(tables.score(request, shard, &context.progress)?))
 }
 
-/// `NAME=UNIT`: a unit that values are kept in, since tables of scores are not converted.
+/// `NAME=UNIT`: a unit without conversion, since tables of scores are not converted.
 fn unit(word: &str) -> anyhow::Result<(String, Unit)> {
     let (name, symbol) = word
         .split_once('=')
@@ -121,7 +121,7 @@ fn unit(word: &str) -> anyhow::Result<(String, Unit)> {
     Ok((name.to_owned(), unit))
 }
 
-/// `NAME=DEGREES`: an angle whose values repeat.
+/// `NAME=DEGREES`: an angle with this period.
 fn period(word: &str) -> anyhow::Result<(String, u16)> {
     let parts = word.split_once('=');
     let read = parts.and_then(|(name, degrees)| Some((name.to_owned(), degrees.parse().ok()?)));

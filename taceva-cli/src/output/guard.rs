@@ -1,27 +1,27 @@
-//! The last writer before a terminal or a file: whatever a name holds, no terminal obeys what is written through it.
+//! The last writer before a terminal or a file: no control character in a name reaches the terminal.
 //!
-//! Names are shown by [`taceva_core::shown`] where a message is put together; this is a second check, of everything.
+//! Messages already escape names by [`taceva_core::shown`]; this is a second check of all output.
 
 use std::io::{self, Write};
 
 use taceva_core::{is_obeyed, shown_lines};
 
-/// What is written, and so how a letter that a terminal obeys is written.
+/// Kind of output, which decides how control characters are escaped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// Words for people: such a letter is written out, `\u{1b}`; lines and tabs stay.
+    /// Text: control characters become `\u{1b}`; lines and tabs stay.
     Words,
-    /// JSON: such a letter is escaped as JSON does, `\u001b`, which means the same letter to a program.
+    /// JSON: control characters become `\u001b`, the same character to a program.
     Json,
-    /// Tables for programs: as it is, but on a terminal, where it is written out as in words.
+    /// Tables for programs: unchanged, but on a terminal escaped as in text.
     Table,
 }
 
-/// A writer before which letters are replaced that a terminal obeys.
+/// A writer that escapes control characters.
 pub(crate) struct Guard<W: Write> {
     out: W,
     form: Form,
-    /// The beginning of a letter whose end is not written yet.
+    /// The beginning of a character whose end is not written yet.
     begun: Vec<u8>,
 }
 
@@ -35,7 +35,7 @@ impl<W: Write> Guard<W> {
         }
     }
 
-    /// Writes what is left and gives back the writer.
+    /// Writes the rest and returns the writer.
     pub(crate) fn finish(mut self) -> io::Result<W> {
         let rest = String::from_utf8_lossy(&std::mem::take(&mut self.begun)).into_owned();
         self.pass(&rest)?;
@@ -72,7 +72,7 @@ impl<W: Write> Write for Guard<W> {
     }
 }
 
-/// How many bytes are whole letters; at most three at the end may be the beginning of one.
+/// Number of bytes that form complete characters; at most three at the end may begin another.
 fn whole_letters(bytes: &[u8]) -> usize {
     match std::str::from_utf8(bytes) {
         Err(error) if error.error_len().is_none() => error.valid_up_to(),
@@ -80,7 +80,7 @@ fn whole_letters(bytes: &[u8]) -> usize {
     }
 }
 
-/// JSON in which no letter is obeyed: outside its strings only line breaks could be.
+/// JSON with escaped control characters; outside strings only line breaks occur.
 fn escaped(json: &str) -> String {
     let mut written = String::with_capacity(json.len() + 16);
     for letter in json.chars() {

@@ -1,4 +1,4 @@
-//! Benchmarks as tables: a row a candidate, the Pareto front marked.
+//! Benchmarks as tables: one row for each candidate, the Pareto front marked.
 
 use std::io::{self, Write};
 
@@ -6,7 +6,7 @@ use taceva_metrics::Better;
 use taceva_report::{Align, Column, Direction, Table};
 use taceva_study::bench::KernelBench;
 
-/// For people.
+/// The table as text.
 pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     let machine = &bench.machine;
     let load = machine
@@ -75,7 +75,7 @@ pub(super) fn every_number(bench: &KernelBench) -> Table {
     table
 }
 
-/// A row a kernel.
+/// One row for each kernel.
 pub(super) fn rows(bench: &KernelBench) -> Table {
     let number = |name: &str, better: Better| {
         let column = Column::new(name).direction(Direction::Is(better));
@@ -108,7 +108,7 @@ pub(super) fn rows(bench: &KernelBench) -> Table {
     table
 }
 
-/// The same, with what was measured in a sentence below.
+/// The same table, with the conditions in a sentence below.
 pub(super) fn for_pages(bench: &KernelBench) -> Table {
     let mut table = rows(bench);
     table.note(format!(
@@ -122,7 +122,7 @@ pub(super) fn for_pages(bench: &KernelBench) -> Table {
     table
 }
 
-/// For each input, the candidate that has fewest digits on it.
+/// For each input, the candidate with the fewest digits on it.
 fn inputs(bench: &KernelBench) -> Vec<String> {
     let names = bench.rows.first().map_or(&[][..], |row| &row.digits);
     let worst = |position: usize| {

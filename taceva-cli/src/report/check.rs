@@ -1,4 +1,4 @@
-//! Findings of `taceva check`, in every form.
+//! Findings of `taceva check`, in all formats.
 
 use std::io::{self, Write};
 
@@ -43,7 +43,7 @@ pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> 
     )
 }
 
-/// Everything that is known of each finding.
+/// All columns of each finding.
 pub(super) fn every_column(report: &CheckReport) -> Table {
     let names = [
         "code", "name", "severity", "message", "count", "samples", "hint",

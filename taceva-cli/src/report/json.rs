@@ -1,4 +1,4 @@
-//! JSON, with one line a value and every number in its shortest round-trip form.
+//! JSON, with one line for each value and every number in its shortest round-trip form.
 
 use std::io::{self, Write};
 

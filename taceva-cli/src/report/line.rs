@@ -10,19 +10,17 @@ pub(super) struct Line<'a> {
     pub(super) name: String,
     /// The channel or plane.
     pub(super) channel: &'a str,
-    /// The value.
     pub(super) value: &'a Value,
-    /// Its unit.
     pub(super) unit: Unit,
-    /// Its interval; `None` where the question makes no sense.
+    /// Interval; `None` if the number has none by its nature.
     pub(super) interval: Option<&'a Interval>,
     /// The score it belongs to.
     pub(super) score: &'a Score,
-    /// Whether it is the score itself and not one of its variants.
+    /// True for the score itself, false for one of its variants.
     pub(super) is_headline: bool,
 }
 
-/// Every score, each followed by its variants that are one number; maps and curves are for JSON.
+/// Every score, each followed by its variants with a single number; maps and curves are in JSON only.
 pub(super) fn lines(scores: &[Score]) -> Vec<Line<'_>> {
     let mut lines = Vec::new();
     for score in scores {
@@ -53,7 +51,7 @@ pub(super) fn lines(scores: &[Score]) -> Vec<Line<'_>> {
     lines
 }
 
-/// The lines for people: reference constants are no scores, and are in JSON and CSV only.
+/// The lines for text output: reference constants are no scores, and are in JSON and CSV only.
 pub(super) fn read_lines(scores: &[Score]) -> Vec<Line<'_>> {
     let lines = lines(scores).into_iter();
     lines.filter(|line| !line.is_reference()).collect()
@@ -65,7 +63,7 @@ impl Line<'_> {
         Better::named(&self.name)
     }
 
-    /// Whether it is the reference constant of a score, which is no claim of the model.
+    /// True for the reference constant of a score, which is no claim of the model.
     pub(super) fn is_reference(&self) -> bool {
         matches!(
             self.name.as_str(),
@@ -74,7 +72,7 @@ impl Line<'_> {
     }
 }
 
-/// Flags of scores, a line for each flag of a metric: `uniformity Fz: one bin`, `skill Pz Fz: constant is the mean of truth`.
+/// Flags of scores, one line for each flag of a metric: `uniformity Fz: one bin`, `skill Pz Fz: constant is the mean of truth`.
 pub(super) fn flags(scores: &[Score]) -> Vec<String> {
     let mut groups: Vec<(&str, &str, Vec<&str>)> = Vec::new();
     for score in scores {
@@ -94,7 +92,7 @@ pub(super) fn flags(scores: &[Score]) -> Vec<String> {
         .collect()
 }
 
-/// Which scores take no full part in verdicts: `no skill: Pz Fz`, `bounded: r_light Px Py`.
+/// Scores with limited standing in verdicts: `no skill: Pz Fz`, `bounded: r_light Px Py`.
 pub(super) fn standings(scores: &[Score]) -> Vec<String> {
     let mut said = Vec::new();
     for standing in Standing::ALL {
@@ -122,7 +120,7 @@ pub(super) fn standings(scores: &[Score]) -> Vec<String> {
     said
 }
 
-/// The maps, curves and matrices that only JSON holds, a line a metric: `r_spatial Px Py Fz: distance, depth`.
+/// The maps, curves and matrices that only JSON contains, one line for each metric: `r_spatial Px Py Fz: distance, depth`.
 pub(super) fn pictures(scores: &[Score]) -> Vec<String> {
     let mut pictures: Vec<(&str, Vec<&str>, String)> = Vec::new();
     for score in scores {

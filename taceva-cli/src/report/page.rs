@@ -26,7 +26,7 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// A page of `reports`, with pictures of the samples that are predicted worst and best where the recordings have frames.
+    /// A page of `reports`, with pictures of the worst and best predicted samples if the recordings have frames.
     pub(crate) fn of(title: &str, reports: &[EvaluationReport]) -> anyhow::Result<Page> {
         let studies = reports.iter().map(study).collect::<anyhow::Result<_>>()?;
         let mut page = Page {
@@ -56,7 +56,7 @@ impl Page {
             Some(view) => dataset.seen(view)?,
             None => dataset,
         };
-        // Where a sample has several pictures and none was looked at, none is shown.
+        // If a sample has several pictures and no view was chosen, none is shown.
         if dataset.require_view().is_err() {
             return Ok(());
         }
@@ -77,7 +77,7 @@ impl Page {
         Ok(())
     }
 
-    /// Writes every figure into `folder`, as standalone SVG and as PDF, and reports letters that no font has.
+    /// Writes every figure into `folder`, as standalone SVG and as PDF, and reports characters that no font has.
     pub(crate) fn write_figures(&self, folder: &Path, context: &Context) -> anyhow::Result<()> {
         fs::create_dir_all(folder).with_context(|| format!("cannot make {}", shown(folder)))?;
         let mut without_glyph = BTreeSet::new();
@@ -99,7 +99,7 @@ impl Page {
         Ok(())
     }
 
-    /// Writes the scores side by side into `folder`: all of them for programs, those that fit a page for pages and papers.
+    /// Writes the scores side by side into `folder`: all of them for programs, and a selection for pages and papers.
     pub(crate) fn write_scores(&self, folder: &Path) -> anyhow::Result<()> {
         let table = ScoreTable::of(&self.studies);
         let headlines = table.headlines();
@@ -142,9 +142,9 @@ impl Page {
     }
 }
 
-/// A finished evaluation as it is read from its JSON, with its samples.
+/// A finished evaluation parsed from its JSON, with its samples.
 pub(crate) fn study(report: &EvaluationReport) -> anyhow::Result<Study> {
-    // As it would be read from a file, so that a page shows what others read.
+    // Parsed as from a file, so that a page shows what others read.
     let mut studies = Study::read(&taceva_results::sealed(report)?)?;
     let mut study = studies.pop().context("one evaluation is one study")?;
     study.samples.clone_from(&report.samples);

@@ -9,7 +9,7 @@ use taceva_host::{Delivery, Place, Plugin, PluginHost, PythonModule, ReasonKind,
 use super::{devices, json};
 use crate::args::ListFormat;
 
-/// Writes the plugins that were found; with `all`, also those that are not used.
+/// Writes the plugins that were found; with `all`, also unused ones.
 pub(crate) fn list(
     host: &PluginHost,
     all: bool,
@@ -137,22 +137,22 @@ struct Listed {
     abi: String,
     place: Place,
     folder: String,
-    /// Empty where it is a module.
+    /// Empty for a module.
     library: String,
-    /// The digest of the library that the manifest demands, if any.
+    /// The digest of the library that the manifest requires, if any.
     sha256: String,
-    /// The module of Python that it is, if it is one.
+    /// The Python module of the plugin, if it is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     module: Option<PythonModule>,
     /// The interpreter that runs the module, and its version.
     #[serde(skip_serializing_if = "Option::is_none")]
     interpreter: Option<String>,
     delivery: Delivery,
-    /// How it would be kept from the rest of the machine, tried by confining a process without it.
+    /// Isolation from the rest of the machine, tested by confining a process without the plugin.
     isolation: String,
     needs: Vec<String>,
     allowed: Vec<String>,
-    /// The command that allows the rest of what it needs.
+    /// The command that allows its remaining needs.
     #[serde(skip_serializing_if = "Option::is_none")]
     remedy: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -215,7 +215,7 @@ impl Listed {
     }
 }
 
-/// The command that allows what `plugin` needs whatever it is opened with, if some of it is not allowed.
+/// The command that allows the needs of `plugin` for any arguments; `None` if all are allowed.
 pub(crate) fn remedy(host: &PluginHost, plugin: &Plugin) -> Option<String> {
     let withheld = host.withheld(plugin);
     (!withheld.needs().is_empty()).then(|| withheld.to_string())

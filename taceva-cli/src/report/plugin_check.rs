@@ -1,4 +1,4 @@
-//! The checks of a plugin, as a runner of tests shows them.
+//! Checks of a plugin in the format of a test runner.
 
 use std::io::{self, Write};
 
@@ -8,7 +8,7 @@ use taceva_conformance::{CheckResult, Outcome};
 use super::json;
 use crate::args::ListFormat;
 
-/// All of them; in text without the lines where these were shown already.
+/// All checks; in text without the lines that were already shown.
 pub(crate) fn write(
     plugin: &str,
     seed: u64,
@@ -49,7 +49,6 @@ pub(crate) fn write(
     )
 }
 
-/// One check.
 pub(crate) fn line(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
     let subject = result.subject.as_deref().unwrap_or("");
     let (word, why) = match &result.outcome {

@@ -1,4 +1,4 @@
-//! The layouts that `taceva import --preset` knows.
+//! The layouts of `taceva import --preset`.
 
 use std::io::{self, Write};
 
@@ -8,10 +8,10 @@ use taceva_import::Preset;
 use super::json;
 use crate::args::ListFormat;
 
-/// Letters in front of what is said of a preset.
+/// Indent of the description of a preset, characters.
 const INDENT: usize = 16;
 
-/// Writes every preset, as text in lines of at most `line` letters.
+/// Writes every preset; text has lines of at most `line` characters.
 pub(crate) fn list(format: ListFormat, line: usize, out: &mut dyn Write) -> io::Result<()> {
     if format == ListFormat::Json {
         return json::write(&WrittenPresets::all(), out);
@@ -33,7 +33,7 @@ pub(crate) fn list(format: ListFormat, line: usize, out: &mut dyn Write) -> io::
     )
 }
 
-/// The text in lines of at most so many letters; a longer word has a line of its own.
+/// Wraps text to lines of at most `letters` characters; a longer word has its own line.
 fn wrapped(text: &str, letters: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split(' ') {

@@ -90,8 +90,8 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     Ok(())
 }
 
-/// Sensors that classify gratings correctly equally often: how fine the gratings are that each distinguishes is read from their samples, so
-/// it is asked for only where shares are the same.
+/// Prints sensors that classify equal shares of gratings correctly. The spacing that each resolves is computed from its samples, only for
+/// equal shares.
 fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     let shares = |report: &EvaluationReport| -> Vec<(String, u64)> {
         let lines = lines(&report.scores).into_iter();
@@ -117,7 +117,7 @@ fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The published values of the sensor, one for each row; empty where no row has one of the same definition.
+/// The published values of the sensor, one for each row; empty if no row has one of the same definition.
 fn published(report: &EvaluationReport, lines: &[Line<'_>], rows: &[Row]) -> Vec<String> {
     let Some(sensor) = taceva_report::catalogue::find(&report.subject.sensor) else {
         return Vec::new();
@@ -139,7 +139,7 @@ fn published(report: &EvaluationReport, lines: &[Line<'_>], rows: &[Row]) -> Vec
         .collect()
 }
 
-/// Words to the left, numbers to the right.
+/// Text to the left, numbers to the right.
 fn columns(reports: &[EvaluationReport], published: &[Vec<String>]) -> Vec<Column> {
     let sensors = reports.iter().zip(published).flat_map(|(report, cells)| {
         let beside = (!cells.is_empty()).then_some("published");
@@ -174,7 +174,7 @@ fn headlines(report: &EvaluationReport) -> Vec<Line<'_>> {
         .collect()
 }
 
-/// Every row that some report has, in the order of the catalogue.
+/// Every row of any report, in the order of the catalogue.
 fn rows(reports: &[Vec<Line<'_>>]) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
     for line in reports.iter().flatten() {

@@ -1,4 +1,4 @@
-//! Recordings that were taken as one: which they are, and the scores of each beside those of all together.
+//! Joined recordings: their list, and the scores of each beside those of all together.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -9,7 +9,7 @@ use taceva_results::EvaluationReport;
 use super::line::read_lines;
 use super::number::formatted;
 
-/// Two tables: the recordings with their digests, and a column a recording; nothing where there is one.
+/// Two tables: the recordings with their digests, and one column for each recording; nothing for a single one.
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     if report.by_recording.is_empty() {
         return Ok(());
@@ -36,7 +36,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     out.write_all(side_by_side(report).text().as_bytes())
 }
 
-/// A row a score of predictions, a column a recording.
+/// One row for each score of predictions, one column for each recording.
 fn side_by_side(report: &EvaluationReport) -> Table {
     let head = ["metric", "channel", "all"].map(str::to_owned);
     let names = report.by_recording.iter();

@@ -1,4 +1,4 @@
-//! What was found of a rig.
+//! Findings on a rig.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,4 @@
-//! The scores of one evaluation as tables: every number for programs, a column a channel for pages and papers.
+//! Scores of one evaluation as tables: every number for programs, one column for each channel for pages and papers.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use taceva_results::{EvaluationReport, Interval};
 use super::line::{Line, lines, read_lines, standings};
 use super::number::{formatted, no_interval};
 
-/// A row a score or variant, numbers in full.
+/// One row for each score or variant, numbers in full.
 pub(super) fn every_number(report: &EvaluationReport) -> Table {
     let names = [
         "channel",
@@ -31,7 +31,7 @@ pub(super) fn every_number(report: &EvaluationReport) -> Table {
     ];
     let columns = [Column::of_metrics()].into_iter();
     let columns = columns.chain(names.map(Column::new));
-    // Of several recordings the rows of each follow those of all.
+    // For several recordings the rows of each follow those of all.
     let is_several = !report.by_recording.is_empty();
     let more = ["recording", "recording_digest"];
     let more = more.into_iter().filter(|_| is_several).map(Column::new);
@@ -87,7 +87,7 @@ fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
     ]
 }
 
-/// A row a metric, a column a channel, as papers print scores.
+/// One row for each metric, one column for each channel, as in papers.
 pub(super) fn by_channel(report: &EvaluationReport) -> Table {
     let mut channels: Vec<&str> = Vec::new();
     for score in &report.scores {
@@ -121,7 +121,7 @@ pub(super) fn by_channel(report: &EvaluationReport) -> Table {
     table
 }
 
-/// The same for pages, with the caption below.
+/// The same table for pages, with the caption below.
 pub(super) fn for_pages(report: &EvaluationReport) -> Table {
     let mut table = by_channel(report);
     let caption = std::mem::take(&mut table.caption);
@@ -129,7 +129,7 @@ pub(super) fn for_pages(report: &EvaluationReport) -> Table {
     table
 }
 
-/// The value of a line, with its unit and the ends of its interval, or why there is none.
+/// The value of a line, with its unit and the ends of its interval, or the reason why there is none.
 fn estimate(line: &Line<'_>) -> Estimate {
     let FormattedValue {
         value,
@@ -156,7 +156,7 @@ fn caption(report: &EvaluationReport) -> String {
     caption_with(report, str::to_owned)
 }
 
-/// The same, with the name of the sensor written as `foreign` does.
+/// The caption, with the name of the sensor escaped by `foreign`.
 fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> String {
     let subject = &report.subject;
     let n = report.scores.iter().map(|score| score.n).max().unwrap_or(0);

@@ -1,18 +1,18 @@
-//! Frames as small pictures for a page.
+//! Thumbnails of frames for a page.
 
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use taceva_core::Frame;
 
-/// The longest side of a small picture, in pixels.
+/// The longest side of a thumbnail, pixels.
 const SIDE: u32 = 176;
-/// The quality of JPEG, of 100: no difference is visible, at a tenth of the size of the frame.
+/// JPEG quality, of 100: no visible difference, at a tenth of the size of the frame.
 const QUALITY: u8 = 82;
 
-/// The media type of what [`thumbnail`] makes.
+/// The media type of [`thumbnail`].
 pub(crate) const MEDIA_TYPE: &str = "image/jpeg";
 
-/// `frame` as JPEG of at most 176 pixels a side, each the mean of what it covers, from black at its darkest to white at its brightest.
+/// `frame` as JPEG of at most 176 pixels a side, by area averages, stretched from its darkest to its brightest value.
 pub(crate) fn thumbnail(frame: &Frame) -> anyhow::Result<Vec<u8>> {
     let small = Small::of(frame);
     let low = small.means.iter().min().copied().unwrap_or(0);
@@ -26,12 +26,12 @@ pub(crate) struct Small {
     width: u32,
     height: u32,
     channels: usize,
-    /// Each pixel the mean of what it covers, row by row, in steps of the camera.
+    /// Area averages, row by row, in steps of the camera.
     pub(crate) means: Vec<i64>,
 }
 
 impl Small {
-    /// `frame`, made smaller by a whole number of times.
+    /// `frame`, reduced by an integer factor.
     pub(crate) fn of(frame: &Frame) -> Small {
         let info = frame.info();
         let channels = info.format.samples();
@@ -62,7 +62,7 @@ impl Small {
         }
     }
 
-    /// Other means of as many pixels.
+    /// The same size with other values.
     pub(crate) fn with_means(&self, means: Vec<i64>) -> Small {
         Small {
             means,
@@ -70,13 +70,13 @@ impl Small {
         }
     }
 
-    /// Whether both have as many pixels, of the same kind.
+    /// True if both have the same size and channels.
     pub(crate) fn is_like(&self, other: &Small) -> bool {
         let shape = |small: &Small| (small.width, small.height, small.channels);
         shape(self) == shape(other)
     }
 
-    /// As JPEG, each mean as `level` makes it, from 0 to 255.
+    /// Encodes it as JPEG; `level` maps each value to 0 to 255.
     pub(crate) fn jpeg(&self, level: impl Fn(i64) -> i64) -> anyhow::Result<Vec<u8>> {
         let bytes: Result<Vec<u8>, _> = self
             .means

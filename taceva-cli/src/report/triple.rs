@@ -1,16 +1,16 @@
-//! Three small pictures of a sensor, from its recording: untouched, pressed, and their difference.
+//! Three thumbnails of a sensor from its recording: untouched, pressed, and their difference.
 
 use taceva_dataset::{Dataset, Table};
 use taceva_report::Triple;
 
 use super::thumbnail::{MEDIA_TYPE, Small};
 
-/// How many times a faint difference is enlarged at most.
+/// Maximum gain of a faint difference.
 const MOST_GAIN: i64 = 8;
 /// Mid-grey: no difference.
 const MIDDLE: i64 = 128;
 
-/// The pictures of the hardest press of `dataset`, for the study at `study`; `None` where no press has a frame.
+/// The pictures of the hardest press of `dataset`, for the study at `study`; `None` if no press has a frame.
 pub(crate) fn triple(dataset: &Dataset, study: usize) -> anyhow::Result<Option<Triple>> {
     let Some((row, words)) = hardest(dataset.table()) else {
         return Ok(None);
@@ -41,8 +41,8 @@ pub(crate) fn triple(dataset: &Dataset, study: usize) -> anyhow::Result<Option<T
     }))
 }
 
-/// The row with the greatest normal force, or depth where no force is known; and its labels in words. Presses of gratings show a relief, not
-/// the tip that everything else is pressed with.
+/// The row with the greatest normal force, or depth without a force, and its labels in words. Presses of gratings are skipped, because they
+/// show a relief instead of the usual tip.
 fn hardest(table: &Table) -> Option<(usize, String)> {
     let channels = table.channels();
     let place = |name: &str| channels.iter().position(|channel| channel.name() == name);
@@ -68,12 +68,12 @@ fn hardest(table: &Table) -> Option<(usize, String)> {
     Some((row, format!("pressed with {}", words.join(", "))))
 }
 
-/// From the darkest of all pictures to the brightest, as 0 to 255.
+/// Maps the range from the darkest to the brightest of all pictures to 0 to 255.
 fn stretched(mean: i64, [low, high]: [i64; 2]) -> i64 {
     (mean - low) * 255 / (high - low).max(1)
 }
 
-/// Pressed less untouched in the scale of both, enlarged as far as the strongest stays whole.
+/// Pressed minus untouched in the scale of both, amplified as far as the strongest difference is not clipped.
 #[expect(clippy::cast_precision_loss, reason = "a factor from 1 to 8")]
 fn difference(
     pressed: &Small,

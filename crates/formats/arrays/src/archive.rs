@@ -1,5 +1,5 @@
-//! The directory of a zip archive: which members there are, and where their bytes lie. Packeds are stored or deflated, archives of
-//! more than 4 GiB (zip64) included; the directory at the end is believed, and each local header is compared with it.
+//! Directory of a zip archive: the members and the location of their bytes. Members are stored or deflated; archives above 4 GiB (zip64)
+//! are supported. Each local header is compared with the directory, which is taken as correct.
 
 use crate::error::Problem;
 use crate::inflate::Wrapping;
@@ -13,11 +13,11 @@ const END_64: u32 = 0x0606_4b50;
 const END_64_LOCATOR: u32 = 0x0706_4b50;
 const ENTRY: u32 = 0x0201_4b50;
 const LOCAL: u32 = 0x0403_4b50;
-/// The end record without its comment.
+/// Length of the end record without its comment, bytes.
 const END_BYTES: u64 = 22;
-/// The longest comment of an archive.
+/// Maximum length of the comment of an archive, bytes.
 const COMMENT_BYTES: u64 = 65_535;
-/// A field of 32 or 16 bits that says: look in the fields of zip64.
+/// Value of a 32-bit or 16-bit field that refers to the fields of zip64.
 const ELSEWHERE: u64 = 0xffff_ffff;
 const ELSEWHERE_16: u64 = 0xffff;
 
@@ -119,7 +119,7 @@ fn directory(archive: &dyn ByteSource) -> Result<Directory, Problem> {
     Ok(found)
 }
 
-/// One entry of the directory, and what follows it. The offset is that of the local header. A folder is none.
+/// Parses one entry of the directory; returns it with the rest. The offset is that of the local header. `None` for a folder.
 fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     let cut = || Problem::damaged(at, "the end of the directory", "an entry");
     if number(rest, 0, 4).ok_or_else(cut)? != u64::from(ENTRY) {
@@ -143,7 +143,7 @@ fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     let name = String::from_utf8_lossy(rest.get(46..name_end).ok_or_else(cut)?).into_owned();
     let extra = rest.get(name_end..extra_end).ok_or_else(cut)?;
     let behind = rest.get(extra_end + sizes[2]..).ok_or_else(cut)?;
-    // Sizes and offset that do not fit 32 bits stand in the extra field 1, in this order, those that do not fit alone.
+    // Sizes and an offset above 32 bits are in extra field 1, in this order; it holds only those.
     let mut large = extra_field(extra, 1).unwrap_or(&[]);
     for size in [&mut bytes, &mut packed_bytes, &mut local_at] {
         if *size == ELSEWHERE {
@@ -180,7 +180,7 @@ fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     Ok((Some(member), behind))
 }
 
-/// The member with the place of its bytes, which the local header tells.
+/// The member with the location of its bytes, from the local header.
 fn located(archive: &dyn ByteSource, listed: Packed) -> Result<Packed, Problem> {
     let header = bytes_of(archive, listed.at, 30)?;
     let field = |place: usize, bytes: usize| number(&header, place, bytes).unwrap_or(0);

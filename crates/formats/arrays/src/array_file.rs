@@ -1,4 +1,4 @@
-//! A file of arrays, whatever its form.
+//! A file of arrays of any format.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -17,10 +17,10 @@ use crate::store::{Arrays, Store};
 use crate::values::{ArrayData, ArrayValues};
 use crate::zarr::Zarr;
 
-/// Names that an error about a missing array lists.
+/// Number of names that an error for a missing array lists.
 const NAMES_SHOWN: usize = 12;
 
-/// Named arrays of one file, read some rows at a time. Threads may share it.
+/// Named arrays of one file, read in ranges of rows. Threads may share it.
 ///
 /// ```no_run
 /// use taceva_arrays::{ArrayFile, ArrayFormat};
@@ -42,10 +42,10 @@ pub struct ArrayFile {
 }
 
 impl ArrayFile {
-    /// Opens a file and lists its arrays; no element is read.
+    /// Opens a file and lists its arrays; reads no element.
     ///
     /// # Errors
-    /// [`ArrayError`] if the file cannot be opened, is damaged, is of another form, or holds what is not read here.
+    /// [`ArrayError`] if the file cannot be opened, is damaged, has another format, or contains unsupported content.
     pub fn open(path: &Path, format: ArrayFormat) -> Result<ArrayFile, ArrayError> {
         let wrong = |problem: Problem| ArrayError {
             path: path.to_owned(),
@@ -58,10 +58,10 @@ impl ArrayFile {
         ))
     }
 
-    /// Reads the bytes of a `.npy` file that lies within another file; `path` is named in errors alone.
+    /// Reads the bytes of a `.npy` file within another file; `path` is used in errors only.
     ///
     /// # Errors
-    /// [`ArrayError`] if they are damaged, no array of NumPy, or of a type that is not read here.
+    /// [`ArrayError`] if they are damaged, are no NumPy array, or have an unsupported type.
     ///
     /// ```
     /// use taceva_arrays::{ArrayFile, ArrayValues};
@@ -100,22 +100,22 @@ impl ArrayFile {
 
     /// The names of the arrays, in the order of the file.
     ///
-    /// An `.npy` file has one, `value`; an `.npz` file those of its members without `.npy`; HDF5 and zarr full paths (`/group/frames`);
-    /// a MATLAB file its variables; a pickle `value`, or the keys of its dictionary, or those of the dictionaries in its list. Records
-    /// have one for each field, behind a dot: `/table.Fx`.
+    /// An `.npy` file has one, `value`. An `.npz` file has the names of its members without `.npy`. HDF5 and zarr have full paths
+    /// (`/group/frames`), and a MATLAB file has its variables. A pickle has `value`, or the keys of its dictionary, or those of the
+    /// dictionaries in its list. Records have one name for each field, after a dot: `/table.Fx`.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
         self.arrays.iter().map(|(name, _)| name.clone()).collect()
     }
 
-    /// Shape and type of the array `name`; the slash in front of a full name may be left out.
+    /// Shape and type of the array `name`; the leading slash of a full name is optional.
     #[must_use]
     pub fn info(&self, name: &str) -> Option<&ArrayInfo> {
         let index = self.index(name)?;
         self.arrays.get(index).map(|(_, info)| info)
     }
 
-    /// Shape and type of the array `name`, or why there is none.
+    /// Shape and type of the array `name`, or the reason why it cannot be read.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) -> Result<(), taceva_arrays::ArrayError> {
@@ -127,7 +127,7 @@ impl ArrayFile {
     /// ```
     ///
     /// # Errors
-    /// [`ArrayError`] if there is no such array, or one that is not read here.
+    /// [`ArrayError`] if there is no such array, or if it is not supported.
     pub fn find(&self, name: &str) -> Result<&ArrayInfo, ArrayError> {
         self.info(name)
             .ok_or_else(|| self.wrong(name, self.absent(name)))
@@ -141,7 +141,7 @@ impl ArrayFile {
         }
     }
 
-    /// Full names may be said without their first slash.
+    /// The index of the array `name`; the leading slash of a full name is optional.
     fn index(&self, name: &str) -> Option<usize> {
         let found = self
             .by_name
@@ -150,8 +150,8 @@ impl ArrayFile {
         found.copied()
     }
 
-    /// The groups of HDF5 and zarr whose full names are as `pattern`, in order: `*` stands for any letters but `/`. Dictionaries within the
-    /// dictionary of a pickle are groups too, behind dots: `trajectories.*`.
+    /// The groups of HDF5 and zarr whose full names match `pattern`, in order; `*` matches any letters but `/`. Dictionaries within the
+    /// dictionary of a pickle are groups too, after dots: `trajectories.*`.
     #[must_use]
     pub fn groups(&self, pattern: &str) -> Vec<String> {
         let mut groups = self.store.groups();
@@ -167,7 +167,7 @@ impl ArrayFile {
         groups
     }
 
-    /// Links in the file that lead nowhere, each with the reason: nothing is listed for them, and reading what they are called is an error.
+    /// Dead links of the file, each with the reason. They are not listed as arrays, and reading one by name is an error.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) {
@@ -184,7 +184,7 @@ impl ArrayFile {
             .collect()
     }
 
-    /// Arrays and tables of the file that are not read, each with the reason.
+    /// Arrays and tables of the file that cannot be read, each with the reason.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) {
@@ -201,7 +201,7 @@ impl ArrayFile {
             .collect()
     }
 
-    /// Checks that no link that leads nowhere is as `pattern`, or above what is, so that [`groups`](ArrayFile::groups) leaves none out.
+    /// Checks that no dead link matches `pattern` or a parent of a match, so that [`groups`](ArrayFile::groups) is complete.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) -> Result<(), taceva_arrays::ArrayError> {
@@ -227,7 +227,7 @@ impl ArrayFile {
         }
     }
 
-    /// The names of the attributes of the group or array `owner`; none where the form has no attributes.
+    /// The names of the attributes of the group or array `owner`; empty if the format has no attributes.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) {
@@ -241,24 +241,24 @@ impl ArrayFile {
         self.store.attributes(owner)
     }
 
-    /// The attribute `name` of the group or array `owner`; numbers in the shortest text that reads back to the same number, several of
-    /// them in brackets.
+    /// The attribute `name` of the group or array `owner`. Numbers have the shortest text that reads back exactly; several of them are in
+    /// brackets.
     #[must_use]
     pub fn attribute(&self, owner: &str, name: &str) -> Option<String> {
         self.store.attribute(owner, name)
     }
 
-    /// Some rows of the first axis, in the byte order of this machine and with the last axis fastest. A single number has one row.
+    /// Reads some rows of the first axis, in the byte order of this machine, in C order. A single number has one row.
     ///
     /// # Errors
-    /// [`ArrayError`] if there is no such array or row, if the rows take more than 1 GiB, or if the file is damaged where they lie.
+    /// [`ArrayError`] if there is no such array or row, if the rows take more than 1 GiB, or if the file is damaged there.
     pub fn read(&self, name: &str, rows: Range<u64>) -> Result<ArrayData, ArrayError> {
         self.rows(name, rows)
             .map_err(|problem| self.wrong(name, problem))
     }
 
-    /// How many chunks of the array were never written (HDF5, zarr): a reader gives their elements the fill value, mostly 0, and nothing in the
-    /// numbers says so. 0 of arrays without chunks, and where the index of an HDF5 file cannot be listed.
+    /// Number of chunks of the array that were never written (HDF5, zarr). Readers give their elements the fill value, mostly 0, without
+    /// any mark. Returns 0 for arrays without chunks, and if the index of an HDF5 file cannot be listed.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) -> Result<(), taceva_arrays::ArrayError> {
@@ -306,7 +306,7 @@ impl ArrayFile {
     }
 
     fn absent(&self, name: &str) -> Problem {
-        // A record that cannot be read is asked for by its fields.
+        // A record that cannot be read is requested by its fields.
         let name = name.trim_start_matches('/');
         let is_of = |array: &str| {
             let rest = name.strip_prefix(array.trim_start_matches('/'));

@@ -1,15 +1,15 @@
-//! What was read lately, up to a number of bytes.
+//! Least-recently-used cache, limited in bytes.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Values by key, of which those are dropped first that nobody asked for longest.
+/// Values by key; the least recently used are dropped first.
 #[derive(Debug)]
 pub(crate) struct Cache<K, T> {
     most_bytes: u64,
     bytes: u64,
     turn: u64,
-    /// With the turn at which each was asked for, and its size.
+    /// With the turn of the last use, and the size in bytes.
     values: BTreeMap<K, (u64, u64, Arc<T>)>,
     by_turn: BTreeMap<u64, K>,
 }
@@ -35,7 +35,7 @@ impl<K: Ord + Clone, T> Cache<K, T> {
         Some(Arc::clone(value))
     }
 
-    /// Keeps a value of so many bytes; the newest stays, however large.
+    /// Stores a value of `bytes` bytes; the newest stays, whatever its size.
     pub(crate) fn keep(&mut self, key: K, bytes: u64, value: Arc<T>) {
         self.turn += 1;
         self.by_turn.insert(self.turn, key.clone());

@@ -1,4 +1,4 @@
-//! Packed bytes, unpacked as a whole. Each takes the most bytes that may come out, and gives an error beyond.
+//! Decompressors of whole buffers. Each takes a limit of the output in bytes, and fails beyond it.
 
 mod blosc;
 mod shuffle;
@@ -12,7 +12,7 @@ use mzstd::{DecodeError, DecodeLimits, DecoderConfig, Decompressor};
 use crate::error::Problem;
 use crate::inflate::{Wrapping, inflated_at_most};
 
-/// Windows that zstd asks for up to its level 19.
+/// Window size that zstd needs up to its level 19, bytes.
 const ZSTD_WINDOW_BYTES: usize = 8 << 20;
 
 /// A stream of zlib with its checksum.
@@ -20,7 +20,7 @@ pub(crate) fn zlib(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     inflated_at_most(packed, most, Wrapping::Zlib).map(|(bytes, _)| bytes)
 }
 
-/// A file of gzip (RFC 1952), its checksum and length compared.
+/// A gzip file (RFC 1952); checks its checksum and length.
 pub(crate) fn gzip(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     let cut = || {
         Problem::damaged(
@@ -39,7 +39,7 @@ pub(crate) fn gzip(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
             .get(usize::from(u16::from_le_bytes(*length))..)
             .ok_or_else(cut)?;
     }
-    // A name and a comment end with a zero.
+    // The name and the comment end with a zero byte.
     for flag in [8, 16] {
         if flags & flag != 0 {
             let end = rest.iter().position(|byte| *byte == 0).ok_or_else(cut)?;
@@ -70,9 +70,9 @@ pub(crate) fn gzip(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     Ok(bytes)
 }
 
-/// Frames of zstd; their checksums are compared where they have any.
+/// Frames of zstd; checks their checksums if they have any.
 pub(crate) fn zstd(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
-    // A stream without any frame is one of no bytes.
+    // A stream without frames has no bytes.
     if packed.is_empty() {
         return Ok(Vec::new());
     }
@@ -101,7 +101,7 @@ pub(crate) fn zstd(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     }
 }
 
-/// One block of LZ4 into all of `bytes`.
+/// Unpacks one block of LZ4 that fills `bytes`.
 pub(crate) fn lz4(packed: &[u8], bytes: &mut [u8]) -> Result<(), Problem> {
     let expected = bytes.len();
     match lz4_flex::block::decompress_into(packed, bytes) {
@@ -119,7 +119,7 @@ pub(crate) fn lz4(packed: &[u8], bytes: &mut [u8]) -> Result<(), Problem> {
     }
 }
 
-/// A block of LZ4 behind its length of 4 bytes.
+/// Unpacks a block of LZ4 preceded by its length in 4 bytes.
 pub(crate) fn lz4_with_length(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     let length = packed.split_first_chunk::<4>();
     let (length, block) =

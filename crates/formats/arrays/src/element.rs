@@ -1,4 +1,4 @@
-//! What an array holds, as its file says.
+//! Types of elements of an array, as its file states.
 
 /// The type of an array's elements. Widths are in bits.
 ///
@@ -18,9 +18,9 @@ pub enum Element {
     Signed(u8),
     /// IEEE 754 numbers of 16, 32 or 64 bits.
     Float(u8),
-    /// Text.
+    /// Variable-length text.
     Text,
-    /// Bytes, as many as each element has: an encoded picture, for instance.
+    /// Bytes of any length for each element, such as an encoded picture.
     Bytes,
 }
 
@@ -37,7 +37,7 @@ impl std::fmt::Display for Element {
     }
 }
 
-/// Shape and type of one array, found out without reading its elements.
+/// Shape and type of one array, known without reading its elements.
 ///
 /// ```no_run
 /// # fn of(file: &taceva_arrays::ArrayFile) {
@@ -50,7 +50,7 @@ impl std::fmt::Display for Element {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ArrayInfo {
-    /// Lengths of the axes, the slowest first. A single number has none.
+    /// Lengths of the axes, the slowest first; empty for a single number.
     pub shape: Vec<u64>,
     /// The type of the elements.
     pub element: Element,
@@ -67,7 +67,7 @@ impl ArrayInfo {
         self.shape.first().copied().unwrap_or(1)
     }
 
-    /// Elements of one row: the product of all axes but the first. `None` beyond 64 bits.
+    /// Elements of one row: the product of all axes but the first. `None` above 64 bits.
     #[must_use]
     pub fn row_elements(&self) -> Option<u64> {
         let rest = self.shape.get(1..).unwrap_or(&[]);

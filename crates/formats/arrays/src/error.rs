@@ -1,9 +1,9 @@
-//! What can be wrong with a file of arrays.
+//! Errors of files of arrays.
 
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// Why a file of arrays, or an array of it, was not read or not written.
+/// Error of reading or writing a file of arrays, or one of its arrays.
 ///
 /// ```
 /// use std::path::Path;
@@ -19,15 +19,15 @@ use std::path::PathBuf;
 pub struct ArrayError {
     /// The file, or the folder of a zarr store.
     pub path: PathBuf,
-    /// The array, if one was asked for.
+    /// The array, if the error concerns one.
     pub array: Option<String>,
-    /// What is wrong.
+    /// The problem.
     #[source]
     pub problem: Problem,
 }
 
-/// What is wrong with a file, where, and what would mend it. Offsets are in bytes from the beginning of the file, or of the member or
-/// chunk that the text names.
+/// A problem of a file: its location, and how to fix it. Offsets are in bytes from the beginning of the file, or of the member or chunk
+/// that the text names.
 ///
 /// ```
 /// use taceva_arrays::Problem;
@@ -38,82 +38,82 @@ pub struct ArrayError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
-    /// The operating system refused.
+    /// An input or output error.
     #[error("cannot {doing}: {source}")]
     Io {
-        /// What was being done.
+        /// The operation that failed.
         doing: &'static str,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// Bytes that contradict the format.
     #[error("byte {at}: {found}, expected {expected}")]
     Damaged {
-        /// Where, in bytes.
+        /// Offset, bytes.
         at: u64,
-        /// What stands there.
+        /// The content found.
         found: String,
-        /// What should.
+        /// The content expected.
         expected: String,
     },
-    /// Something that the format allows and this crate does not read, or that it does not write.
+    /// Content that the format allows but this crate does not read or write.
     #[error("{found}; {mend}")]
     Unsupported {
-        /// What was found.
+        /// The content found.
         found: String,
-        /// What to do instead.
+        /// The alternative for the user.
         mend: String,
     },
-    /// A size beyond what is accepted; nothing was allocated for it.
+    /// A size above the limit; nothing was allocated for it.
     #[error("{what}: {size}, above the limit of {limit}")]
     TooLarge {
-        /// What is large, with its unit.
+        /// The thing that is too large, with its unit.
         what: String,
         /// Its size.
         size: u64,
-        /// The largest that is accepted.
+        /// The limit.
         limit: u64,
     },
-    /// A checksum of the file that does not agree with its content.
+    /// A checksum of the file that does not match its content.
     #[error(
         "{what}: checksum {computed:#010x}, the file states {stated:#010x}: it was damaged after it was written"
     )]
     Checksum {
-        /// What was summed.
+        /// The part of the file.
         what: String,
-        /// What the file says.
+        /// The checksum in the file.
         stated: u32,
-        /// What its bytes give.
+        /// The checksum of its bytes.
         computed: u32,
     },
-    /// A structure of the file that does not hold together, in the words of the library that reads it.
+    /// An inconsistent structure of the file, in the words of the library that reads it.
     #[error("{problem}")]
     Structure {
-        /// What the library says.
+        /// The message of the library.
         problem: String,
     },
     /// No array of that name.
     #[error("no such array; there are {there}")]
     Absent {
-        /// The first names that are there.
+        /// The first names of existing arrays.
         there: String,
     },
-    /// Rows that the array does not have.
+    /// Rows beyond the end of the array.
     #[error("no rows {} to {}, there are {rows} from 0", asked.start, asked.end)]
     Rows {
-        /// Those that were asked for, the last not among them.
+        /// The requested rows, end exclusive.
         asked: Range<u64>,
-        /// How many there are.
+        /// Number of rows of the array.
         rows: u64,
     },
-    /// A pickle that asks for a class or function beyond plain values and arrays. Nothing of it was run.
+    /// A pickle that needs a class or function beyond plain values and arrays. No part of it was run.
     #[error("byte {at}: wants `{global}`, which is not run here; {mend}")]
     Global {
-        /// Where, in bytes.
+        /// Offset, bytes.
         at: u64,
         /// Module and name.
         global: String,
-        /// What to do instead.
+        /// The alternative for the user.
         mend: String,
     },
 }
@@ -135,7 +135,7 @@ impl Problem {
         }
     }
 
-    /// The same once more, for whoever asks again for an array that is refused.
+    /// A copy of the problem, for repeated requests of a rejected array.
     pub(crate) fn again(&self) -> Problem {
         match self {
             Problem::Unsupported { found, mend } => {
@@ -160,7 +160,7 @@ impl Problem {
         }
     }
 
-    /// The same with the part of the file that offsets are within.
+    /// The same problem, with the part of the file that its offsets refer to.
     pub(crate) fn within(self, part: &str) -> Problem {
         match self {
             Problem::Damaged {

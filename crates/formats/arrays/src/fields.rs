@@ -1,4 +1,4 @@
-//! Records: elements of several fields that lie behind one another, each of which is read as an array of its own.
+//! Records: elements of several consecutive fields, each of which is read as its own array.
 
 use crate::element::{ArrayInfo, Element};
 use crate::error::Problem;
@@ -7,22 +7,22 @@ use crate::literal::Literal;
 use crate::scalar::{Scalar, shown};
 use crate::values::{ArrayData, ArrayValues};
 
-/// One field of a record, or the whole of an element that is no record.
+/// One field of a record, or the whole element if it is no record.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Field {
-    /// Names from the outermost, joined by dots; empty of an element that is no record.
+    /// Names from the outermost, joined by dots; empty for an element that is no record.
     pub(crate) name: String,
-    /// Bytes from the beginning of the element.
+    /// Offset within the element, bytes.
     pub(crate) at: usize,
-    /// Lengths of the axes that the field has of its own.
+    /// Lengths of the axes within the field.
     pub(crate) extent: Vec<u64>,
     pub(crate) scalar: Scalar,
 }
 
-/// An element of an array as it lies in a file.
+/// Layout of an element of an array in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Item {
-    /// Bytes of one element.
+    /// Size of one element, bytes.
     pub(crate) bytes: usize,
     pub(crate) fields: Vec<Field>,
 }
@@ -40,7 +40,7 @@ impl Item {
         }
     }
 
-    /// The type of elements that are no records, but for those of no bytes, whose number nothing tells.
+    /// The type of elements that are no records; `None` for elements of zero bytes, whose number is unknown.
     pub(crate) fn scalar(&self) -> Option<Scalar> {
         match self.fields.as_slice() {
             [field]
@@ -54,7 +54,7 @@ impl Item {
         }
     }
 
-    /// What NumPy calls the `descr` of a type: a name, or a list of fields with their names.
+    /// Parses a NumPy `descr`: a type name, or a list of fields with their names.
     pub(crate) fn from_descr(descr: &Literal) -> Result<Item, Problem> {
         let mut item = Item {
             bytes: 0,
@@ -64,7 +64,7 @@ impl Item {
         Ok(item)
     }
 
-    /// Adds what `descr` says behind the fields so far.
+    /// Appends the fields of `descr`.
     fn add(&mut self, descr: &Literal, name: &str, extent: &[u64]) -> Result<(), Problem> {
         let unknown = || {
             Problem::unsupported(
@@ -80,7 +80,7 @@ impl Item {
             .ok_or_else(unknown)?;
         let start = self.bytes;
         match descr {
-            // Bytes that fill a gap have no name.
+            // Padding bytes have no name.
             Literal::Text(filler)
                 if filler.trim_start_matches('|').starts_with('V') && !name.is_empty() =>
             {
@@ -101,7 +101,7 @@ impl Item {
                 });
                 self.bytes = scalar.bytes();
             }
-            // Several records in one field: no field of theirs is one block.
+            // Several records in one field: none of their fields is one block.
             Literal::Sequence(_) if !extent.is_empty() => return Err(unknown()),
             Literal::Sequence(fields) => {
                 for field in fields {
@@ -156,7 +156,7 @@ impl Item {
         self.fields.iter().map(array).collect()
     }
 
-    /// One field of the elements `raw`, whose shape is `shape`.
+    /// One field of the elements `raw`, which have the shape `shape`.
     pub(crate) fn read(
         &self,
         field: &Field,
@@ -183,7 +183,7 @@ impl Item {
     }
 }
 
-/// Product of the sides, each of which was checked against a limit before.
+/// Product of the sides, each checked against a limit before.
 fn elements(shape: &[u64]) -> usize {
     let product = shape
         .iter()
@@ -193,7 +193,7 @@ fn elements(shape: &[u64]) -> usize {
         .unwrap_or(usize::MAX)
 }
 
-/// How many bytes `read` holds for an array of such a shape, or why that is too much.
+/// Checks the memory that `read` needs for an array of this shape against the limit.
 pub(crate) fn check_read(shape: &[u64], element: Element, held_bytes: u64) -> Result<(), Problem> {
     let least = match element {
         Element::Text | Element::Bytes => size_of::<String>() as u64,

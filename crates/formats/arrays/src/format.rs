@@ -1,8 +1,8 @@
-//! Which form a file of arrays has.
+//! Formats of files of arrays.
 
 use std::path::Path;
 
-/// The form of a file that holds arrays.
+/// Format of a file of arrays.
 ///
 /// ```
 /// use std::path::Path;
@@ -14,9 +14,9 @@ use std::path::Path;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ArrayFormat {
-    /// One array of NumPy (`.npy`).
+    /// One NumPy array (`.npy`).
     Npy,
-    /// Several arrays of NumPy in a zip archive (`.npz`).
+    /// Several NumPy arrays in a zip archive (`.npz`).
     Npz,
     /// HDF5 (`.h5`, `.hdf5`, `.hdf`, `.he5`, `.nc4`).
     Hdf5,
@@ -29,7 +29,7 @@ pub enum ArrayFormat {
 }
 
 impl ArrayFormat {
-    /// Every form.
+    /// All formats.
     pub const ALL: [ArrayFormat; 6] = [
         ArrayFormat::Npy,
         ArrayFormat::Npz,
@@ -39,7 +39,7 @@ impl ArrayFormat {
         ArrayFormat::Pickle,
     ];
 
-    /// The form that the ending of `path` names; nothing is opened.
+    /// The format by the extension of `path`; opens nothing.
     #[must_use]
     pub fn of(path: &Path) -> Option<ArrayFormat> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
@@ -47,7 +47,7 @@ impl ArrayFormat {
         ArrayFormat::ALL.into_iter().find(named)
     }
 
-    /// The endings of its files, in lower case and without the dot.
+    /// The extensions of the format, in lower case and without the dot.
     ///
     /// ```
     /// assert_eq!(taceva_arrays::ArrayFormat::Matlab.endings(), ["mat"]);

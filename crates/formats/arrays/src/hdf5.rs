@@ -1,4 +1,4 @@
-//! HDF5, by the crate `hdf5-pure`: its structures, chunks and filters. What lies in one piece, and variable-length values, are read here.
+//! HDF5, by the crate `hdf5-pure`: its structures, chunks and filters. Contiguous data and variable-length values are read here.
 
 mod attribute;
 mod chunk_index;
@@ -39,7 +39,7 @@ pub(crate) use data_frame::store;
 pub use element_type::WrittenElement;
 pub use writer::Hdf5Writer;
 
-/// A file of HDF5.
+/// An HDF5 file.
 #[derive(Debug)]
 pub(crate) struct Hdf5 {
     bytes: Arc<FileBytes>,
@@ -47,30 +47,30 @@ pub(crate) struct Hdf5 {
     groups: Vec<String>,
     datasets: Vec<Listed>,
     refused: Vec<(String, Problem)>,
-    /// Links that lead nowhere.
+    /// Dead links.
     nowhere: Vec<(String, Problem)>,
-    /// For each array that is listed, which dataset and which field of it.
+    /// For each listed array, the index of its dataset and of its field.
     listed: Vec<(usize, usize)>,
     open: Mutex<Cache<usize, Opened>>,
     unpacked: UnpackedSizes,
     heap: GlobalHeap,
 }
 
-/// A dataset that can be read.
+/// A readable dataset.
 #[derive(Debug)]
 pub(crate) struct Listed {
     pub(crate) path: String,
     pub(crate) shape: Vec<u64>,
     pub(crate) item: Item,
-    /// Bytes of one row, in the file and once filters are undone.
+    /// Unpacked size of one row, bytes.
     pub(crate) row_bytes: u64,
 }
 
-/// A dataset whose structures were read.
+/// A dataset with parsed structures.
 #[derive(Debug)]
 struct Opened {
     dataset: Dataset,
-    /// Where its rows begin, if they lie in one piece.
+    /// Offset of its rows, if they are contiguous.
     at: Option<u64>,
 }
 
@@ -88,7 +88,7 @@ impl Hdf5 {
         let mut nowhere = Vec::new();
         let (found, file) = match open(Patches::new()) {
             Ok(opened) => opened,
-            // Perhaps for its soft links alone.
+            // The cause may be soft links alone.
             Err(problem) => match soft_links::followed(&bytes) {
                 Ok(followed) if !followed.patches.is_empty() => {
                     nowhere = followed.nowhere;
@@ -138,7 +138,7 @@ impl Hdf5 {
         Ok(opened)
     }
 
-    /// The dataset, and how many bytes of its chunks are held.
+    /// The dataset, and the size of its chunks in memory, bytes.
     fn open_dataset(&self, index: usize) -> Result<(Opened, u64), Problem> {
         let listed = &self.datasets[index];
         let dataset = self.file.dataset(&listed.path).map_err(problem)?;
@@ -180,7 +180,7 @@ impl Hdf5 {
                 let chunks = ChunkIndex::read(&dataset, &listed.shape, &chunk_shape)?;
                 let written = chunks.map_or(0, |chunks| chunks.written);
                 self.take_unpacked(index, written.saturating_mul(chunk_bytes))?;
-                // Rows that are read one by one find the chunks that they share.
+                // Rows that are read one by one share cached chunks.
                 let rows_of_chunk = chunk_shape.first().copied().unwrap_or(1);
                 let across = rows_of_chunk
                     .saturating_mul(listed.row_bytes)
@@ -206,7 +206,7 @@ impl Hdf5 {
         }
     }
 
-    /// Counts a dataset towards what the file becomes: its chunks once unpacked, and elements that were never written.
+    /// Counts a dataset towards the unpacked size of the file: its unpacked chunks, and elements that were never written.
     fn take_unpacked(&self, index: usize, chunks: u64) -> Result<(), Problem> {
         let listed = &self.datasets[index];
         let rows = listed.shape.first().copied().unwrap_or(1);
@@ -214,7 +214,7 @@ impl Hdf5 {
         self.unpacked.take(index, bytes, self.bytes.length())
     }
 
-    /// The bytes of rows as they are stored, filters undone.
+    /// The bytes of rows, unpacked from all filters.
     pub(crate) fn raw_rows(&self, index: usize, rows: Range<u64>) -> Result<Vec<u8>, Problem> {
         let row_bytes = self.datasets[index].row_bytes;
         let count = rows.end - rows.start;
@@ -329,14 +329,14 @@ impl Store for Hdf5 {
     }
 }
 
-/// Bytes of a block, if they fit 64 bits.
+/// Size of a block, bytes; `None` above 64 bits.
 pub(crate) fn product(sides: &[u64], item_bytes: u64) -> Option<u64> {
     sides
         .iter()
         .try_fold(item_bytes, |bytes, side| bytes.checked_mul(*side))
 }
 
-/// What the crate says, in our words where there is something to do about it.
+/// Converts an error of the crate; adds a remedy if there is one.
 pub(crate) fn problem(error: hdf5_pure::Error) -> Problem {
     use hdf5_pure::Error;
     match error {
@@ -348,7 +348,7 @@ pub(crate) fn problem(error: hdf5_pure::Error) -> Problem {
             format!("data layout version {version}, which is newer than HDF5 2.0"),
             "write it with `h5py.File(path, 'w', libver='v114')`, or copy it with h5py into such a file",
         ),
-        // The crate has no kind of its own for it.
+        // The crate has no separate kind for this error.
         Error::Format(FormatError::ChunkedReadError(words))
             if words.contains("version 2 B-tree") =>
         {

@@ -1,4 +1,4 @@
-//! Deflated bytes, inflated piece by piece or as a whole.
+//! Decompression of deflated bytes, in pieces or as a whole.
 
 use miniz_oxide::inflate::TINFLStatus;
 use miniz_oxide::inflate::core::{DecompressorOxide, decompress, inflate_flags};
@@ -6,17 +6,17 @@ use miniz_oxide::inflate::core::{DecompressorOxide, decompress, inflate_flags};
 use crate::error::Problem;
 use crate::source::{ByteSource, bytes_of};
 
-/// Deflated bytes are read in pieces of so many.
+/// Size of the pieces in which deflated bytes are read, bytes.
 const INPUT_BYTES: u64 = 256 << 10;
-/// What is inflated goes through a window of so many bytes, a power of two of at least 32 KiB.
+/// Size of the output window, bytes: a power of two of at least 32 KiB.
 const WINDOW_BYTES: usize = 256 << 10;
 
-/// How deflated bytes are wrapped.
+/// Container of deflated bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wrapping {
-    /// Not at all.
+    /// No container.
     Raw,
-    /// By the header and the checksum of zlib, which is compared.
+    /// Header and checksum of zlib; the checksum is compared.
     Zlib,
 }
 
@@ -29,7 +29,7 @@ impl Wrapping {
     }
 }
 
-/// Everything that `packed` holds, which must be `bytes` long; the caller has compared that with a limit.
+/// Inflates all of `packed` to exactly `bytes` bytes; the caller has checked `bytes` against a limit.
 pub(crate) fn inflated(
     packed: &[u8],
     bytes: usize,
@@ -46,7 +46,7 @@ pub(crate) fn inflated(
     }
 }
 
-/// The same where the length is not known before: at most `most` bytes, and how many of the packed ones were used.
+/// Inflates to an unknown length of at most `most` bytes; also returns the number of packed bytes used.
 pub(crate) fn inflated_at_most(
     packed: &[u8],
     most: usize,
@@ -63,7 +63,7 @@ pub(crate) fn inflated_at_most(
     Ok((whole, used))
 }
 
-/// What the decoder says of bytes that it cannot go on with, `at` among the deflated ones.
+/// The problem for bytes that the decoder rejects, at offset `at` of the deflated bytes.
 fn broken(at: u64, status: TINFLStatus) -> Problem {
     let (found, expected) = match status {
         TINFLStatus::HasMoreOutput => ("more bytes than are stated", "the end of what is deflated"),
@@ -79,18 +79,18 @@ fn broken(at: u64, status: TINFLStatus) -> Problem {
     Problem::damaged(at, found, expected)
 }
 
-/// Deflated bytes that are inflated from the first to the last, as far as somebody asks.
+/// Incremental inflater, from first byte to last, as far as requested.
 pub(crate) struct Inflater {
     state: Box<DecompressorOxide>,
     wrapping: Wrapping,
-    /// Where the deflated bytes lie in their source.
+    /// Range of the deflated bytes in their source.
     from: std::ops::Range<u64>,
-    /// Where the next of them is.
+    /// Offset of the next byte to read.
     next: u64,
     input: Vec<u8>,
     used: usize,
     window: Vec<u8>,
-    /// Bytes of the window that nobody took yet.
+    /// Bytes of the window that were not consumed yet.
     ready: std::ops::Range<usize>,
     is_done: bool,
 }
@@ -110,7 +110,7 @@ impl Inflater {
         }
     }
 
-    /// Fills `into` with the next bytes; fewer are given at the end alone.
+    /// Fills `into` with the next bytes; returns fewer only at the end.
     pub(crate) fn read(
         &mut self,
         source: &dyn ByteSource,
@@ -130,7 +130,7 @@ impl Inflater {
         Ok(filled)
     }
 
-    /// Inflates until there is something in the window; false at the end.
+    /// Inflates until the window has bytes; false at the end.
     fn step(&mut self, source: &dyn ByteSource) -> Result<bool, Problem> {
         while !self.is_done {
             if self.used == self.input.len() && self.next < self.from.end {

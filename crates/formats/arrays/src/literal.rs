@@ -1,10 +1,9 @@
-//! Literals of Python, as headers of NumPy have them: texts, whole numbers, true and false, tuples, lists, dictionaries.
+//! Python literals, as in headers of NumPy: texts, whole numbers, true and false, tuples, lists, dictionaries.
 
 use crate::error::Problem;
 use crate::limits;
 use crate::scalar::shown;
 
-/// A literal.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Literal {
     Text(String),
@@ -16,7 +15,7 @@ pub(crate) enum Literal {
 }
 
 impl Literal {
-    /// Reads `text`, which begins at byte `at` of the file.
+    /// Parses `text`, which begins at byte `at` of the file.
     pub(crate) fn parse(text: &str, at: u64) -> Result<Literal, Problem> {
         let mut reader = Reader { text, at, place: 0 };
         let literal = reader.value(0)?;
@@ -27,7 +26,7 @@ impl Literal {
         Ok(literal)
     }
 
-    /// What `key` of a dictionary names.
+    /// The value of `key` in a dictionary; `None` if there is none.
     pub(crate) fn key(&self, key: &str) -> Option<&Literal> {
         let Literal::Dictionary(entries) = self else {
             return None;
@@ -67,7 +66,7 @@ impl Reader<'_> {
         self.place += self.rest().len() - self.rest().trim_start().len();
     }
 
-    /// Whether `mark` stands here; then it is behind.
+    /// Consumes `mark` if it is next, and returns whether it was.
     fn skips(&mut self, mark: &str) -> bool {
         self.blank();
         let is_here = self.rest().starts_with(mark);
@@ -120,7 +119,7 @@ impl Reader<'_> {
         let number = number
             .ok_or_else(|| self.expected("a text, a whole number, a list or a dictionary"))?;
         self.place += digits;
-        // Python 2 wrote long numbers with an `L`.
+        // Python 2 appended an `L` to long numbers.
         if self.rest().starts_with('L') {
             self.place += 1;
         }

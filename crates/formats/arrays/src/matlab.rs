@@ -1,5 +1,5 @@
-//! MATLAB files of version 5 (`save`, `save -v7`), read here, and of version 7.3, which are HDF5. Lengths of axes are MATLAB's: a
-//! variable of 480×640×20 is an array of that shape, whose rows are those of the first axis.
+//! MATLAB files of version 5 (`save`, `save -v7`), read here, and of version 7.3, which are HDF5. Lengths of axes are MATLAB's: a variable
+//! of 480×640×20 is an array of that shape, with rows along the first axis.
 
 mod content;
 mod element;
@@ -25,7 +25,7 @@ use element::{Place, TYPE_COMPRESSED, TYPE_MATRIX};
 use variable::Variable;
 use variables::Found;
 
-/// The header: 116 bytes of text, 8 of an offset, the version, and the order of bytes.
+/// Size of the header, bytes: 116 of text, 8 of an offset, the version, and the byte order.
 const HEADER_BYTES: u64 = 128;
 
 /// Opens a file of either version.
@@ -87,7 +87,7 @@ impl Matlab5 {
                         0,
                     )?;
                 }
-                // Something that MATLAB keeps for itself.
+                // An internal element of MATLAB.
                 _ => {}
             }
             if found.count() > limits::ARRAYS {
@@ -97,7 +97,7 @@ impl Matlab5 {
                     limits::ARRAYS,
                 ));
             }
-            // What is compressed is not filled up to 8 bytes.
+            // Compressed elements are not padded to 8 bytes.
             at = if tag.kind == TYPE_COMPRESSED {
                 tag.end
             } else {
@@ -111,7 +111,7 @@ impl Matlab5 {
     }
 }
 
-/// A variable that is deflated: how long it becomes says its own tag.
+/// Opens a deflated variable, whose own tag states its inflated length.
 fn inflated(
     file: &Arc<FileBytes>,
     tag: &element::Tag,

@@ -1,4 +1,4 @@
-//! Bytes that lie deflated or as they are within a file: members of an archive, variables of MATLAB.
+//! Deflated or stored bytes within a file: members of an archive, variables of MATLAB.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,28 +12,28 @@ use crate::limits;
 use crate::scalar::shown;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 
-/// Checksums are formed, and bytes that nobody asked for passed, in pieces of so many bytes.
+/// Size of the pieces in which checksums are computed and unwanted bytes skipped.
 const PIECE_BYTES: u64 = 1 << 20;
-/// What headers lie within, nearly always: nothing but this is inflated to list arrays.
+/// Size of the beginning that nearly always contains the header, bytes: listing arrays inflates only this.
 const BEGINNING_BYTES: u64 = 4 << 10;
 
-/// Where packed bytes lie.
+/// Location of packed bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Packed {
     pub(crate) name: String,
-    /// How they are deflated, if they are.
+    /// Container of the deflated bytes; `None` if they are stored.
     pub(crate) wrapping: Option<Wrapping>,
-    /// The checksum of the bytes as they were before, where the file has one.
+    /// The checksum of the unpacked bytes, if the file has one.
     pub(crate) crc32: Option<u32>,
     pub(crate) at: u64,
-    /// Bytes in the file.
+    /// Size in the file, bytes.
     pub(crate) packed_bytes: u64,
-    /// Bytes once they are inflated.
+    /// Inflated size, bytes.
     pub(crate) bytes: u64,
 }
 
 impl Packed {
-    /// Refuses what cannot be, and what is made to fill a memory or to cost hours.
+    /// Rejects impossible sizes, and members made to exhaust memory or time.
     pub(crate) fn check_size(&self) -> Result<(), Problem> {
         let wrong = |expected: u64| {
             Problem::damaged(
@@ -75,14 +75,14 @@ impl Packed {
     }
 }
 
-/// How many bytes of one file are held inflated so far.
+/// Number of inflated bytes of one file that are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Budget {
     held_bytes: u64,
 }
 
 impl Budget {
-    /// Whether so many more may be held.
+    /// Reserves `bytes` more; returns false if they exceed the limit.
     fn takes(&mut self, bytes: u64) -> bool {
         let is_held = bytes <= limits::HELD_BYTES.saturating_sub(self.held_bytes);
         self.held_bytes += if is_held { bytes } else { 0 };
@@ -90,32 +90,32 @@ impl Budget {
     }
 }
 
-/// Bytes as they were before they were packed.
+/// Unpacked bytes of a member.
 ///
-/// What is stored is read in place, once its checksum was compared. What is deflated is inflated as a whole and held where all such
-/// members take 64 MiB at most; of larger ones it is inflated from where the last rows ended, and from the beginning for rows before
-/// them: their checksum is compared whenever the last byte is reached.
+/// Stored bytes are read in place, after a comparison of their checksum. Deflated members are inflated as a whole and kept if all of them
+/// take at most 64 MiB. Larger ones are inflated from the end of the last rows, or from the beginning for earlier rows. Their checksum is
+/// compared whenever the last byte is reached.
 #[derive(Debug)]
 pub(crate) struct PackedBytes {
     file: Arc<FileBytes>,
     member: Packed,
     is_held: bool,
-    /// True once its header was read: from here on nothing is given that was not summed, or will be at its end.
+    /// True once the header was read. From then on all returned bytes are covered by a checksum, at the latest at the end of the member.
     is_listed: AtomicBool,
     read: Mutex<Read>,
 }
 
-/// What was read of a member so far.
+/// Part of a member that was read.
 #[derive(Debug)]
 enum Read {
     Nothing,
-    /// Stored, and its checksum agrees.
+    /// Stored, with a matching checksum.
     Checked,
     Whole(Arc<Vec<u8>>),
     Part(Box<Part>),
 }
 
-/// How far a member was inflated.
+/// Progress of the inflation of a member.
 #[derive(Debug)]
 struct Part {
     inflater: Inflater,
@@ -175,7 +175,7 @@ impl PackedBytes {
         }
     }
 
-    /// Ends the reading of headers, of which the beginning alone is looked at.
+    /// Ends the reading of headers, which reads only the beginning.
     pub(crate) fn end_listing(&self) {
         self.is_listed.store(true, Ordering::Relaxed);
     }
@@ -196,7 +196,7 @@ impl PackedBytes {
         Ok(whole)
     }
 
-    /// Inflates what lies before `at`.
+    /// Inflates and discards the bytes before `at`.
     fn pass(&self, part: &mut Part, at: u64) -> Result<(), Problem> {
         let size = usize::try_from(PIECE_BYTES.min(at - part.at)).unwrap_or(0);
         let mut passed = vec![0; size];

@@ -1,4 +1,4 @@
-//! `.npy`: one array of NumPy, versions 1 to 3 of the form.
+//! `.npy`: one NumPy array, versions 1 to 3 of the format.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -15,10 +15,10 @@ use crate::values::ArrayData;
 
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
 
-/// An array of NumPy in any source of bytes.
+/// A NumPy array in any source of bytes.
 #[derive(Debug)]
 pub(crate) struct NpyArray {
-    /// Empty of a file that holds nothing else.
+    /// Empty for a file with only this array.
     name: String,
     content: Content,
 }
@@ -26,17 +26,17 @@ pub(crate) struct NpyArray {
 #[derive(Debug)]
 enum Content {
     Numbers(Block),
-    /// Values of Python, pickled.
+    /// Pickled Python values.
     Objects(Pickle),
 }
 
-/// What the header of an array says.
+/// Header of an array.
 #[derive(Debug)]
 pub(crate) struct NpyHeader {
     pub(crate) shape: Vec<u64>,
     descr: Literal,
     is_fortran: bool,
-    /// Where the elements begin.
+    /// Offset of the elements, bytes.
     pub(crate) data_at: u64,
 }
 
@@ -96,7 +96,7 @@ impl NpyHeader {
 }
 
 impl NpyArray {
-    /// Reads the header and compares it with the length of the source.
+    /// Parses the header and compares it with the length of the source.
     pub(crate) fn open(name: &str, source: Arc<dyn ByteSource>) -> Result<NpyArray, Problem> {
         let header = NpyHeader::read(&*source)?;
         let name = name.to_owned();
@@ -124,7 +124,7 @@ impl NpyArray {
         Ok(NpyArray { name, content })
     }
 
-    /// The name of what is called `own` within this array.
+    /// The full name of the field `own` of this array.
     fn full(&self, own: &str) -> String {
         match (self.name.as_str(), own) {
             ("", own) => own.to_owned(),

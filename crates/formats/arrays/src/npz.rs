@@ -1,4 +1,4 @@
-//! `.npz`: a zip archive whose members are arrays of NumPy.
+//! `.npz`: a zip archive of NumPy arrays.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -17,7 +17,7 @@ use crate::values::ArrayData;
 #[derive(Debug)]
 pub(crate) struct Npz {
     arrays: Vec<NpyArray>,
-    /// For each array that is listed, which member and which field of it.
+    /// For each listed array, the index of its member and of its field.
     listed: Vec<(usize, usize)>,
     refused: Vec<(String, Problem)>,
 }
@@ -29,7 +29,7 @@ impl Npz {
         let mut budget = Budget::default();
         let (mut arrays, mut refused) = (Vec::new(), Vec::new());
         for member in members(&*file)? {
-            // Others are notes of whoever wrote the archive.
+            // Other members are notes of the writer.
             let Some(name) = member.name.strip_suffix(".npy").map(str::to_owned) else {
                 continue;
             };

@@ -1,4 +1,4 @@
-//! Arrays that lie column by column (Fortran order, the first axis fastest), turned to rows block by block.
+//! Column-major arrays (Fortran order, the first axis fastest), transposed to rows block by block.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -7,19 +7,19 @@ use crate::error::Problem;
 use crate::limits;
 use crate::source::{ByteSource, bytes_of};
 
-/// Columns are read so many bytes at a time where they are short.
+/// Size of the pieces in which short columns are read, bytes.
 const PIECE_BYTES: u64 = 1 << 20;
 
-/// Rows that were turned, and which they are.
+/// Transposed rows, with their range.
 type Turned = (Range<u64>, Arc<Vec<u8>>);
 
-/// An array whose first axis is fastest. Rows are turned in blocks of up to 64 MiB, the last of which is kept, so that reading row after
-/// row goes through the file once for every 64 MiB of it.
+/// An array whose first axis is fastest. Rows are transposed in blocks of up to 64 MiB. The last block is cached, so that reading row after
+/// row passes through the file once for every 64 MiB.
 #[derive(Debug)]
 pub(crate) struct ColumnMajor {
     rows: u64,
     item_bytes: u64,
-    /// Lengths of the axes behind the first.
+    /// Lengths of the axes after the first.
     rest: Vec<u64>,
     row_elements: u64,
     data_at: u64,
@@ -27,13 +27,13 @@ pub(crate) struct ColumnMajor {
 }
 
 impl ColumnMajor {
-    /// Its bytes begin at `data_at`; the sizes were checked against the source.
+    /// An array whose bytes begin at `data_at`; the sizes were checked against the source.
     pub(crate) fn new(shape: &[u64], item_bytes: u64, data_at: u64) -> ColumnMajor {
         let rest = shape.get(1..).unwrap_or(&[]).to_vec();
         ColumnMajor {
             rows: shape.first().copied().unwrap_or(1),
             item_bytes,
-            // Beyond 64 bits only where another length, or that of an element, is 0: then nothing is read.
+            // Above 64 bits only if another length, or that of an element, is 0: then nothing is read.
             row_elements: rest
                 .iter()
                 .fold(1, |product: u64, side| product.saturating_mul(*side)),
@@ -61,7 +61,7 @@ impl ColumnMajor {
             _ => {
                 let fit = (limits::TURNED_BYTES / row_bytes).max(rows.end - rows.start);
                 let block = rows.start..rows.start.saturating_add(fit).min(self.rows);
-                // The block before goes first: there is room for one.
+                // The previous block is dropped first: memory has room for one.
                 *kept = None;
                 let turned = Arc::new(self.turned(source, block.clone())?);
                 *kept = Some((block.clone(), Arc::clone(&turned)));
@@ -119,7 +119,7 @@ impl ColumnMajor {
     }
 }
 
-/// A block whose axes stand in the order `order`, turned to that of `sides`.
+/// Transposes a block with the axes in the order `order` to the order of `sides`.
 pub(crate) fn c_order(
     block: &[u8],
     sides: &[u64],
@@ -155,13 +155,13 @@ pub(crate) fn c_order(
     Ok(turned)
 }
 
-/// The place in C order of each element that lies column by column; the sides were checked.
+/// The index in C order of each element in column-major order; the sides were checked.
 pub(crate) fn c_places(sides: &[u64]) -> impl Iterator<Item = usize> {
     let mut places = Places::new(sides);
     std::iter::repeat_with(move || places.next_place())
 }
 
-/// Distances between neighbours along each axis of a block in C order, whose items take `item_bytes`.
+/// Strides along each axis of a block in C order, in the unit of `item_bytes`.
 pub(crate) fn strides(sides: &[u64], item_bytes: usize) -> Vec<usize> {
     let mut strides = vec![item_bytes; sides.len()];
     for axis in (1..sides.len()).rev() {
@@ -170,7 +170,7 @@ pub(crate) fn strides(sides: &[u64], item_bytes: usize) -> Vec<usize> {
     strides
 }
 
-/// Where the columns, the second axis fastest, stand in a row whose last axis is fastest.
+/// Iterator over the index of each column (second axis fastest) in a row in C order.
 struct Places {
     sides: Vec<u64>,
     strides: Vec<usize>,
@@ -188,7 +188,7 @@ impl Places {
         }
     }
 
-    /// The place of the next column, in elements.
+    /// The index of the next column, in elements.
     fn next_place(&mut self) -> usize {
         let here = self.place;
         for axis in 0..self.sides.len() {

@@ -1,5 +1,5 @@
-//! Pickles of Python, protocols 2 to 5, that hold arrays of NumPy and plain values. Nothing in them is run: eleven names stand for what
-//! is made here, any other is refused.
+//! Python pickles, protocols 2 to 5, with NumPy arrays and plain values. No code in them is run: eleven known names are built here, and any
+//! other is rejected.
 
 mod calls;
 mod columns;
@@ -31,10 +31,10 @@ pub(crate) struct Pickle {
     refused: Vec<(String, Problem)>,
 }
 
-/// Where the elements of a column are.
+/// Location of the elements of a column.
 #[derive(Debug)]
 enum Stored {
-    /// In one array, or in several that are the rows.
+    /// In one array, or in several arrays, one for each row.
     Blocks {
         element: Element,
         blocks: Vec<Block>,
@@ -47,7 +47,7 @@ enum Stored {
 }
 
 impl Pickle {
-    /// Reads the pickle that begins at `at`; the elements of its arrays stay where they are.
+    /// Parses the pickle that begins at `at`; the elements of its arrays are not read.
     pub(crate) fn open(source: Arc<dyn ByteSource>, at: u64) -> Result<Pickle, Problem> {
         let (values, whole) = machine::run(&*source, at)?;
         let text = |bytes: &Bytes| String::from_utf8(machine::read(&*source, bytes).ok()?).ok();
@@ -128,7 +128,7 @@ impl Pickle {
     }
 }
 
-/// The column with its elements found.
+/// The location of the elements of a column.
 fn stored(
     source: &Arc<dyn ByteSource>,
     column: Column,
@@ -189,7 +189,7 @@ impl Store for Pickle {
         &self.refused
     }
 
-    /// Dictionaries within the dictionary, by the keys that lead to them: `trajectories.0`.
+    /// Dictionaries within the dictionary, by the path of their keys: `trajectories.0`.
     fn groups(&self) -> Vec<String> {
         let mut groups = std::collections::BTreeSet::new();
         for (name, ..) in &self.columns {

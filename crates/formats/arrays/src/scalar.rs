@@ -1,11 +1,11 @@
-//! How one element lies in a file, and how its bytes become values.
+//! Layout of one element in a file, and its conversion to values.
 
 mod decoder;
 
 use crate::element::Element;
 use crate::error::Problem;
 
-/// What the bytes of an element mean.
+/// Meaning of the bytes of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(
     not(feature = "hdf5"),
@@ -16,9 +16,9 @@ pub(crate) enum Kind {
     Unsigned,
     Signed,
     Float,
-    /// UTF-8, filled up.
+    /// UTF-8 with padding.
     Text(Filler),
-    /// UTF-32, filled with zeros.
+    /// UTF-32 padded with zeros.
     WideText,
     /// A reference to text of any length.
     HeapText,
@@ -26,7 +26,7 @@ pub(crate) enum Kind {
     HeapBytes,
 }
 
-/// What follows a text in a field that is longer.
+/// Padding of a text in a longer field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(
     not(feature = "hdf5"),
@@ -34,12 +34,12 @@ pub(crate) enum Kind {
 )]
 pub(crate) enum Filler {
     Zeros,
-    /// A zero, and anything behind it.
+    /// A zero, then any bytes.
     FirstZero,
     Spaces,
 }
 
-/// The type of an element as it is stored: what, how long, in which byte order.
+/// Stored type of an element: kind, length and byte order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Scalar {
     kind: Kind,
@@ -48,7 +48,7 @@ pub(crate) struct Scalar {
 }
 
 impl Scalar {
-    /// `None` where the length is none that the kind has.
+    /// `None` if the kind has no such length.
     pub(crate) fn new(kind: Kind, bytes: usize, is_big_endian: bool) -> Option<Scalar> {
         let is_known = match kind {
             Kind::Bool => bytes == 1,
@@ -64,7 +64,7 @@ impl Scalar {
         })
     }
 
-    /// The type that NumPy writes as `<f4`, `|u1`, `>i8`, `|b1`, `|S6` or `<U5`.
+    /// Parses a NumPy type such as `<f4`, `|u1`, `>i8`, `|b1`, `|S6` or `<U5`.
     pub(crate) fn from_numpy(name: &str) -> Result<Scalar, Problem> {
         let unknown =
             |mend: &str| Problem::unsupported(format!("elements of type `{}`", shown(name)), mend);
@@ -110,7 +110,7 @@ impl Scalar {
             .ok_or_else(|| unknown("expected one of b1, u1 to u8, i1 to i8, f2 to f8, S and U"))
     }
 
-    /// Bytes of one element.
+    /// Size of one element, bytes.
     pub(crate) fn bytes(self) -> usize {
         self.bytes
     }
@@ -127,7 +127,7 @@ impl Scalar {
         }
     }
 
-    /// The bytes of a number, if it is one that such an element can be.
+    /// The bytes of a number; `None` if the element type cannot hold it.
     pub(crate) fn encode(self, number: &serde_json::Number) -> Option<Vec<u8>> {
         if self.kind == Kind::Float {
             return self.encode_float(number.as_f64()?);
@@ -147,7 +147,7 @@ impl Scalar {
             .then(|| self.in_order(kept))
     }
 
-    /// The same for a number with a floating point of 32 or 64 bits.
+    /// The bytes of a floating-point number of 32 or 64 bits; `None` for other types.
     pub(crate) fn encode_float(self, number: f64) -> Option<Vec<u8>> {
         match (self.kind, self.bytes) {
             #[expect(
@@ -160,7 +160,7 @@ impl Scalar {
         }
     }
 
-    /// Little-endian bytes in the order of this type.
+    /// Converts little-endian bytes to the byte order of this type.
     fn in_order(self, little: &[u8]) -> Vec<u8> {
         let mut bytes = little.to_vec();
         if self.is_big_endian {
@@ -169,7 +169,7 @@ impl Scalar {
         bytes
     }
 
-    /// Of a reference to a value elsewhere: whether that is text.
+    /// For a reference to a value elsewhere: true for text, false for bytes. `None` for other types.
     #[cfg(feature = "hdf5")]
     pub(crate) fn heap_text(self) -> Option<bool> {
         match self.kind {
@@ -180,7 +180,7 @@ impl Scalar {
     }
 }
 
-/// What foreign text looks like in a message: cut, and without control characters.
+/// Foreign text for a message: cut, and without control characters.
 pub(crate) fn shown(text: &str) -> String {
     let mut short: String = text.chars().take(60).flat_map(char::escape_debug).collect();
     if text.chars().nth(60).is_some() {

@@ -1,4 +1,4 @@
-//! Bytes that are read from any place.
+//! Random-access sources of bytes.
 
 use std::fs::File;
 use std::path::Path;
@@ -8,16 +8,16 @@ use std::sync::Mutex;
 use crate::error::Problem;
 use crate::limits;
 
-/// Bytes of known length, read from any place by any thread.
+/// Bytes of known length, read at any offset by any thread.
 pub(crate) trait ByteSource: std::fmt::Debug + Send + Sync {
-    /// How many bytes there are.
+    /// Length, bytes.
     fn length(&self) -> u64;
 
-    /// Fills `into` with the bytes from `at`, which were checked against the length.
+    /// Fills `into` with the bytes from `at`; the caller has checked the range.
     fn read_at(&self, at: u64, into: &mut [u8]) -> Result<(), Problem>;
 }
 
-/// The `length` bytes from `at`, allocated once it is known that they are there.
+/// The `length` bytes from `at`; checks the range before it allocates.
 pub(crate) fn bytes_of(source: &dyn ByteSource, at: u64, length: u64) -> Result<Vec<u8>, Problem> {
     if length > limits::READ_BYTES {
         return Err(Problem::too_large(
@@ -39,7 +39,6 @@ pub(crate) fn bytes_of(source: &dyn ByteSource, at: u64, length: u64) -> Result<
     Ok(bytes)
 }
 
-/// A file.
 #[derive(Debug)]
 pub(crate) struct FileBytes {
     #[cfg(unix)]

@@ -1,4 +1,4 @@
-//! What every form gives: a list of arrays, and rows of each.
+//! Interface of all formats: a list of arrays, and rows of each.
 
 use std::ops::Range;
 
@@ -9,27 +9,27 @@ use crate::values::ArrayData;
 /// Arrays with their names, in the order of the file.
 pub(crate) type Arrays = Vec<(String, ArrayInfo)>;
 
-/// A file of arrays that is open.
+/// An open file of arrays.
 pub(crate) trait Store: std::fmt::Debug + Send + Sync {
     /// Every array with its name.
     fn arrays(&self) -> Arrays;
 
-    /// Arrays that are there and cannot be read, with the reason.
+    /// Arrays that cannot be read, with the reason.
     fn refused(&self) -> &[(String, Problem)] {
         &[]
     }
 
-    /// Links that lead nowhere, with the reason: what lies behind them has no array and no group.
+    /// Dead links, with the reason; they have no array and no group.
     fn nowhere(&self) -> &[(String, Problem)] {
         &[]
     }
 
-    /// Why an array that is not among them has a name here: it is a link to elsewhere.
+    /// The problem of a name that is no array but a link to elsewhere; `None` for other names.
     fn link(&self, _name: &str) -> Option<Problem> {
         None
     }
 
-    /// The full names of the groups, in no order; forms without groups have none.
+    /// The full names of the groups, unsorted; empty for formats without groups.
     fn groups(&self) -> Vec<String> {
         Vec::new()
     }
@@ -44,16 +44,16 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// How many chunks of the array at `index` of the list were never written, so that their elements are the fill value.
+    /// Number of chunks of the array at `index` that were never written, so that their elements have the fill value.
     fn absent_chunks(&self, _index: usize) -> Result<u64, Problem> {
         Ok(0)
     }
 
-    /// Rows of the array at `index` of the list; they were checked against its shape and the limits.
+    /// Rows of the array at `index`; the caller has checked them against its shape and the limits.
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem>;
 }
 
-/// How many chunks an array has, as far as 64 bits can say.
+/// Number of chunks of an array; saturates at 64 bits.
 pub(crate) fn chunks_of(shape: &[u64], chunk: &[u64]) -> u64 {
     let sides = shape.iter().zip(chunk);
     sides.fold(1, |all: u64, (side, chunk)| {

@@ -1,8 +1,8 @@
-//! What is read of an array.
+//! Values read from an array.
 
 mod conversion;
 
-/// Rows of an array: their shape, and the elements row by row (C order).
+/// Rows of an array: their shape, and the elements in C order.
 ///
 /// ```no_run
 /// use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
@@ -18,9 +18,9 @@ mod conversion;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ArrayData {
-    /// Lengths of the axes; the first is the number of rows read. A single number has none.
+    /// Lengths of the axes; the first is the number of rows read. Empty for a single number.
     pub shape: Vec<u64>,
-    /// The elements, as many as the product of the shape.
+    /// The elements; their number is the product of the shape.
     pub values: ArrayValues,
 }
 
@@ -65,7 +65,7 @@ pub enum ArrayValues {
 }
 
 impl ArrayValues {
-    /// How many elements there are.
+    /// Number of elements.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -85,7 +85,7 @@ impl ArrayValues {
         }
     }
 
-    /// Whether there is none.
+    /// True if there are no elements.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -114,7 +114,7 @@ impl ArrayValues {
         }
     }
 
-    /// Numbers as `f64`, true as 1. `None` of text and bytes, and where a number of 64 bits has no exact `f64`.
+    /// Numbers as `f64`, true as 1. `None` for text and bytes, and if a number of 64 bits has no exact `f64`.
     #[must_use]
     pub fn to_f64(&self) -> Option<Vec<f64>> {
         fn all<T: Copy + Into<f64>>(values: &[T]) -> Option<Vec<f64>> {
@@ -148,7 +148,7 @@ impl ArrayValues {
     }
 }
 
-/// A whole number as `f64`, if that is exact.
+/// A whole number as `f64`; `None` if that is not exact.
 fn exact(number: i128) -> Option<f64> {
     #[expect(clippy::cast_precision_loss, reason = "compared with the number again")]
     let near = number as f64;

@@ -1,4 +1,4 @@
-//! zarr, versions 2 and 3: a folder of arrays in chunks, a file each, or a ZIP archive of such a folder. A chunk that is not there holds the fill value.
+//! zarr, versions 2 and 3: a folder of arrays, one file for each chunk, or a ZIP archive of it. A missing chunk has the fill value.
 
 mod array;
 mod codecs;
@@ -27,29 +27,29 @@ use array::ZarrArray;
 use grid::Grid;
 use tree::Tree;
 
-/// Groups within groups.
+/// Maximum nesting of groups.
 const DEPTH: usize = 16;
 
-/// Chunks that were read, by the number of their array and their place in its grid.
+/// Cached chunks, by the index of their array and their position in its grid.
 type Chunks = Cache<(usize, Vec<u64>), Vec<u8>>;
 
-/// A store of zarr.
+/// A zarr store.
 #[derive(Debug)]
 pub(crate) struct Zarr {
     groups: Vec<String>,
     arrays: Vec<(Tree, ZarrArray)>,
-    /// For each array that is listed, which array and which field of it.
+    /// For each listed array, the index of the stored array and of its field.
     listed: Vec<(usize, usize)>,
-    /// Attributes of groups and arrays that have any, by full name.
+    /// Attributes of groups and arrays, by full name.
     attributes: Vec<(String, Value)>,
     refused: Vec<(String, Problem)>,
     chunks: Mutex<Chunks>,
-    /// Arrays whose size was held against what is stored of them.
+    /// Arrays whose unpacked size was checked.
     checked: Mutex<BTreeSet<usize>>,
 }
 
 impl Zarr {
-    /// What the group or array `owner` is described by beside its data.
+    /// The attributes of the group or array `owner`.
     fn attributes_of(&self, owner: &str) -> Option<&Value> {
         let owner = owner.trim_matches('/');
         let mut attributes = self.attributes.iter();
@@ -83,7 +83,7 @@ impl Zarr {
         Ok(zarr)
     }
 
-    /// Lists what `folder` holds; `path` is its full name, empty for the outermost.
+    /// Lists the content of `folder`; `path` is its full name, empty for the root.
     fn visit(&mut self, folder: &Tree, path: &str, depth: usize) -> Result<(), Problem> {
         let name = if path.is_empty() { "/" } else { path };
         let within = |problem: Problem| problem.within(&format!("the metadata of `{name}`"));
@@ -106,7 +106,7 @@ impl Zarr {
                 self.groups.push(name.to_owned());
                 self.members(folder, path, depth)?;
             }
-            // A folder of somebody else's.
+            // A folder of another program.
             None => {}
         }
         let count = (self.groups.len() + self.arrays.len() + self.refused.len()) as u64;
@@ -130,7 +130,7 @@ impl Zarr {
         Ok(())
     }
 
-    /// Refuses an array that is made to fill a memory or to cost hours: what it becomes is held against what is stored of it.
+    /// Rejects an array made to exhaust memory or time, by its unpacked size against its stored size.
     fn check_unpacked(
         &self,
         index: usize,
@@ -172,7 +172,7 @@ impl Zarr {
         }
     }
 
-    /// One chunk, row by row, or `None` where none was written.
+    /// One chunk, row by row; `None` if it was never written.
     fn chunk(&self, index: usize, place: &[u64]) -> Result<Option<Arc<Vec<u8>>>, Problem> {
         let key = (index, place.to_vec());
         let mut kept = self.chunks.lock().unwrap_or_else(PoisonError::into_inner);
@@ -202,7 +202,7 @@ impl Zarr {
     }
 }
 
-/// Finds the file of the chunk `name` in `folder`; a link to a file elsewhere is refused.
+/// True if `folder` has a regular file `name` for a chunk; rejects a link to a file elsewhere.
 fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
     let path = folder.join(name);
     match fs::symlink_metadata(&path) {
@@ -226,15 +226,15 @@ fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
     }
 }
 
-/// Chunks of an array that are there.
+/// Existing chunks of an array.
 #[derive(Clone, Copy, Debug, Default)]
 struct Written {
     chunks: u64,
-    /// Bytes as they are stored.
+    /// Stored size, bytes.
     bytes: u64,
 }
 
-/// The chunks of the array in `folder`: files that have the name of one.
+/// Finds the chunks of the array in `folder`: files whose names are those of chunks.
 fn written(folder: &Tree, array: &ZarrArray) -> Result<Written, Problem> {
     let mut there = Written::default();
     let mut folders = vec![(folder.clone(), String::new(), 0)];
@@ -245,7 +245,7 @@ fn written(folder: &Tree, array: &ZarrArray) -> Result<Written, Problem> {
             there.chunks += 1;
             there.bytes = there.bytes.saturating_add(folder.file_bytes(name)?);
         }
-        // Of a chunk `c/0/1` each axis may be a folder.
+        // Each axis of a chunk `c/0/1` may be a folder.
         if depth <= array.shape.len() {
             for name in folder.folders()? {
                 folders.push((folder.join(&name), format!("{before}{name}/"), depth + 1));

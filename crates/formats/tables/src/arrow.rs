@@ -1,4 +1,4 @@
-//! Tables in files of Arrow: streams of record batches, as `datasets` saves them, and Feather.
+//! Tables in Arrow files: streams of record batches, as `datasets` saves them, and Feather.
 
 mod batch;
 mod field;
@@ -15,16 +15,16 @@ use crate::limits;
 use crate::parquet::{ColumnKind, Found, Node, names};
 use crate::source::Source;
 
-/// Rows that become cells at once.
+/// Number of rows converted to cells at once.
 const ROWS_AT_ONCE: u64 = 64;
-/// The beginning of a file with a footer, before its stream.
+/// First bytes of a file with a footer, before its stream.
 const FILE_MARK: &[u8] = b"ARROW1\0\0";
-/// Batches of a file.
+/// Maximum number of batches of a file.
 const BATCHES: usize = 1 << 20;
 
-/// A table in a file of Arrow: a stream, as `datasets` of Hugging Face writes with `save_to_disk`, or Feather version 2.
+/// A table in an Arrow file: a stream, as `datasets` of Hugging Face writes with `save_to_disk`, or Feather version 2.
 ///
-/// Opening reads the metadata of all batches, and no cell. Buffers may be compressed by LZ4 or Zstandard. Threads may share a table.
+/// Opening reads the metadata of all batches and no cells. Buffers may be compressed by LZ4 or Zstandard. Threads may share a table.
 ///
 /// ```
 /// use taceva_tables::{ArrowTable, Cell, ColumnKind};
@@ -49,8 +49,8 @@ impl ArrowTable {
     /// The table at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no file of Arrow, was cut short or contradicts
-    /// itself, [`TableError::Unsupported`] if a column has a type that is not read, [`TableError::TooLarge`] beyond the limits.
+    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if it is no Arrow file, is truncated or inconsistent;
+    /// [`TableError::Unsupported`] for a column of an unsupported type; [`TableError::TooLarge`] above the limits.
     pub fn open(path: &Path) -> Result<ArrowTable, TableError> {
         let source = Source::new(path)?;
         let mut file = source.open()?;
@@ -115,12 +115,12 @@ impl ArrowTable {
         self.rows
     }
 
-    /// The columns in the order of the schema; of a structure the members, as `pose.x`.
+    /// The columns in the order of the schema; a structure is replaced by its members, as `pose.x`.
     pub fn names(&self) -> Vec<String> {
         names(&self.columns)
     }
 
-    /// The text that a writer put beside the schema under `key`, such as `huggingface`.
+    /// The schema metadata under `key`, such as `huggingface`.
     ///
     /// ```
     /// # use taceva_tables::ArrowTable;
@@ -133,7 +133,7 @@ impl ArrowTable {
         Some(&found.1)
     }
 
-    /// The kind of the cells of the column called `name`, which may be a structure, or a place inside lists.
+    /// The kind of the cells of the column called `name`, which may be a structure, or an element of lists.
     ///
     /// # Errors
     /// [`TableError::Missing`] if there is no such column.
@@ -142,12 +142,12 @@ impl ArrowTable {
         kind.ok_or_else(|| self.source.missing(name, self.names()))
     }
 
-    /// The cells of the column called `name`, row by row: one of [`names`](Self::names), a structure as a whole, or a place inside lists:
+    /// The cells of the column called `name`, row by row: one of [`names`](Self::names), a whole structure, or an element of lists:
     /// `ft[2]`, `ft[2,0]`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such column, [`TableError::Mismatch`] if `name` leads into a list that is shorter in
-    /// some row, [`TableError::TooLarge`] if the cells take more than 320 MiB of memory, [`TableError::Damaged`] if a batch does not read.
+    /// [`TableError::Missing`] if there is no such column; [`TableError::Mismatch`] if a list is too short for `name` in some row;
+    /// [`TableError::TooLarge`] if the cells take more than 320 MiB of memory; [`TableError::Damaged`] if a batch is invalid.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         let found = Found::new(&self.source, &self.columns, name)?;
         let field = self.field(name)?;
@@ -169,14 +169,14 @@ impl ArrowTable {
         Ok(cells)
     }
 
-    /// Hands the bytes in the column called `name`, such as `image.bytes`, of the rows `sorted` to `each`, with the row; [`None`]
-    /// where the cell is null. One cell is in memory at a time, or a compressed buffer.
+    /// Calls `each` with each row of `sorted` and its bytes in the column called `name`, such as `image.bytes`; [`None`] if the cell is
+    /// null. Memory holds one cell at a time, or a compressed buffer.
     ///
-    /// `sorted` must ascend; a row that stands in it twice is handed over twice.
+    /// `sorted` must ascend; a row listed twice is passed twice.
     ///
     /// # Errors
-    /// As [`column`](Self::column); [`TableError::Mismatch`] too if the column is none of bytes, or if `sorted` does not ascend or names
-    /// a row that is not there; the errors of `each`.
+    /// As [`column`](Self::column); also [`TableError::Mismatch`] if the column has no bytes, or if `sorted` does not ascend or names a row
+    /// that does not exist; and the errors of `each`.
     pub fn visit_bytes<E: From<TableError>>(
         &self,
         name: &str,
@@ -213,7 +213,7 @@ impl ArrowTable {
         Ok(())
     }
 
-    /// The column that `name` begins with, without the members of structures that it does not lead to.
+    /// The column at the start of `name`, restricted to the members of structures that `name` selects.
     fn field(&self, name: &str) -> Result<Field, TableError> {
         field::named(&self.fields, name).ok_or_else(|| self.source.missing(name, self.names()))
     }

@@ -1,6 +1,6 @@
-//! Numbers and texts in bytes, one after another, never beyond their end.
+//! Sequential reader of numbers and texts in bytes, with bounds checks.
 
-/// Bytes that are read from their beginning.
+/// Bytes that are read from the beginning.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bytes<'a> {
     all: &'a [u8],
@@ -12,12 +12,12 @@ impl<'a> Bytes<'a> {
         Bytes { all, at: 0 }
     }
 
-    /// How many bytes were taken.
+    /// Number of bytes read.
     pub(crate) fn at(&self) -> usize {
         self.at
     }
 
-    /// What was not taken yet.
+    /// The bytes not read yet.
     pub(crate) fn rest(&self) -> &'a [u8] {
         self.all.get(self.at..).unwrap_or_default()
     }

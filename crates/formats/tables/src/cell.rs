@@ -1,4 +1,4 @@
-//! What stands in a row of a column: a number, a text, bytes, or a nest of them.
+//! Value of a column in one row: a number, a text, bytes, or nested values.
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -7,9 +7,8 @@ use crate::path::{indices, longest};
 
 /// One cell of a table.
 ///
-/// A number of single precision is kept as the same number in double precision, and written in its digits: 0.3 of an `f32` is
-/// 0.30000001192092896. Whoever reads such a file by NumPy or pyarrow and widens it gets this number too, and a label that was
-/// rounded to 0.3 would differ from theirs in the eighth digit.
+/// A number of single precision is converted to double precision exactly and written in full: 0.3 of an `f32` is 0.30000001192092896. NumPy
+/// and pyarrow give the same number when they widen it. A label rounded to 0.3 would differ from theirs in the eighth digit.
 ///
 /// ```
 /// use taceva_tables::Cell;
@@ -20,14 +19,13 @@ use crate::path::{indices, longest};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Cell {
-    /// Nothing stands here.
+    /// No value.
     Null,
     /// A truth value.
     Bool(bool),
     /// An integer: any of 8 to 64 bits, with or without sign.
     Integer(i128),
-    /// A time that the file says to be one, in nanoseconds, whatever unit it counts in: since 1970, since midnight, or a duration. Its text is
-    /// in seconds.
+    /// A time in nanoseconds, whatever the unit of the file: since 1970, since midnight, or a duration. Its text is in seconds.
     Time(i128),
     /// A number; NaN and infinities are kept.
     Number(f64),
@@ -35,19 +33,19 @@ pub enum Cell {
     Text(String),
     /// Bytes, such as an encoded picture.
     Bytes(Vec<u8>),
-    /// Cells in their order.
+    /// Cells in order.
     List(Vec<Cell>),
     /// Cells by name, in the order of the schema.
     Struct(Vec<(String, Cell)>),
 }
 
 impl Cell {
-    /// The cell as a CSV has it: numbers in the shortest form that reads back, lists as `[1, 2]`, nothing for [`Cell::Null`].
+    /// The text of the cell in a CSV file: numbers in the shortest form that reads back, lists as `[1, 2]`, empty for [`Cell::Null`].
     ///
-    /// A [`Cell::Time`] is written in seconds with as many decimals as it has, so that nobody has to know the unit of the file.
+    /// A [`Cell::Time`] is written in seconds with all its decimals, so that the unit of the file does not matter.
     ///
-    /// Inside lists and structures the text is JSON, but for numbers that JSON cannot say (`NaN`, `inf`). Bytes that are UTF-8 stand as
-    /// they are, others in hexadecimal digits.
+    /// Inside lists and structures the text is JSON, except for numbers that JSON cannot express (`NaN`, `inf`). Bytes are written as UTF-8
+    /// if valid, else in hexadecimal digits.
     ///
     /// ```
     /// use taceva_tables::Cell;
@@ -73,10 +71,10 @@ impl Cell {
         }
     }
 
-    /// The cell at a place inside this one: `x`, `pose.x`, `[2]`, `ft[2,0]`; itself at the empty place.
+    /// The cell at a path inside this one: `x`, `pose.x`, `[2]`, `ft[2,0]`; the cell itself for the empty path.
     ///
-    /// [`None`] where there is no such member, or where the place is written otherwise. A member whose name has dots or brackets is
-    /// found by its whole name.
+    /// [`None`] if there is no such member, or if the path is malformed. A member whose name contains dots or brackets is found by its
+    /// whole name.
     ///
     /// ```
     /// use taceva_tables::Cell;
@@ -110,7 +108,7 @@ impl Cell {
         Some(cell)
     }
 
-    /// The cell at a place inside this one, and null where something on the way is null; none where there is no such member.
+    /// The cell at a path inside this one; null if a cell on the way is null; `None` if there is no such member.
     pub(crate) fn into_inside(self, path: &str) -> Option<Cell> {
         if path.is_empty() || self == Cell::Null {
             return Some(self);
@@ -136,7 +134,7 @@ impl Cell {
         }
     }
 
-    /// The memory that the cell takes, about.
+    /// Approximate memory of the cell, bytes.
     pub(crate) fn bytes(&self) -> u64 {
         let inside = match self {
             Cell::Null | Cell::Bool(_) | Cell::Integer(_) | Cell::Time(_) | Cell::Number(_) => 0,
@@ -182,7 +180,7 @@ impl Cell {
     }
 }
 
-/// A number in the fewest digits that read back: as it is where that is short, else with a power of ten.
+/// Writes a number in the fewest digits that read back: decimal if that is short, else with an exponent.
 fn write_number(value: f64, into: &mut String) {
     let size = value.abs();
     let is_plain = !value.is_finite() || value == 0.0 || (1e-5..1e17).contains(&size);
@@ -193,7 +191,7 @@ fn write_number(value: f64, into: &mut String) {
     }
 }
 
-/// Nanoseconds as seconds, with the decimals that they have.
+/// Writes nanoseconds as seconds, with all decimals.
 fn write_seconds(nanoseconds: i128, into: &mut String) {
     const SECOND: u128 = 1_000_000_000;
     let sign = if nanoseconds < 0 { "-" } else { "" };
@@ -202,7 +200,7 @@ fn write_seconds(nanoseconds: i128, into: &mut String) {
     into.push_str(text.trim_end_matches('0').trim_end_matches('.'));
 }
 
-/// A text between quotes, as JSON has it.
+/// Writes a quoted JSON text.
 fn write_quoted(text: &str, into: &mut String) {
     into.push('"');
     for letter in text.chars() {

@@ -1,4 +1,4 @@
-//! Compressed bytes unpacked to a size that is known before: no more is written, and nothing is allocated that the input cannot fill.
+//! Decompression to a known size: never more is written, and nothing is allocated that the input cannot fill.
 
 use std::io::{self, BufRead, Cursor, Read};
 
@@ -9,22 +9,19 @@ use mzstd::{
 use crate::limits;
 use crate::snappy::SnappyStream;
 
-/// How bytes are compressed.
+/// Compression of bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Codec {
-    /// Not at all.
+    /// No compression.
     Plain,
     /// The block format of snappy.
     Snappy,
     /// Members of gzip.
     Gzip,
-    /// Brotli.
     Brotli,
-    /// A block of LZ4.
     Lz4Block,
     /// Blocks of LZ4, each after its two sizes, as Hadoop writes them.
     Lz4Hadoop,
-    /// Frames of LZ4.
     Lz4Frame,
     /// A stream of bz2.
     Bzip2,
@@ -32,16 +29,16 @@ pub(crate) enum Codec {
     Zstd,
 }
 
-/// What a byte of snappy or of a block of LZ4 can become at most: a copy of 64 bytes takes 3, and 255 of LZ4 take 1.
+/// Maximum growth of a byte of snappy or of a block of LZ4: a copy of 64 bytes takes 3, and 255 of LZ4 take 1.
 const SNAPPY_GROWTH: usize = 64;
 const LZ4_GROWTH: usize = 255;
-/// Windows that Zstandard asks for up to its level 19, bytes.
+/// Window size that Zstandard needs up to its level 19, bytes.
 const ZSTD_WINDOW_BYTES: u64 = 8 << 20;
 
-/// `packed` unpacked, which must give `size` bytes.
+/// Unpacks `packed`, which must give `size` bytes.
 ///
 /// # Errors
-/// The fault in words: other sizes, sums that do not match, bytes that the codec does not know.
+/// A message: wrong size, checksum mismatch, or invalid bytes.
 pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     let unpacked = match codec {
         Codec::Plain => packed.to_vec(),
@@ -70,10 +67,10 @@ pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>
     }
 }
 
-/// What unpacks `packed` as it is read, which must give `size` bytes. Blocks are unpacked as a whole, in at most [`limits::PAGE_BYTES`].
+/// A reader that unpacks `packed` to `size` bytes as it is read. Block formats are unpacked as a whole, up to [`limits::PAGE_BYTES`].
 ///
 /// # Errors
-/// As [`unpack`]; what is wrong later is an error of the reader.
+/// As [`unpack`]; later faults are errors of the reader.
 pub(crate) fn stream(
     codec: Codec,
     mut packed: impl BufRead + 'static,
@@ -103,7 +100,7 @@ pub(crate) fn stream(
     })
 }
 
-/// Frames of Zstandard, their sums checked, decoded as they are read.
+/// Streaming decoder of Zstandard frames with checks of their checksums.
 struct ZstdStream<R: BufRead> {
     packed: R,
     session: DecoderSessionOwned,
@@ -132,7 +129,7 @@ fn not_whole(error: &DecodeError) -> io::Error {
     io::Error::other(format!("no whole Zstandard frame: {error}"))
 }
 
-/// What decodes frames that give `size` bytes at most, with windows of no more than these or those of level 19.
+/// A decoder of frames of at most `size` bytes, with windows up to that size or those of level 19.
 fn decompressor(size: u64) -> Result<Decompressor, String> {
     let window = size.clamp(ZSTD_WINDOW_BYTES, limits::PAGE_BYTES.max(ZSTD_WINDOW_BYTES));
     let log = u8::try_from(window.next_power_of_two().ilog2()).unwrap_or(u8::MAX);
@@ -144,7 +141,7 @@ fn decompressor(size: u64) -> Result<Decompressor, String> {
     ))
 }
 
-/// All that `decoder` gives, up to one byte more than `size`, so that too much is noticed.
+/// The output of `decoder`, up to one byte more than `size`, so that excess is detected.
 fn streamed(name: &str, decoder: impl Read, size: usize) -> Result<Vec<u8>, String> {
     let mut unpacked = Vec::new();
     decoder
@@ -200,7 +197,7 @@ fn lz4_hadoop(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
 }
 
 fn zstd(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
-    // A stream without any frame is one of no bytes.
+    // A stream without frames has no bytes.
     if packed.is_empty() {
         return Ok(Vec::new());
     }
@@ -210,10 +207,10 @@ fn zstd(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     Ok(unpacked)
 }
 
-/// A message that is one frame of Zstandard, of at most `most` bytes.
+/// Unpacks a message of one Zstandard frame of at most `most` bytes.
 ///
 /// # Errors
-/// The fault in words.
+/// A message.
 pub(crate) fn zstandard_message(packed: &[u8], most: u64) -> Result<Vec<u8>, String> {
     let mut unpacked = Vec::new();
     let decoded = decompressor(most)?.decompress_into(packed, &mut unpacked);

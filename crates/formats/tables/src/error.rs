@@ -1,4 +1,4 @@
-//! What can be wrong with a table of another program.
+//! Errors of tables of other programs.
 
 use std::fmt;
 use std::io;
@@ -6,57 +6,57 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::shown as core_shown;
 
-/// Why a table, or a column of it, was not read or not written.
+/// Error of reading or writing a table, or one of its columns.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
-    /// The operating system refused to open or to read a file.
+    /// A file that cannot be opened or read.
     #[error("cannot read {}: {source}", core_shown(path))]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
-    /// The operating system refused to make or to write a file.
+    /// A file that cannot be created or written.
     #[error("cannot write {}: {source}", core_shown(path))]
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
-    /// Bytes that contradict the format: cut short, changed, or never written by a program that knew it.
+    /// Bytes that contradict the format: truncated, changed, or written incorrectly.
     #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// Where in it.
+        /// Location in the file.
         place: Place,
-        /// What was found, and what was expected.
+        /// The content found and the content expected.
         problem: String,
     },
-    /// What the format allows and this crate does not read.
+    /// Content that the format allows but this crate does not read.
     #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     Unsupported {
         /// The file.
         path: PathBuf,
-        /// Where in it.
+        /// Location in the file.
         place: Place,
-        /// What is not read, and what would be.
+        /// The unsupported content, and the supported alternative.
         problem: String,
     },
-    /// More than is read into memory at once.
+    /// Content above the memory limit.
     #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// Where in it.
+        /// Location in the file.
         place: Place,
-        /// How much there is, and how much is accepted.
+        /// The size, and the limit.
         problem: String,
     },
-    /// A column, a field or a topic that is not there.
+    /// A column, a field or a topic that does not exist.
     #[error(
         "{}: no `{}`, there are {}",
         core_shown(path),
@@ -66,25 +66,25 @@ pub enum TableError {
     Missing {
         /// The file.
         path: PathBuf,
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// What there is.
+        /// The existing names.
         known: Vec<String>,
     },
-    /// A column, a place in it or a cell that is not what was asked for, or a value that cannot be written.
+    /// A column, an element or a cell of the wrong kind, or a value that cannot be written.
     #[error("{}, `{}`: {}", core_shown(path), shown(name), core_shown(problem))]
     Mismatch {
         /// The file.
         path: PathBuf,
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// What it is, and what was expected.
+        /// The kind found and the kind expected.
         problem: String,
     },
 }
 
 impl TableError {
-    /// The file that the error is about.
+    /// The file of the error.
     ///
     /// ```
     /// use taceva_tables::ParquetTable;
@@ -104,18 +104,18 @@ impl TableError {
     }
 }
 
-/// Where in a file: a byte, and the column, topic or record that it belongs to, as far as known.
+/// Location in a file: a byte, and the column, topic or record that contains it, as far as known.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Place {
-    /// The byte, from 0.
+    /// Byte offset, from 0.
     pub byte: Option<u64>,
     /// The column, topic or record.
     pub name: Option<String>,
 }
 
 impl Place {
-    /// The byte at `byte`, from 0.
+    /// The location at byte offset `byte`, from 0.
     pub(crate) fn byte(byte: u64) -> Place {
         Place {
             byte: Some(byte),
@@ -123,7 +123,7 @@ impl Place {
         }
     }
 
-    /// The column, topic or record called `name`.
+    /// The location of the column, topic or record called `name`.
     pub(crate) fn of(name: &str) -> Place {
         Place {
             byte: None,
@@ -131,7 +131,7 @@ impl Place {
         }
     }
 
-    /// This place, in the column, topic or record called `name`.
+    /// This location, within the column, topic or record called `name`.
     pub(crate) fn in_name(self, name: &str) -> Place {
         Place {
             name: Some(name.to_owned()),
@@ -152,7 +152,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// A name from a file as a message shows it: nothing in it that a terminal obeys, at most 80 characters.
+/// A name from a file for a message: without control characters, at most 80 characters.
 pub(crate) fn shown(name: &str) -> String {
     match name.char_indices().nth(80) {
         Some((end, _)) => format!("{}…", core_shown(&name[..end])),
@@ -160,7 +160,7 @@ pub(crate) fn shown(name: &str) -> String {
     }
 }
 
-/// Names as a message lists them: the first 40.
+/// Names for a message: the first 40.
 fn shown_list(names: &[String]) -> String {
     if names.is_empty() {
         return "none".to_owned();

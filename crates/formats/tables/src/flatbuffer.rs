@@ -1,7 +1,7 @@
-//! Tables of FlatBuffers (<https://flatbuffers.dev/internals>), as far as the metadata of Arrow uses them. Nothing is read beyond the end of the
-//! buffer: what leads there is absent.
+//! FlatBuffers tables (<https://flatbuffers.dev/internals>), as far as the metadata of Arrow uses them. Offsets beyond the end of the
+//! buffer give `None`.
 
-/// A FlatBuffers table: what is at a place of it is found by the list of offsets that it names.
+/// A FlatBuffers table; its fields are found by its list of offsets (vtable).
 #[derive(Clone, Copy)]
 pub(crate) struct Table<'b> {
     bytes: &'b [u8],
@@ -17,13 +17,13 @@ pub(crate) struct Tables<'b> {
 }
 
 impl<'b> Table<'b> {
-    /// The table that a buffer leads to.
+    /// The root table of a buffer.
     pub(crate) fn root(bytes: &'b [u8]) -> Option<Table<'b>> {
         let at = unsigned(bytes, 0)?;
         Some(Table { bytes, at })
     }
 
-    /// Place at which the field of that number begins.
+    /// Offset of field `number`.
     fn field(self, number: usize) -> Option<usize> {
         let back = unsigned(self.bytes, self.at)?;
         let back = i32::from_le_bytes(u32::try_from(back).ok()?.to_le_bytes());
@@ -46,13 +46,13 @@ impl<'b> Table<'b> {
         short(self.bytes, self.field(number)?)
     }
 
-    /// An integer of 4 bytes.
+    /// An integer field of 4 bytes.
     pub(crate) fn integer(self, number: usize) -> Option<i32> {
         let own = self.bytes.get(self.field(number)?..)?;
         own.first_chunk().copied().map(i32::from_le_bytes)
     }
 
-    /// An integer of 8 bytes.
+    /// An integer field of 8 bytes.
     pub(crate) fn long(self, number: usize) -> Option<i64> {
         let own = self.bytes.get(self.field(number)?..)?;
         own.first_chunk().copied().map(i64::from_le_bytes)
@@ -66,7 +66,7 @@ impl<'b> Table<'b> {
         self.bytes.get(begin..begin.checked_add(bytes)?)
     }
 
-    /// Place to which the field leads.
+    /// Offset that the field refers to.
     fn lead(self, number: usize) -> Option<usize> {
         let at = self.field(number)?;
         at.checked_add(unsigned(self.bytes, at)?)

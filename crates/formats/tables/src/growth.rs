@@ -1,8 +1,8 @@
-//! Bytes that chunks become once they are unpacked, held against those that they take in their file.
+//! Unpacked size of chunks, compared with their size in the file.
 
 use crate::limits;
 
-/// Bytes that were unpacked in one pass over a file.
+/// Bytes unpacked in one pass over a file.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Growth {
     packed: u64,
@@ -13,7 +13,7 @@ impl Growth {
     /// Counts a chunk before it is unpacked.
     ///
     /// # Errors
-    /// In words that the file is made to cost hours: its chunks become more than any recording does.
+    /// A message that the file is made to cost hours: its chunks grow more than those of any recording.
     pub(crate) fn take(&mut self, packed: u64, unpacked: u64) -> Result<(), String> {
         self.packed = self.packed.saturating_add(packed);
         self.unpacked = self.unpacked.saturating_add(unpacked);

@@ -1,4 +1,4 @@
-//! Folders of LeRobot.
+//! Folders of LeRobot datasets.
 
 mod depth;
 mod episodes;
@@ -32,10 +32,10 @@ pub use self::stats::FeatureStats;
 pub use self::video::VideoFrames;
 pub use self::writer::LeRobotWriter;
 
-/// A dataset of LeRobot, version 2.1 or 3.0: the rows of all its data files, one after another.
+/// A LeRobot dataset, version 2.1 or 3.0: the rows of all its data files in sequence.
 ///
-/// Columns have the names of the data files; `task` says in words what `task_index` counts. What a video shows is not read: the table
-/// says which frame of which file belongs to a row.
+/// Columns have the names of the data files; `task` is the text of `task_index`. Videos are not decoded: the table gives the file and the
+/// frame of each row.
 ///
 /// ```
 /// use taceva_tables::{Cell, LeRobot};
@@ -66,11 +66,11 @@ struct DataFile {
 }
 
 impl LeRobot {
-    /// The dataset in `folder`: its descriptions are read, and the footers of all data files.
+    /// Opens the dataset in `folder`: reads its metadata, and the footers of all data files.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if it has another version, or files lie outside the folder; [`TableError::Damaged`] if an episode has other rows
-    /// than its description says, or two takes; else as [`ParquetTable::open`].
+    /// [`TableError::Unsupported`] for another version, or files outside the folder; [`TableError::Damaged`] if an episode has other rows
+    /// than its description states, or two takes; else as [`ParquetTable::open`].
     pub fn open(folder: &Path) -> Result<LeRobot, TableError> {
         let (source, json) = json_file(folder, "meta/info.json")?;
         let info = info::parse(&source, &json)?;
@@ -88,7 +88,7 @@ impl LeRobot {
                 let episodes = episodes::of_lines(folder)?;
                 let mut paths: Vec<PathBuf> =
                     episodes.into_iter().map(fill).collect::<Result<_, _>>()?;
-                // A path without a place for the episode is one file.
+                // A path without a field for the episode names one file.
                 paths.dedup();
                 paths
             }
@@ -144,7 +144,7 @@ impl LeRobot {
         &self.folder
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.rows
     }
@@ -154,15 +154,15 @@ impl LeRobot {
         &self.names
     }
 
-    /// What `meta/info.json` says of each column, and of videos, by name.
+    /// The features in `meta/info.json`: columns and videos, by name.
     pub fn features(&self) -> &[Feature] {
         &self.info.features
     }
 
-    /// What is in the column called `name`, row by row, as [`ParquetTable::column`].
+    /// The cells of the column called `name`, row by row, as [`ParquetTable::column`].
     ///
     /// # Errors
-    /// As [`ParquetTable::column`]; the limit is that of all files together.
+    /// As [`ParquetTable::column`]; the limit applies to all files together.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         if name == "task" && !self.tasks.is_empty() {
             let indices = self.column("task_index")?;
@@ -190,7 +190,7 @@ impl LeRobot {
         Ok(cells)
     }
 
-    /// What the cells of the column called `name` are, by the first data file.
+    /// The kind of the cells of the column called `name`, from the first data file.
     ///
     /// # Errors
     /// As [`ParquetTable::kind`].
@@ -212,7 +212,7 @@ impl LeRobot {
         first.open()?.kind(name)
     }
 
-    /// Hands the pictures of a feature of dtype `image` (or the bytes of another column) of the rows `sorted` to `each`, as
+    /// Calls `each` with the pictures of a feature of dtype `image` (or the bytes of another column) in the rows `sorted`, as
     /// [`ParquetTable::visit_bytes`].
     ///
     /// # Errors
@@ -248,12 +248,12 @@ impl LeRobot {
         Ok(())
     }
 
-    /// The frame of each row in the video called `key`, a feature of dtype `video`: at the time stamp of the row, after the beginning of
-    /// its episode in the file.
+    /// The frame of each row in the video called `key`, a feature of dtype `video`. It is found by the time stamp of the row after the
+    /// begin of its episode in the file.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if no video has this name; [`TableError::Damaged`] if an episode has no place in a file, or a time stamp is
-    /// further than a quarter of a frame from every frame.
+    /// [`TableError::Missing`] if no video has this name; [`TableError::Damaged`] if an episode is in no file, or a time stamp is more than
+    /// a quarter of a frame from every frame.
     pub fn video(&self, key: &str) -> Result<VideoFrames, TableError> {
         video::frames(self, key)
     }

@@ -19,7 +19,7 @@ use crate::source::Source;
 /// The first and the last eight bytes of a file.
 pub(crate) use self::record::MAGIC;
 
-/// An MCAP file: what its summary says, or a walk over the records of a file that has none.
+/// An MCAP file, described by its summary, or by a walk over its records if it has none.
 #[derive(Debug)]
 pub(crate) struct McapFile {
     source: Source,
@@ -31,8 +31,8 @@ impl McapFile {
     /// The recording in `source`.
     ///
     /// # Errors
-    /// [`TableError::Damaged`] if it is no MCAP file, is cut short or has another sum than it states, [`TableError::TooLarge`] if its summary
-    /// is larger than is accepted.
+    /// [`TableError::Damaged`] if it is no MCAP file, is truncated or has a wrong checksum, [`TableError::TooLarge`] if its summary exceeds
+    /// the limit.
     pub(crate) fn open(source: Source) -> Result<McapFile, TableError> {
         let contents = contents::read(&source)?;
         let schemas: BTreeMap<u16, Arc<_>> = contents
@@ -79,7 +79,7 @@ impl MessageStore for McapFile {
     }
 }
 
-/// Messages of a file through one cursor.
+/// Reader of the messages of a file through one cursor.
 struct Records<'a> {
     source: &'a Source,
     chunks: Chunks<'a>,

@@ -1,4 +1,4 @@
-//! Messages of a recording by topics, whatever form of file they lie in.
+//! Messages of a recording by topic, in any file format.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::error::TableError;
 use crate::source::Source;
 
-/// Description of the messages of channels.
+/// Schema of the messages of channels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Schema {
     pub(crate) name: String,
@@ -16,7 +16,7 @@ pub(crate) struct Schema {
     pub(crate) text: Vec<u8>,
 }
 
-/// Facts that messages of one topic by one writer share.
+/// Properties that messages of one topic by one writer share.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Channel {
     pub(crate) topic: String,
@@ -26,7 +26,7 @@ pub(crate) struct Channel {
     pub(crate) count: u64,
 }
 
-/// Place of a message: its time, the chunk or page (none in the file itself), and where it lies there.
+/// Location of a message: its time, the chunk or page (`None` for the file itself), and the range in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Entry {
     pub(crate) log_time: u64,
@@ -34,7 +34,7 @@ pub(crate) struct Entry {
     pub(crate) at: u64,
 }
 
-/// A message: whose it is, when it was logged and published, ns, and what it says.
+/// A message: its channel, its log and publish times, ns, and its content.
 #[derive(Clone, Debug)]
 pub(crate) struct Message {
     pub(crate) channel: u32,
@@ -45,7 +45,7 @@ pub(crate) struct Message {
 }
 
 impl Message {
-    /// The message of `channel` at `range` of the bytes that `held` shares.
+    /// The message of `channel` at `range` of the shared bytes `held`.
     pub(crate) fn new(
         channel: u32,
         log_time: u64,
@@ -74,14 +74,14 @@ pub(crate) trait MessageStore: fmt::Debug + Send + Sync {
     /// The channels, by number.
     fn channels(&self) -> &BTreeMap<u32, Channel>;
 
-    /// All messages of `channels`, by time and, at the same time, as they lie in the file.
+    /// All messages of `channels`, by time; at equal times in the order of the file.
     fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError>;
 
-    /// Reader of messages through one cursor.
+    /// Opens a reader of messages with its own cursor.
     fn reader(&self) -> Result<Box<dyn MessageReader + '_>, TableError>;
 }
 
-/// Messages through one cursor.
+/// Reader of messages through one cursor.
 pub(crate) trait MessageReader {
     /// The message at `entry`.
     fn message(&mut self, entry: &Entry) -> Result<Message, TableError>;

@@ -33,13 +33,13 @@ pub use self::kind::ColumnKind;
 pub(crate) use self::schema::{LeafForm, Node, NodeKind};
 pub use self::writer::ParquetWriter;
 
-/// Rows that are decoded at once.
+/// Number of rows decoded at once.
 const ROWS_AT_ONCE: usize = 256;
 
 /// A table in a Parquet file: columns of numbers, texts, bytes, lists and structures, by any writer.
 ///
-/// Opening reads the footer alone. Pages may be compressed by snappy, gzip, LZ4, brotli or Zstandard; their sums are checked where
-/// the file has them. Threads may share a table: every call reads the file through a cursor of its own.
+/// Opening reads only the footer. Pages may be compressed by snappy, gzip, LZ4, brotli or Zstandard; their checksums are verified if
+/// present. Threads may share a table: every call has its own cursor.
 ///
 /// ```
 /// use taceva_tables::{Cell, ParquetTable};
@@ -61,8 +61,8 @@ impl ParquetTable {
     /// The table at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no Parquet file or its footer contradicts
-    /// itself, [`TableError::TooLarge`] if the footer or the table is larger than is accepted.
+    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if it is no Parquet file or its footer is inconsistent;
+    /// [`TableError::TooLarge`] if the footer or the table exceeds the limits.
     pub fn open(path: &Path) -> Result<ParquetTable, TableError> {
         let source = Source::new(path)?;
         let mut file = source.open()?;
@@ -105,17 +105,17 @@ impl ParquetTable {
         self.source.path()
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.rows
     }
 
-    /// The columns in the order of the schema; of a structure the members, as `pose.x`.
+    /// The columns in the order of the schema; a structure is replaced by its members, as `pose.x`.
     pub fn names(&self) -> Vec<String> {
         names(&self.columns)
     }
 
-    /// What a writer put beside the table under `key`, such as `huggingface`, where the names of classes stand in JSON.
+    /// The metadata of the table under `key`, such as `huggingface`, whose JSON contains the names of classes.
     ///
     /// ```
     /// # use taceva_tables::ParquetTable;
@@ -127,7 +127,7 @@ impl ParquetTable {
         written(&self.metadata, key)
     }
 
-    /// What the cells of the column called `name` are, which may be a structure, or a place inside lists.
+    /// The kind of the cells of the column called `name`, which may be a structure, or an element of lists.
     ///
     /// # Errors
     /// [`TableError::Missing`] if there is no such column.
@@ -136,19 +136,19 @@ impl ParquetTable {
         kind.ok_or_else(|| self.source.missing(name, self.names()))
     }
 
-    /// What is in the column called `name`, row by row: one of [`names`](Self::names), a structure as a whole, or a place inside lists:
+    /// The cells of the column called `name`, row by row: one of [`names`](Self::names), a whole structure, or an element of lists:
     /// `ft[2]`, `ft[2,0]`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such column, [`TableError::Mismatch`] if `name` leads into a list that is shorter in
-    /// some row, [`TableError::TooLarge`] if the cells take more memory than 96 to 320 MiB by the size of the file, [`TableError::Damaged`] if pages do not read.
+    /// [`TableError::Missing`] if there is no such column; [`TableError::Mismatch`] if a list is too short for `name` in some row;
+    /// [`TableError::TooLarge`] if the cells exceed 96 to 320 MiB, by the size of the file; [`TableError::Damaged`] for an invalid page.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         let mut cells = Vec::new();
         self.read_column(name, &mut 0, &mut cells)?;
         Ok(cells)
     }
 
-    /// Appends the column called `name` to `cells`, which take `bytes` bytes so far.
+    /// Appends the column called `name` to `cells`; `bytes` counts their memory.
     pub(crate) fn read_column(
         &self,
         name: &str,
@@ -182,14 +182,14 @@ impl ParquetTable {
         Ok(())
     }
 
-    /// Hands the bytes in the column called `name`, such as `image.bytes`, of the rows `sorted` to `each`, with the row; [`None`]
-    /// where the cell is null. One cell is in memory at a time, and what unpacks it; of pages in other encodings than the plain one, a page.
+    /// Calls `each` with each row of `sorted` and its bytes in the column called `name`, such as `image.bytes`; [`None`] if the cell is
+    /// null. Memory holds one cell and its decoder; for pages in other encodings than plain, one page.
     ///
-    /// `sorted` must ascend; a row that stands in it twice is handed over twice.
+    /// `sorted` must ascend; a row listed twice is passed twice.
     ///
     /// # Errors
-    /// As [`column`](Self::column); [`TableError::Mismatch`] too if the column is none of bytes, or if `sorted` does not ascend or names
-    /// a row that is not there; whatever `each` returns.
+    /// As [`column`](Self::column); also [`TableError::Mismatch`] if the column has no bytes, or if `sorted` does not ascend or names a row
+    /// that does not exist; and the errors of `each`.
     pub fn visit_bytes<E: From<TableError>>(
         &self,
         name: &str,
@@ -224,19 +224,19 @@ impl ParquetTable {
     }
 }
 
-/// What is written under `key` in the footer.
+/// The metadata under `key` in the footer.
 fn written<'m>(metadata: &'m ParquetMetaData, key: &str) -> Option<&'m str> {
     let all = metadata.file_metadata().key_value_metadata()?;
     let found = all.iter().find(|entry| entry.key == key)?;
     found.value.as_deref()
 }
 
-/// Rows of a group; the sum over all groups was checked when the table was opened.
+/// Number of rows of a group; the sum over all groups was checked on opening.
 fn rows_of(group: &RowGroupMetaData) -> usize {
     usize::try_from(group.num_rows()).unwrap_or(0)
 }
 
-/// The last 8 bytes: the length of the footer, which lies in the file and is not too large, and the mark.
+/// Checks the last 8 bytes: the length of the footer, within the file and the limit, and the mark.
 fn check_footer(source: &Source, file: &mut std::fs::File) -> Result<(), TableError> {
     let Some(at) = source.length().checked_sub(8) else {
         let problem = format!("{} bytes are no Parquet file", source.length());

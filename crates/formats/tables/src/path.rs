@@ -1,8 +1,8 @@
-//! Places inside cells as they are written: `pose.x`, `ft[2]`, `ft[2,0]`.
+//! Paths inside cells: `pose.x`, `ft[2]`, `ft[2,0]`.
 
-/// Which of `names` `text` begins with, and what follows it: the longest, so that a name may have dots and brackets itself.
+/// Index of the longest of `names` that begins `text`, and the rest of `text`. A name may itself contain dots and brackets.
 ///
-/// What follows begins with a bracket, or has lost the dot that led to it.
+/// The rest begins with a bracket, or follows the dot before a member.
 pub(crate) fn longest<'a, 'n>(
     text: &'a str,
     names: impl Iterator<Item = &'n str>,
@@ -25,7 +25,7 @@ pub(crate) fn longest<'a, 'n>(
     best.map(|(at, _, rest)| (at, rest))
 }
 
-/// The numbers in the bracket that `text` begins with, `[2]` or `[2,0]`, and what follows it, without the dot that leads to a member.
+/// The numbers in the leading bracket of `text`, `[2]` or `[2,0]`, and the rest, without the dot before a member.
 pub(crate) fn indices(text: &str) -> Option<(Vec<usize>, &str)> {
     let (inside, after) = text.strip_prefix('[')?.split_once(']')?;
     let is_index = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());

@@ -1,10 +1,10 @@
-//! Pictures of Foxglove in protobuf, by their published schemas: <https://docs.foxglove.dev/docs/sdk/schemas>.
+//! Foxglove pictures in protobuf, by their published schemas: <https://docs.foxglove.dev/docs/sdk/schemas>.
 
 use crate::bytes::Bytes;
 use crate::cell::Cell;
 use crate::ros::{self, Picture, RawPicture};
 
-/// A message that is read.
+/// A supported message.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct ProtobufMessage {
     name: &'static str,
@@ -28,7 +28,7 @@ enum Kind {
     Bytes,
 }
 
-/// A column: a field, and whether a time is wanted in nanoseconds.
+/// A column: a field, and true for a time in nanoseconds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Column {
     field: Field,
@@ -39,7 +39,7 @@ const fn field(name: &'static str, number: u32, kind: Kind) -> Field {
     Field { name, number, kind }
 }
 
-/// The messages that are read.
+/// The supported messages.
 static KNOWN: [ProtobufMessage; 2] = [
     ProtobufMessage {
         name: "foxglove.CompressedImage",
@@ -64,12 +64,12 @@ static KNOWN: [ProtobufMessage; 2] = [
     },
 ];
 
-/// The message called `name`, if it is read.
+/// The message called `name`; `None` if it is not supported.
 pub(crate) fn known(name: &str) -> Option<&'static ProtobufMessage> {
     KNOWN.iter().find(|message| message.name == name)
 }
 
-/// The names of the messages that are read.
+/// The names of the supported messages.
 pub(crate) fn names() -> [&'static str; 2] {
     KNOWN.each_ref().map(|message| message.name)
 }
@@ -81,7 +81,7 @@ impl ProtobufMessage {
         names.map(|field| field.name.to_owned()).collect()
     }
 
-    /// The columns called `names`; `Err` is the first that there is not.
+    /// The columns called `names`; the error is the first unknown name.
     pub(crate) fn fields<'n>(&self, names: &[&'n str]) -> Result<Vec<Column>, &'n str> {
         let column = |name: &&'n str| {
             let (base, is_in_nanoseconds) = match name.strip_suffix(".ns") {
@@ -101,7 +101,7 @@ impl ProtobufMessage {
         names.iter().map(column).collect()
     }
 
-    /// The cells of one message, a column each; `Err` says what is wrong with it.
+    /// The cells of one message, one for each column; the error is a message.
     pub(crate) fn read(&self, columns: &[Column], message: &[u8]) -> Result<Vec<Cell>, String> {
         let values = self.values(message)?;
         let cell = |column: &Column| {
@@ -111,7 +111,7 @@ impl ProtobufMessage {
         columns.iter().map(cell).collect()
     }
 
-    /// Checks that the field called `name` holds pictures; the error says which does.
+    /// Checks that the field called `name` contains pictures; the error names the field that does.
     pub(crate) fn check_picture(&self, name: &str) -> Result<(), String> {
         match name {
             "data" => Ok(()),
@@ -122,7 +122,7 @@ impl ProtobufMessage {
         }
     }
 
-    /// The picture of a message; `Err` says what is wrong with it.
+    /// The picture of a message; the error is a message.
     pub(crate) fn picture(&self, message: &[u8]) -> Result<Picture, String> {
         let values = self.values(message)?;
         let value = |name: &str| {
@@ -151,7 +151,7 @@ impl ProtobufMessage {
         raw.samples().map(Picture::Samples)
     }
 
-    /// The last value of each field in `message`; fields that are not known are passed over.
+    /// The last value of each field in `message`; skips unknown fields.
     fn values<'m>(&self, message: &'m [u8]) -> Result<Vec<Value<'m>>, String> {
         let mut values = vec![Value::Absent; self.fields.len()];
         let mut bytes = Bytes::new(message);
@@ -178,7 +178,7 @@ impl ProtobufMessage {
     }
 }
 
-/// Value of a field; an absent one is 0 or empty.
+/// Value of a field; a missing one is 0 or empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Value<'m> {
     Absent,
@@ -223,7 +223,7 @@ fn cell(column: &Column, value: &Value<'_>) -> Result<Cell, String> {
                     _ => {}
                 }
             }
-            // The bits of a negative number fill the variable one.
+            // A negative number is stored as the bits of an unsigned one.
             let seconds = i128::from(i64::from_ne_bytes(seconds.to_ne_bytes()));
             let nanoseconds = i128::from(i64::from_ne_bytes(nanoseconds.to_ne_bytes()));
             match column.is_in_nanoseconds {
@@ -250,7 +250,7 @@ fn next<'m>(bytes: &mut Bytes<'m>) -> Option<(u64, Value<'m>)> {
     Some((tag >> 3, value))
 }
 
-/// A number of one to ten bytes, the lowest seven bits first.
+/// A varint of one to ten bytes, the lowest seven bits first.
 fn varint(bytes: &mut Bytes<'_>) -> Option<u64> {
     let mut number = 0_u64;
     for shift in (0..70).step_by(7) {

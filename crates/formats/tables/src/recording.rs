@@ -1,4 +1,4 @@
-//! Recordings of messages by topics: MCAP, the databases of rosbag2, the bags of ROS 1.
+//! Recordings of messages by topic: MCAP, rosbag2 databases, ROS 1 bags.
 
 mod embedded_array;
 mod json;
@@ -18,9 +18,9 @@ pub use self::table::TopicTable;
 
 /// A recording of messages: topics, each a table of its messages.
 ///
-/// An MCAP file, a database of rosbag2 (`.db3`) or a bag of ROS 1 (`.bag`) is told by its first bytes. Opening reads what describes it, or walks
-/// over the records of a file without that. Sums are checked where the file has them; attachments are not looked at. Chunks may be compressed
-/// by LZ4 or Zstandard, messages of rosbag2 by Zstandard.
+/// The format is detected from the first bytes: an MCAP file, a rosbag2 database (`.db3`) or a ROS 1 bag (`.bag`). Opening reads the
+/// summary, or walks over the records of a file without one. Checksums are verified if present; attachments are ignored. Chunks may be
+/// compressed by LZ4 or Zstandard, messages of rosbag2 by Zstandard.
 ///
 /// ```
 /// use taceva_tables::Recording;
@@ -42,7 +42,7 @@ pub struct Recording {
 pub struct Topic {
     /// Name, as `/ft/wrench`.
     pub name: String,
-    /// The name of the schema of its messages, as `geometry_msgs/msg/WrenchStamped`; empty where there is none.
+    /// The name of the schema of its messages, as `geometry_msgs/msg/WrenchStamped`; empty if there is none.
     pub schema: String,
     /// Encoding of its messages, as `cdr`.
     pub encoding: String,
@@ -54,9 +54,9 @@ impl Recording {
     /// The recording at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no recording, is cut short or has another sum than
-    /// it states, [`TableError::Unsupported`] if it is of a later version, compressed as a whole, or a log beside it holds messages that are not
-    /// in it yet, [`TableError::TooLarge`] if what describes it is larger than is accepted.
+    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no recording, is truncated or has a wrong checksum.
+    /// [`TableError::Unsupported`] if it is of a later version, compressed as a whole, or has messages in a separate log.
+    /// [`TableError::TooLarge`] if its summary exceeds the limit.
     pub fn open(path: &Path) -> Result<Recording, TableError> {
         let store = store(Source::new(path)?)?;
         let mut topics: BTreeMap<&str, Topic> = BTreeMap::new();
@@ -87,9 +87,8 @@ impl Recording {
     /// The messages of the topic called `name`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such topic, [`TableError::Unsupported`] if its messages are in another encoding than those of
-    /// ROS 1 and 2, JSON or pictures of Foxglove, or their schema leaves something out; [`TableError::Damaged`] if the file holds other messages
-    /// than it states.
+    /// [`TableError::Missing`] if there is no such topic; [`TableError::Unsupported`] for an unsupported encoding (not ROS 1 or 2, JSON or
+    /// Foxglove pictures) or an incomplete schema; [`TableError::Damaged`] if the messages in the file differ from its index.
     pub fn table(&self, name: &str) -> Result<TopicTable, TableError> {
         match self.topics.iter().find(|topic| topic.name == name) {
             Some(topic) => TopicTable::new(&self.store, topic.clone()),
@@ -100,14 +99,14 @@ impl Recording {
         }
     }
 
-    /// Reason why the messages of the topic called `name` are not read; none if they are. No message is looked at.
+    /// Reason why the messages of the topic called `name` cannot be read; `None` if they can. Reads no message.
     pub fn why_unread(&self, name: &str) -> Option<String> {
         let topic = self.topics.iter().find(|topic| topic.name == name)?;
         language::of_topic(&*self.store, topic).err()
     }
 }
 
-/// Reader of the file, by its first bytes.
+/// Opens the reader of the format that the first bytes of the file indicate.
 fn store(source: Source) -> Result<Arc<dyn MessageStore>, TableError> {
     const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
     let mut file = source.open()?;

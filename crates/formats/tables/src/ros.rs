@@ -1,4 +1,4 @@
-//! Messages of ROS 1 and 2: their definitions, their encodings, and what is read of them.
+//! ROS 1 and 2 messages: definitions, encodings and readers.
 
 mod cdr;
 mod definitions;

@@ -1,4 +1,4 @@
-//! Recordings of ROS 1 (`.bag`, version 2.0): <http://wiki.ros.org/Bags/Format/2.0>.
+//! ROS 1 recordings (`.bag`, version 2.0): <http://wiki.ros.org/Bags/Format/2.0>.
 
 mod cut;
 mod record;
@@ -21,20 +21,20 @@ pub(crate) const MAGIC: [u8; 13] = *b"#ROSBAG V2.0\n";
 /// Nanoseconds of a second.
 const NANO: u64 = 1_000_000_000;
 
-/// A bag of ROS 1.
+/// A ROS 1 bag.
 #[derive(Debug)]
 pub(crate) struct Rosbag1 {
     source: Source,
     channels: BTreeMap<u32, Channel>,
-    /// Places of the indices of the messages of each connection, and the chunk that each is of.
+    /// Offset of each message index of a connection, with the offset of its chunk.
     indices: BTreeMap<u32, Vec<(u64, u64)>>,
 }
 
 impl Rosbag1 {
-    /// The recording in `source`: the heads of all its records are read, and no chunk.
+    /// The recording in `source`: reads the heads of all its records, and no chunk.
     ///
     /// # Errors
-    /// [`TableError::Damaged`] if it is cut short, was not closed, or holds other records than it announces.
+    /// [`TableError::Damaged`] if it is truncated, was not closed, or has other records than it announces.
     pub(crate) fn open(source: Source) -> Result<Rosbag1, TableError> {
         let mut records = Records::new(&source)?;
         let mut bag = Rosbag1 {
@@ -105,7 +105,7 @@ impl Rosbag1 {
                     })?;
                     bag.channels.insert(number, channel);
                 }
-                // Of a chunk, and of messages outside chunks no bag of version 2.0 has any.
+                // Chunk information is not needed, and bags of version 2.0 have no messages outside chunks.
                 Some(op::CHUNK_INFO) => {}
                 other => {
                     let other =
@@ -208,7 +208,7 @@ impl MessageStore for Rosbag1 {
     }
 }
 
-/// Records of a bag through one cursor; the chunk that was read last is kept.
+/// Reader of the records of a bag through one cursor; caches the last chunk.
 struct Records<'a> {
     source: &'a Source,
     file: File,
@@ -226,7 +226,7 @@ impl<'a> Records<'a> {
         })
     }
 
-    /// The head of the record at `at`, whose data lies within the file.
+    /// The head of the record at `at`; its data must end within the file.
     fn head(&mut self, at: u64) -> Result<Head, TableError> {
         match self.head_within(at)? {
             Ok(head) => Ok(head),
@@ -238,7 +238,7 @@ impl<'a> Records<'a> {
         }
     }
 
-    /// The same, or in words how the file ends before the record does.
+    /// The head of the record at `at`, or a message if the file ends before the record does.
     fn head_within(&mut self, at: u64) -> Result<Result<Head, String>, TableError> {
         let mut four = |at: u64| {
             let bytes = self.source.bytes(&mut self.file, at, 4, 4).ok()?;
@@ -276,7 +276,7 @@ impl<'a> Records<'a> {
             .bytes(&mut self.file, head.data_at, length, limits::PAGE_BYTES)
     }
 
-    /// The records in the chunk at `at`.
+    /// The unpacked records of the chunk at `at`.
     fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some((kept, bytes)) = &self.kept
             && *kept == at
@@ -345,7 +345,7 @@ impl MessageReader for Records<'_> {
     }
 }
 
-/// The number of a connection and what its messages are.
+/// The number of a connection, and its channel.
 fn connection(head: &Head, data: &[u8]) -> Option<(u32, Channel)> {
     let number = head.number::<4>("conn").map(u32::from_le_bytes)?;
     let said = Head::new(data.to_vec(), 0, 0)?;

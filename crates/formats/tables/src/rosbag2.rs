@@ -1,4 +1,4 @@
-//! Recordings of ROS 2 in SQLite databases (`.db3`): a table of topics and one of messages.
+//! ROS 2 recordings in SQLite databases (`.db3`): a table of topics and one of messages.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -10,9 +10,9 @@ use crate::ros;
 use crate::source::Source;
 use crate::sqlite::{Database, Pages, Record, RowPlace, SqliteTable, Value};
 
-/// The newest version of the schema that is read.
+/// The newest supported version of the schema.
 const VERSION: i64 = 4;
-/// The tables that versions up to [`VERSION`] have.
+/// The tables of versions up to [`VERSION`].
 const TABLES: [&str; 5] = [
     "schema",
     "metadata",
@@ -38,7 +38,7 @@ pub(crate) struct Rosbag2 {
     channels: BTreeMap<u32, Channel>,
 }
 
-/// The columns of a message, in the order in which they are asked for.
+/// The columns of a message, in the order of requests.
 #[derive(Clone, Copy, Debug)]
 struct Columns {
     topic: usize,
@@ -50,7 +50,7 @@ impl Rosbag2 {
     /// The recording in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if it is of a later schema or no recording; [`TableError::Damaged`] if a page or a row does not read.
+    /// [`TableError::Unsupported`] for a later schema or no recording; [`TableError::Damaged`] for an invalid page or row.
     pub(crate) fn open(source: Source) -> Result<Rosbag2, TableError> {
         let database = Database::open(source)?;
         check_schema(&database)?;
@@ -88,7 +88,7 @@ impl Rosbag2 {
         }
     }
 
-    /// Hands the topic and the place of every message to `each`, by the number of its row.
+    /// Calls `each` with the topic and the location of every message, by row number.
     fn each_message(
         &self,
         each: &mut dyn FnMut(u32, Entry) -> Result<(), TableError>,
@@ -153,7 +153,7 @@ impl MessageStore for Rosbag2 {
             entries.push(entry);
             Ok(())
         })?;
-        // Stable: rows at one time stay as they were written.
+        // Stable: rows at equal times stay in the order of writing.
         entries.sort_by_key(|entry| entry.log_time);
         Ok(entries)
     }
@@ -166,7 +166,7 @@ impl MessageStore for Rosbag2 {
     }
 }
 
-/// Messages of a database through one cursor.
+/// Reader of the messages of a database through one cursor.
 struct Rows<'a> {
     bag: &'a Rosbag2,
     pages: Pages<'a>,
@@ -195,7 +195,7 @@ impl MessageReader for Rows<'_> {
     }
 }
 
-/// Refuses a database that a later rosbag2 wrote, or that is no recording.
+/// Rejects a database of a later rosbag2, or one that is no recording.
 fn check_schema(database: &Database) -> Result<(), TableError> {
     let source = database.source();
     let names: Vec<&str> = database
@@ -236,7 +236,7 @@ fn check_schema(database: &Database) -> Result<(), TableError> {
     })
 }
 
-/// The table called `name`, which has the first `least` of the columns `known` and no others.
+/// The table called `name`, which must have the first `least` of the columns `known` and no others.
 fn table<'d>(
     database: &'d Database,
     name: &str,
@@ -268,7 +268,7 @@ fn table<'d>(
     Err(source.unsupported(Place::of(name), problem))
 }
 
-/// The topics, with the definitions of their messages where the file or everybody knows them.
+/// The topics, with the definitions of their messages if the file or ROS 2 itself has them.
 fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
     let source = database.source();
     let definitions = definitions(database)?;
@@ -304,7 +304,7 @@ fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
             topic: record.text(name)?,
             encoding: record.text(encoding)?,
             schema: Some(schema.unwrap_or_else(|| {
-                // A type of a lab's own, of which nothing says what it is.
+                // A type of a lab, without a definition.
                 Arc::new(Schema {
                     name: kind.clone(),
                     encoding: String::new(),
@@ -325,7 +325,7 @@ fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
     Ok(channels)
 }
 
-/// The definitions of messages in the file, by the names of their types; none of a recording from before ROS 2 Iron.
+/// The definitions of messages in the file, by type; empty for a recording from before ROS 2 Iron.
 fn definitions(database: &Database) -> Result<BTreeMap<String, Arc<Schema>>, TableError> {
     let mut found = BTreeMap::new();
     let Some(table) = database

@@ -1,9 +1,9 @@
-//! Rows that a caller asks for.
+//! Requested rows.
 
 use crate::error::TableError;
 use crate::source::Source;
 
-/// Whether `sorted` ascends and names rows below `rows`.
+/// Checks that `sorted` ascends and that its rows are below `rows`.
 pub(crate) fn check_sorted(
     source: &Source,
     name: &str,

@@ -1,8 +1,8 @@
-//! Numbers of other programs as cells: decimal ones, those of half precision, times.
+//! Conversion of decimals, half precision and times to cells.
 
 use crate::cell::Cell;
 
-/// `value` / 10^`scale`, rounded once: the decimal text is read as any number is.
+/// `value` / 10^`scale`, rounded once: the decimal text is parsed as a number.
 pub(crate) fn decimal(value: i128, scale: i32) -> Cell {
     let text = format!("{value}e-{scale}");
     Cell::Number(
@@ -11,7 +11,7 @@ pub(crate) fn decimal(value: i128, scale: i32) -> Cell {
     )
 }
 
-/// The nanoseconds in a unit that a leaf counts times in; 64 bits of the longest, days, are far from the end of 128.
+/// Nanoseconds of a time unit; 64-bit counts of the longest, days, fit easily into 128 bits.
 pub(crate) fn nanoseconds_in(unit: &str) -> i128 {
     match unit {
         "ns" => 1,
@@ -22,7 +22,7 @@ pub(crate) fn nanoseconds_in(unit: &str) -> i128 {
     }
 }
 
-/// A number of half precision in double precision, exactly.
+/// Converts half precision to double precision, exactly.
 pub(crate) fn half(bits: u16) -> f64 {
     let sign = if bits & 0x8000 == 0 { 1.0 } else { -1.0 };
     let exponent = i32::from((bits >> 10) & 0x1f);

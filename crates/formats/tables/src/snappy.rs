@@ -1,25 +1,25 @@
-//! The block format of snappy, unpacked as it is read.
+//! Streaming decoder of the snappy block format.
 //!
-//! A block is a length, then elements: literals, and copies of what was unpacked before. Programs that pack divide their input into pieces of 64 KiB
-//! and copy from inside a piece, so that a window of that size holds all that is needed; a copy from further back is refused.
+//! A block is a length, then elements: literals, and copies of earlier output. Compressors split their input into pieces of 64 KiB and copy
+//! within a piece, so that a window of that size suffices. A copy from further back is rejected.
 
 use std::io::{self, BufRead, Read};
 
-/// How far back copies reach.
+/// Maximum distance of a copy, bytes.
 const WINDOW: usize = 1 << 16;
 
-/// A block that is unpacked as it is read.
+/// Streaming decoder of a block.
 pub(crate) struct SnappyStream<R> {
     packed: R,
-    /// What was unpacked last, and up to where it was handed on; cut back to a window now and then.
+    /// The last output, with the position up to which it was returned; trimmed to a window now and then.
     window: Vec<u8>,
     handed: usize,
-    /// Bytes that are not unpacked yet.
+    /// Number of bytes to unpack.
     left: usize,
     element: Element,
 }
 
-/// The element that is being unpacked.
+/// The current element.
 #[derive(Clone, Copy)]
 enum Element {
     Literal(usize),
@@ -27,7 +27,7 @@ enum Element {
 }
 
 impl<R: BufRead> SnappyStream<R> {
-    /// A block that announces `size` bytes.
+    /// A decoder of a block that announces `size` bytes.
     pub(crate) fn new(mut packed: R, size: u32) -> Result<SnappyStream<R>, String> {
         let mut announced = 0_u64;
         for shift in (0..35).step_by(7) {
@@ -51,7 +51,7 @@ impl<R: BufRead> SnappyStream<R> {
         })
     }
 
-    /// The next element; its length is more than 0.
+    /// The next element, of a length above 0.
     fn next(&mut self) -> io::Result<Element> {
         let mut bytes = [byte(&mut self.packed)?, 0, 0, 0, 0];
         let extra = numbers(bytes[0]);
@@ -60,7 +60,7 @@ impl<R: BufRead> SnappyStream<R> {
         found.ok_or_else(|| wrong("an element of snappy that does not fit the memory"))
     }
 
-    /// Unpacks some more into the window.
+    /// Unpacks more into the window.
     fn fill(&mut self) -> io::Result<()> {
         if self.window.len() >= 3 * WINDOW {
             let cut = self.window.len() - WINDOW;
@@ -100,7 +100,7 @@ impl<R: BufRead> SnappyStream<R> {
         Ok(())
     }
 
-    /// Unpacks the elements that lie whole in the buffer of what is packed; whether there was one.
+    /// Unpacks the elements that are complete in the input buffer; returns whether there was one.
     fn fill_from_buffer(&mut self) -> io::Result<bool> {
         let (packed, window) = (self.packed.fill_buf()?, &mut self.window);
         let (mut at, mut left) = (0, self.left);
@@ -147,7 +147,7 @@ impl<R: BufRead> Read for SnappyStream<R> {
     }
 }
 
-/// Appends `length` bytes from so far back, of at most `left`.
+/// Appends a copy of `length` bytes from `from` bytes back; at most `left`.
 fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Result<()> {
     let begin = window.len().checked_sub(from).filter(|_| from > 0);
     let Some(begin) = begin.filter(|_| length <= left) else {
@@ -156,7 +156,7 @@ fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Re
     if length <= from {
         window.extend_from_within(begin..begin + length);
     } else {
-        // A copy that reaches into itself repeats what it begins with.
+        // A copy that overlaps itself repeats its beginning.
         for at in begin..begin + length {
             window.push(window[at]);
         }
@@ -164,7 +164,7 @@ fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Re
     Ok(())
 }
 
-/// The element at `at`, and where what follows its numbers begins; none if they do not lie in `packed`.
+/// The element at `at`, and the offset after its numbers; `None` if they are not complete in `packed`.
 fn element(packed: &[u8], at: usize) -> Option<(Element, usize)> {
     let tag = *packed.get(at)?;
     let high = usize::from(tag >> 2);
@@ -194,7 +194,7 @@ fn byte(from: &mut impl BufRead) -> io::Result<u8> {
     Ok(byte[0])
 }
 
-/// How many bytes of numbers follow a tag.
+/// Number of length and offset bytes after a tag.
 fn numbers(tag: u8) -> usize {
     match tag & 3 {
         0 => usize::from(tag >> 2).saturating_sub(59),
@@ -212,7 +212,7 @@ fn wrong(problem: &str) -> io::Error {
 mod tests {
     use super::*;
 
-    /// Bytes that repeat near and far, and some that do not.
+    /// Bytes with near and far repetitions, and some without.
     fn drawn(length: usize, mut seed: u64) -> Vec<u8> {
         let mut bytes: Vec<u8> = Vec::with_capacity(length);
         while bytes.len() < length {
@@ -232,7 +232,7 @@ mod tests {
         bytes
     }
 
-    /// What is unpacked at once, which must be what is unpacked out of a small buffer.
+    /// Unpacks from the whole input, and checks that a small buffer gives the same.
     fn unpacked(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
         let size = u32::try_from(size).expect("small");
         let read = |mut stream: Box<dyn Read + '_>| {
@@ -280,7 +280,7 @@ mod tests {
             }
         }
         assert!(unpacked(&packed, 19_999).is_err());
-        // A copy before anything was unpacked, and one from further back than a block begins.
+        // A copy before any output, and one from before the begin of a block.
         assert!(unpacked(&[4, 0x0d, 0], 4).is_err());
         assert!(unpacked(&[8, 0x00, 7, 0x0d, 2], 8).is_err());
     }

@@ -1,4 +1,4 @@
-//! A file of a stranger, opened anew by whoever reads, so that threads do not share a cursor.
+//! An untrusted file; each reader opens it separately, so that threads do not share a cursor.
 
 use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Place, TableError};
 
-/// A regular file and how long it was when it was opened first.
+/// A regular file, with its length on first opening.
 #[derive(Clone, Debug)]
 pub(crate) struct Source {
     path: PathBuf,
@@ -14,7 +14,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// The regular file at `path`: the kind is looked at before it is opened, since opening a FIFO would wait for ever.
+    /// The regular file at `path`. The kind is checked before opening, since opening a FIFO would block.
     pub(crate) fn new(path: &Path) -> Result<Source, TableError> {
         let metadata = fs::metadata(path).map_err(|source| TableError::Io {
             path: path.to_owned(),
@@ -34,12 +34,12 @@ impl Source {
         &self.path
     }
 
-    /// How many bytes the file holds.
+    /// Length of the file, bytes.
     pub(crate) fn length(&self) -> u64 {
         self.length
     }
 
-    /// The file, with a cursor of its own.
+    /// Opens the file with its own cursor.
     pub(crate) fn open(&self) -> Result<File, TableError> {
         let file = File::open(&self.path).map_err(|source| self.io(source))?;
         let length = file.metadata().map_err(|source| self.io(source))?.len();
@@ -55,7 +55,7 @@ impl Source {
         }
     }
 
-    /// The bytes from `at`, of which there are `count`; nothing is allocated for what lies beyond the end, or beyond `limit`.
+    /// The `count` bytes from `at`; allocates nothing beyond the end of the file, or above `limit`.
     pub(crate) fn bytes(
         &self,
         file: &mut File,

@@ -1,6 +1,6 @@
-//! Tables of an SQLite 3 database, read without changing a byte of it: <https://www.sqlite.org/fileformat2.html>.
+//! Read-only access to tables of an SQLite 3 database: <https://www.sqlite.org/fileformat2.html>.
 //!
-//! Only B-trees of tables are followed. Indices, triggers and views are passed over; nothing is searched for.
+//! Only B-trees of tables are read. Indices, triggers and views are ignored; there is no search.
 
 mod columns;
 mod page;
@@ -19,18 +19,18 @@ use tree::walk;
 
 /// The first bytes of a database.
 pub(crate) const MAGIC: [u8; 16] = *b"SQLite format 3\0";
-/// Bytes of the header of a file.
+/// Size of the header of a file, bytes.
 const HEADER: u64 = 100;
-/// The first bytes of a journal that is to be rolled back.
+/// First bytes of a hot journal, which must be rolled back.
 const JOURNAL: [u8; 8] = [0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7];
 
 /// A database: its tables.
 #[derive(Debug)]
 pub(crate) struct Database {
     source: Source,
-    /// Bytes of a page.
+    /// Size of a page, bytes.
     page_bytes: u32,
-    /// Bytes of a page that hold something.
+    /// Usable size of a page, bytes.
     usable: u32,
     pages: u32,
     tables: Vec<SqliteTable>,
@@ -43,11 +43,11 @@ pub(crate) struct SqliteTable {
     root: u32,
     /// The names of its columns.
     pub(crate) columns: Vec<String>,
-    /// The column whose value is the number of the row.
+    /// The column that is an alias of the row number.
     id: Option<usize>,
 }
 
-/// Place of a row: its page, and its number among the cells of that.
+/// Location of a row: its page, and the index of its cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct RowPlace {
     pub(crate) page: u32,
@@ -58,7 +58,7 @@ impl Database {
     /// The database in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if a log beside it holds what is not in it yet; [`TableError::Damaged`] if it is no database or cut short.
+    /// [`TableError::Unsupported`] if a log beside it has pending changes; [`TableError::Damaged`] if it is truncated or no database.
     pub(crate) fn open(source: Source) -> Result<Database, TableError> {
         check_logs(&source)?;
         let mut file = source.open()?;
@@ -104,7 +104,7 @@ impl Database {
             return Err(source.unsupported(begin, "texts in UTF-16, expected UTF-8"));
         }
         let whole = u32::try_from(source.length() / u64::from(page_bytes)).unwrap_or(u32::MAX);
-        // The number in the header counts only where the version that wrote it also wrote the change.
+        // The page count in the header is valid only if the version that wrote it also made the last change.
         let stated = Some(four(28)).filter(|pages| *pages > 0 && four(24) == four(92));
         let pages = stated.unwrap_or(whole);
         if pages > whole {
@@ -128,12 +128,12 @@ impl Database {
         &self.source
     }
 
-    /// The tables, as they were made.
+    /// The tables, in the order of creation.
     pub(crate) fn tables(&self) -> &[SqliteTable] {
         &self.tables
     }
 
-    /// Hands every row of `table` to `each`, by its number, with its place.
+    /// Calls `each` with the number and the location of every row of `table`.
     pub(crate) fn each_row(
         &self,
         table: &SqliteTable,
@@ -143,7 +143,7 @@ impl Database {
         walk(&mut pages, table, each)
     }
 
-    /// The tables by the first page, which lists them with the texts that made them.
+    /// Reads the list of tables from the first page, with their SQL texts.
     fn read_tables(&self) -> Result<Vec<SqliteTable>, TableError> {
         let master = SqliteTable {
             name: "sqlite_schema".to_owned(),
@@ -169,7 +169,7 @@ impl Database {
                 Value::Integer(root) => u32::try_from(root).unwrap_or(0),
                 _ => 0,
             };
-            // Tables of the database itself, and what is no table of rows.
+            // Skips internal tables, and objects that are no tables of rows.
             if kind != "table" || name.starts_with("sqlite_") || root == 0 {
                 return Ok(());
             }
@@ -194,14 +194,14 @@ impl SqliteTable {
     }
 }
 
-/// The file called as `path` with `ending` behind it.
+/// The path `path` with `ending` appended.
 fn beside(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);
     PathBuf::from(name)
 }
 
-/// Refuses a database beside which a log holds messages that are not in it yet, or changes that are to be taken back.
+/// Rejects a database with a log of messages that are not in it yet, or of changes to be rolled back.
 fn check_logs(source: &Source) -> Result<(), TableError> {
     let refuse = |log: &Path, what: &str| {
         let name = log

@@ -1,4 +1,4 @@
-//! The checks of a recording, whose samples have one picture each or several.
+//! Checks of a recording with one picture for each sample, or several.
 
 use taceva_core::Progress;
 use taceva_dataset::Dataset;
@@ -8,7 +8,7 @@ use crate::finding::CheckReport;
 use crate::run::{CheckRequest, check_seen};
 use crate::views::check_views;
 
-/// Looks for what spoils `dataset`; where samples have several pictures, in those of each view.
+/// Checks `dataset` for defects; if samples have several pictures, in the pictures of each view.
 ///
 /// # Errors
 /// [`EvaluateError`] if a code does not exist, the split cannot be made, or a frame is damaged.

@@ -1,4 +1,4 @@
-//! What checks examine: the table, the header, the split, and a few numbers of every frame.
+//! Evidence for checks: the table, the header, the split, and statistics of every frame.
 
 use taceva_core::{Frame, PixelFormat};
 use taceva_dataset::{Header, Table};
@@ -11,26 +11,26 @@ use taceva_dataset::RecordedSessions;
 /// A recording as checks see it.
 #[derive(Debug)]
 pub struct Evidence<'a> {
-    /// What is known of the recording as a whole.
+    /// The header of the recording.
     pub header: &'a Header,
-    /// Its labels.
+    /// The labels.
     pub table: &'a Table,
     /// Division of the recording into parts.
     pub divided: Option<&'a Divided>,
-    /// A few numbers of each row's frame; empty if no check reads frames.
+    /// Statistics of each row's frame; empty if no check reads frames.
     pub frames: &'a [Option<FrameFacts>],
-    /// The same of the frame without contact.
+    /// Statistics of the frame without contact.
     pub reference: Option<&'a FrameFacts>,
-    /// A few numbers of every taxel; `None` if there is none, or no check reads signals.
+    /// Statistics of every taxel; `None` if there is none, or no check reads signals.
     pub signals: Option<&'a SignalFacts>,
-    /// The rows whose pictures are damaged inside although they decode, and how.
+    /// The rows whose pictures decode although they are damaged inside, with the damage.
     pub damaged: &'a [(usize, String)],
-    /// The sessions on a real rig in which it was made, if it was.
+    /// The sessions on a real rig in which it was recorded, if any.
     pub sessions: Option<&'a RecordedSessions>,
 }
 
 impl Evidence<'_> {
-    /// The channel that says how hard was pressed, by its position: the normal force, or else the depth.
+    /// Index of the channel of the load: the normal force, or else the depth.
     pub(crate) fn load(&self) -> Option<usize> {
         let channels = self.table.channels();
         ["Fz", "Pz"]
@@ -38,7 +38,7 @@ impl Evidence<'_> {
             .find_map(|name| channels.position(name))
     }
 
-    /// The row, the tiles and the load of each picture, by the channel at position `load`, in its unit and without its sign.
+    /// The row, the tiles and the load of each picture. The load is the absolute value of the channel at index `load`, in its unit.
     pub(crate) fn loaded_pictures(&self, load: usize) -> Vec<(usize, &Tiles, f64)> {
         let column = self.table.truth(load);
         let frames = self.frames.iter().enumerate();
@@ -49,34 +49,33 @@ impl Evidence<'_> {
         pictures.collect()
     }
 
-    /// The names of `rows`.
     pub(crate) fn names<'b>(&'b self, rows: &'b [usize]) -> impl Iterator<Item = &'b str> {
         rows.iter().map(|&row| self.table.samples()[row].as_str())
     }
 }
 
-/// A few numbers of one frame.
+/// Statistics of one frame.
 ///
 /// # Units
 /// Shares of the full scale of the pixel format, 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameFacts {
-    /// Mean of red, green and blue; three times the same for gray.
+    /// Mean of red, green and blue; for gray the same value three times.
     pub mean: [f64; 3],
     /// Share of numbers at full scale.
     pub full: f64,
     /// Share of numbers at zero.
     pub zero: f64,
-    /// Whether every pixel has the same numbers.
+    /// True if every pixel has the same values.
     pub is_flat: bool,
-    /// Mean absolute difference from the frame without contact, where there is one of the same size.
+    /// Mean absolute difference from the frame without contact, if there is one of the same size.
     pub distance: Option<f64>,
-    /// Mean light of tiles an eighth of the width wide.
+    /// Mean light of tiles, each an eighth of the width wide.
     pub tiles: Tiles,
 }
 
 impl FrameFacts {
-    /// The facts of `frame`, seen beside the frame without contact.
+    /// The facts of `frame`, compared with the frame without contact.
     pub fn of(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
         let format = frame.info().format;
         match format.bytes_per_sample() {
@@ -86,7 +85,7 @@ impl FrameFacts {
     }
 }
 
-/// 8-bit frames, counted by histogram: one pass, no arithmetic a pixel.
+/// Facts of 8-bit frames by histogram: one pass, without arithmetic for each pixel.
 fn facts_of_bytes(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
     let depth = frame.info().format.samples();
     let mut histograms = vec![[0_u64; 256]; depth];

@@ -1,4 +1,4 @@
-//! What a check looks for, and what it found.
+//! Checks and their findings.
 
 use std::fmt;
 
@@ -7,15 +7,15 @@ use taceva_core::{Field, Skipped};
 
 use crate::evidence::Evidence;
 
-/// How much a finding matters.
+/// Severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// Worth knowing.
     Note,
-    /// Numbers computed from this may mislead.
+    /// Numbers computed from the data may mislead.
     Warning,
-    /// Numbers computed from this are wrong.
+    /// Numbers computed from the data are wrong.
     Error,
 }
 
@@ -29,24 +29,24 @@ impl fmt::Display for Severity {
     }
 }
 
-/// One thing to look for. The code never changes its meaning.
+/// One check. The code never changes its meaning.
 #[derive(Debug)]
 pub struct Check {
     /// Stable, for scripts: `TAC001`.
     pub code: &'static str,
-    /// The same in words: `units-by-magnitude`.
+    /// The check in words: `units-by-magnitude`.
     pub name: &'static str,
-    /// What is looked for, in one line.
+    /// The defect, in one line.
     pub looks_for: &'static str,
-    /// What to do about a finding.
+    /// Remedy for a finding.
     pub hint: &'static str,
-    /// What must be read of every sample for it beside its labels: frames, signals, or nothing.
+    /// The field of every sample that the check reads besides labels: frames, signals, or nothing.
     pub reads: Option<Field>,
-    /// Looks.
+    /// Runs the check.
     pub(crate) find: fn(&Evidence<'_>) -> Vec<Found>,
 }
 
-/// What one check found, before the code of the check is added.
+/// Finding of a check, before the code of the check is added.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Found {
     pub(crate) severity: Severity,
@@ -56,7 +56,7 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// Samples named in a finding; the rest are counted.
+    /// Maximum samples named in a finding; the rest are counted.
     const NAMED: usize = 5;
 
     /// A finding about the recording as a whole.
@@ -99,15 +99,15 @@ pub struct Finding {
     pub code: &'static str,
     /// The name of the check.
     pub name: &'static str,
-    /// How much it matters.
+    /// Severity of the finding.
     pub severity: Severity,
-    /// What was found, with the numbers that decided.
+    /// The finding in words, with the numbers that decided.
     pub message: String,
     /// The first few samples concerned.
     pub samples: Vec<String>,
-    /// How many samples are concerned; 0 if it is about the recording as a whole.
+    /// Number of samples concerned; 0 for the recording as a whole.
     pub count: usize,
-    /// What to do about it.
+    /// Remedy.
     pub hint: &'static str,
 }
 
@@ -125,22 +125,22 @@ impl Finding {
     }
 }
 
-/// Everything that was found in one recording.
+/// All findings in one recording.
 #[derive(Clone, Debug, Serialize)]
 pub struct CheckReport {
     /// The schema of this report.
     pub schema: &'static str,
     /// The digest of the dataset.
     pub dataset: String,
-    /// Its number of samples.
+    /// Number of samples of the dataset.
     pub samples: usize,
-    /// Frames decoded to look at them.
+    /// Number of frames decoded.
     pub frames_decoded: u64,
-    /// The codes that were looked for.
+    /// The codes of the checks that ran.
     pub looked_for: Vec<&'static str>,
-    /// What was found, worst first.
+    /// Findings, worst first.
     pub findings: Vec<Finding>,
-    /// What could not be looked for, and why.
+    /// Checks that could not run, with reasons.
     #[serde(serialize_with = "taceva_evaluate::skipped")]
     pub skipped: Vec<Skipped>,
 }

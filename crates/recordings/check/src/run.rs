@@ -1,4 +1,4 @@
-//! Gathers the evidence, lets every check look at it, and reports.
+//! Gathers the evidence, runs every check on it, and reports.
 
 use std::num::NonZeroUsize;
 use taceva_core::shown;
@@ -14,20 +14,20 @@ use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Plan;
 use taceva_evaluate::{Divided, require_samples};
 
-/// What to look for.
+/// Request of checks.
 #[derive(Clone, Debug)]
 pub struct CheckRequest {
     /// Codes or names of checks; empty for all.
     pub only: Vec<String>,
-    /// The split that is looked at for leakage, as people write it.
+    /// The split to check for leakage, in text form.
     pub split: Option<String>,
-    /// Its seed.
+    /// The seed of the split.
     pub seed: u64,
     /// Threads.
     pub jobs: NonZeroUsize,
 }
 
-/// Says what [`check`](fn@crate::check) would look for; reads no frame.
+/// The steps of [`check`](fn@crate::check); reads no frame.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a code that does not exist.
@@ -71,7 +71,7 @@ pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, Eva
     Ok(plan)
 }
 
-/// Looks for what spoils `dataset`, in the pictures by which it is seen.
+/// Checks `dataset` for defects, in the pictures of its current view.
 ///
 /// # Errors
 /// [`EvaluateError`] if a code does not exist, the split cannot be made, or a frame is damaged.
@@ -83,7 +83,7 @@ pub(crate) fn check_seen(
     require_samples(dataset)?;
     let (mut wanted, mut skipped) = wanted(dataset, &request.only)?;
     let divided = match Divided::of(dataset, request.split.as_deref(), request.seed) {
-        // Nobody asked for a split, and this recording has none: what looks at one is left out.
+        // No split was requested, and this recording has none: checks of splits are skipped.
         Err(EvaluateError::Split(error)) if request.split.is_none() => {
             wanted.retain(|check| {
                 let reads_split = check.code == leakage::CHECK.code;
@@ -147,7 +147,7 @@ pub(crate) fn check_seen(
     })
 }
 
-/// Whether one of `wanted` reads `field` of every sample of `dataset`, which has it.
+/// True if one of `wanted` reads `field` of every sample of `dataset`, which has it.
 fn reads(dataset: &Dataset, wanted: &[&Check], field: Field) -> bool {
     let of_all = |check: &&&Check| check.code == blank::CHECK.code;
     let mut checks = wanted.iter();
@@ -182,7 +182,7 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, EvaluateError> {
         }
         match check.reads.filter(|field| !fields.contains(*field)) {
             None => kept.push(check),
-            // Where there are no taxels nobody misses them, unless somebody asked.
+            // Missing taxels are mentioned only if a check of them was requested.
             Some(Field::Signals) if only.is_empty() => {}
             Some(absent) => skip(check, SkipReason::FieldAbsent(absent)),
         }
@@ -190,7 +190,7 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, EvaluateError> {
     Ok((kept, skipped))
 }
 
-/// The rows whose pictures are damaged inside although they decode, and how.
+/// The rows whose pictures decode although they are damaged inside, with the damage.
 fn damaged(
     dataset: &Dataset,
     jobs: NonZeroUsize,

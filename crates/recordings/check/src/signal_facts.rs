@@ -1,4 +1,4 @@
-//! A few numbers of every taxel, gathered in one pass over a recording.
+//! Statistics of every taxel, gathered in one pass over a recording.
 
 use std::num::NonZeroUsize;
 use taceva_core::random::{FNV_OFFSET, fnv_1a_after};
@@ -8,42 +8,42 @@ use taceva_dataset::{Dataset, Pass};
 
 use taceva_evaluate::EvaluateError;
 
-/// A few numbers of every taxel of a recording.
+/// Statistics of every taxel of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalFacts {
     /// The grid and the unit.
     pub info: SignalInfo,
-    /// What each number is called, place first.
+    /// Names of the numbers, place first.
     pub names: Vec<String>,
     /// The facts of each number, place first.
     pub taxels: Vec<TaxelFacts>,
-    /// Samples that were looked at.
+    /// Samples read.
     pub samples: u64,
-    /// Rows whose numbers are all exactly 0, where other rows are not.
+    /// Rows whose numbers are all exactly 0, if other rows are not.
     pub zero_rows: Vec<usize>,
-    /// The rows that are said to be without contact.
+    /// The rows that are marked as without contact.
     pub rest_rows: Vec<usize>,
-    /// The mean over those; `None` if there is none.
+    /// The mean over those rows; `None` if there is none.
     pub rest: Option<Signals>,
-    /// How far each row is from that: the mean absolute difference, in the unit of the signals; empty if there is none.
+    /// Mean absolute difference of each row from that mean, in the unit of the signals; empty if there is none.
     pub distance: Vec<f64>,
 }
 
-/// A few numbers of one taxel.
+/// Statistics of one taxel.
 ///
 /// # Units
 /// That of the signals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TaxelFacts {
-    /// The least number and how often it is met.
+    /// The least value, and its count.
     pub least: (f32, u64),
-    /// The least but one, and how often that is.
+    /// The second least value, and its count.
     pub above_least: Option<(f32, u64)>,
-    /// The greatest number and how often it is met.
+    /// The greatest value, and its count.
     pub greatest: (f32, u64),
-    /// The greatest but one, and how often that is.
+    /// The second greatest value, and its count.
     pub below_greatest: Option<(f32, u64)>,
-    /// A digest of all its numbers in their order: those of equal taxels are equal.
+    /// A digest of all values in order; equal for equal taxels.
     pub series: u64,
 }
 
@@ -132,19 +132,19 @@ impl TaxelFacts {
         );
     }
 
-    /// Whether every number is the same.
+    /// True if all values are equal.
     pub fn is_stuck(&self) -> bool {
         self.above_least.is_none()
     }
 }
 
-/// The digest of a series with one number more; both zeros are one.
+/// The digest of a series with one more value; −0 equals 0.
 fn next_in_series(series: u64, value: f32) -> u64 {
     let value = if value.abs() <= 0.0 { 0.0 } else { value };
     fnv_1a_after(series, &value.to_bits().to_le_bytes())
 }
 
-/// Counts `value` where it is at the end or next to it; `beyond` tells which of two is nearer to the end.
+/// Counts `value` if it is the extreme value or next to it; `beyond` is true if its first argument is more extreme.
 fn extend(
     value: f32,
     end: &mut (f32, u64),

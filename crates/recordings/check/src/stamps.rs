@@ -1,4 +1,4 @@
-//! Rows that follow one another in time, as frames of a stream do.
+//! Consecutive rows in time, such as frames of a stream.
 
 use std::collections::BTreeMap;
 
@@ -6,17 +6,17 @@ use taceva_dataset::Table;
 
 use crate::evidence::Evidence;
 
-/// Samples below which a step says nothing.
+/// Minimum number of samples for any statement about steps.
 const LEAST: usize = 10;
-/// The longest median step, in s, of samples that are a stream.
+/// Maximum median step of a stream, s.
 const STREAM_S: f64 = 1.0;
 
 /// A step from a row to the next of the same contact, sensor and table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
-    /// The row that it leads from: with several units in one table not always the one above.
+    /// The row before the step; with several units in one table not always the previous row.
     pub(super) from: usize,
-    /// The row that it leads to.
+    /// The row after the step.
     pub(super) to: usize,
     pub(super) seconds: f64,
 }
@@ -25,19 +25,19 @@ pub(super) struct Step {
 #[derive(Debug)]
 pub(super) struct Stream {
     pub(super) steps: Vec<Step>,
-    /// The median of those that lead forward, s.
+    /// Median of the forward steps, s.
     pub(super) usual_s: f64,
 }
 
 impl Stream {
-    /// The stream that a recording is; `None` of single pictures, of single presses, of few, and without times.
+    /// The stream of a recording; `None` for single pictures, single presses, few samples, or no times.
     pub(super) fn of(evidence: &Evidence<'_>) -> Option<Stream> {
         if is_of_presses(evidence) {
             return None;
         }
         let table = evidence.table;
         let times = table.t_s();
-        // Every row of a board is a press of its own, whatever its point is called.
+        // Every row of a board is a press of its own, whatever the name of its point.
         let is_press = |row: usize| table.kind()[row].is_some();
         let steps: Vec<Step> = by_clock(table, 0..table.rows())
             .into_iter()
@@ -59,7 +59,7 @@ impl Stream {
         (forward.len() >= LEAST && usual_s <= STREAM_S).then_some(Stream { steps, usual_s })
     }
 
-    /// Steps of which each begins where the one before it ends.
+    /// Runs of steps in which each begins where the previous one ends.
     pub(super) fn runs(&self) -> Vec<Vec<Step>> {
         let mut runs: Vec<Vec<Step>> = Vec::new();
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
@@ -74,7 +74,7 @@ impl Stream {
         runs
     }
 
-    /// A stream of one run whose steps, in s, are these.
+    /// A stream of one run with these steps, s.
     #[cfg(test)]
     pub(super) fn of_seconds(seconds: &[f64]) -> Stream {
         let steps = seconds.iter().zip(0..);
@@ -87,13 +87,13 @@ impl Stream {
     }
 }
 
-/// Tells a recording made press by press, whose pictures are single ones.
+/// True for a recording made press by press, whose pictures are single.
 pub(super) fn is_of_presses(evidence: &Evidence<'_>) -> bool {
     let header = evidence.header;
     header.stream.is_none() && header.presses.values().any(|count| *count > 0)
 }
 
-/// Each of `rows` but the first of its clock, behind the one of the same clock before it: every unit of a sensor has its own, and so has every table.
+/// Pairs of consecutive rows of one clock among `rows`. Every unit of a sensor and every table has its own clock.
 pub(super) fn by_clock(table: &Table, rows: impl Iterator<Item = usize>) -> Vec<(usize, usize)> {
     let (units, tables) = (table.unit_id(), table.source_table());
     let mut last: BTreeMap<(Option<&str>, Option<&str>), usize> = BTreeMap::new();
@@ -109,8 +109,8 @@ pub(super) fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
 }
 
-/// The rows whose time is that of the row before them of the same clock, where they are more than one in ten: stamps of whole seconds, or of a clock
-/// that stood still.
+/// The rows with the same time as the previous row of their clock, if they exceed one in ten: stamps of whole seconds, or of a stopped
+/// clock.
 pub(super) fn repeated(table: &Table) -> Option<Vec<usize>> {
     const SHARE: usize = 10;
     let times = table.t_s();

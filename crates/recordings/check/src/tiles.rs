@@ -1,14 +1,14 @@
-//! Mean light of the tiles of a picture: where it differs from another one, without the noise of single pixels.
+//! Mean light of the tiles of a picture: shows differences between pictures without the noise of single pixels.
 
 use taceva_core::Frame;
 
-/// Tiles across the width of a picture.
+/// Number of tiles across the width of a picture.
 const ACROSS: usize = 8;
 
 /// Mean light of square tiles, row by row, as shares of the full scale.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tiles {
-    /// Tiles of one row of them.
+    /// Number of tiles in a row.
     across: usize,
     means: Vec<f32>,
 }
@@ -20,7 +20,7 @@ impl Tiles {
         let (width, height) = (info.width as usize, info.height as usize);
         let depth = info.format.samples();
         let across = ACROSS.min(width).max(1);
-        // As near to squares as whole tiles allow.
+        // As square as whole tiles allow.
         let down = ((height * across + width / 2) / width.max(1)).clamp(1, height.max(1));
         let mut sums = vec![0_u64; across * down];
         let mut counts = vec![0_u64; across * down];
@@ -62,7 +62,7 @@ impl Tiles {
         }
     }
 
-    /// The mean of several pictures' tiles; `None` for no picture and for pictures of different sizes.
+    /// The mean of the tiles of several pictures; `None` for no picture, or pictures of different sizes.
     pub(crate) fn mean<'a>(all: impl IntoIterator<Item = &'a Tiles>) -> Option<Tiles> {
         let mut all = all.into_iter();
         let first = all.next()?;
@@ -87,7 +87,7 @@ impl Tiles {
         })
     }
 
-    /// Mean absolute difference of the tiles, as a share of the full scale; infinite for another number of tiles.
+    /// Mean absolute difference of the tiles, as a share of the full scale; infinite if their number differs.
     pub(crate) fn distance(&self, other: &Tiles) -> f64 {
         if !self.is_like(other) {
             return f64::INFINITY;
@@ -96,7 +96,7 @@ impl Tiles {
         sum / count(self.means.len().max(1))
     }
 
-    /// Greatest absolute difference of two tiles at one place, as a share of the full scale; infinite for another number of tiles.
+    /// Greatest absolute difference of two tiles at one place, as a share of the full scale; infinite if their number differs.
     pub(crate) fn greatest(&self, other: &Tiles) -> f64 {
         if !self.is_like(other) {
             return f64::INFINITY;

@@ -1,27 +1,27 @@
-//! Pictures that look like those of an untouched gel, whatever their labels say.
+//! Pictures that look like an untouched gel, whatever their labels are.
 
 use crate::evidence::Evidence;
 use crate::tiles::Tiles;
 
-/// A picture is a candidate for an untouched one up to this share of the greatest load.
+/// Share of the greatest load up to which a picture is a candidate for an untouched one.
 const LOW: f64 = 0.1;
-/// So many candidates are looked at for the place where most pictures are alike, and so many pictures beside each.
+/// Maximum number of candidate centres of the densest group of pictures, and of pictures compared with each.
 const CANDIDATES: usize = 200;
 const BESIDE: usize = 1000;
-/// So many pictures alike, and one in so many of all, are a group.
+/// Minimum size of the group: a number of pictures, and one in `SHARE` of all.
 const LEAST: usize = 8;
 const SHARE: usize = 20;
-/// Pictures belong to the group up to so many times the distance within which its core lies.
+/// Radius of the group, as a multiple of the radius of its core.
 const REACH: f64 = 2.5;
-/// More than this share of all pictures are no group: pictures say nothing about contact there.
+/// Maximum share of all pictures in the group: beyond it, pictures do not show contact.
 const MOST: f64 = 0.75;
-/// The group comes and goes at least so often: one held contact is no rest.
+/// Minimum number of separate visits to the group: one held contact is not rest.
 const VISITS: usize = 4;
 
-/// The rows whose pictures are alike and were taken at rest by the label of some of them; empty where no such group is seen.
+/// The rows of the densest group of similar pictures around one with a low load; empty if there is no such group.
 ///
-/// Labels choose only where the group is sought. A force that is zeroed anew gives some untouched pictures a load, and they belong to it all the
-/// same.
+/// Labels only choose the candidates. A force that is zeroed again gives some untouched pictures a load, and they still belong to the
+/// group.
 pub(crate) fn look_alikes(evidence: &Evidence<'_>) -> Vec<usize> {
     let Some(load) = evidence.load() else {
         return Vec::new();
@@ -57,7 +57,7 @@ pub(crate) fn look_alikes(evidence: &Evidence<'_>) -> Vec<usize> {
     let near = pictures
         .iter()
         .filter(|picture| centre.distance(picture.1) <= radius);
-    // The mean of the core is a better picture of rest than any of it.
+    // The mean of the core is a better picture of rest than any single one.
     let Some(rest) = Tiles::mean(near.clone().map(|picture| picture.1)) else {
         return Vec::new();
     };

@@ -1,4 +1,4 @@
-//! The findings of a recording whose samples have several pictures, those of each view.
+//! Findings of a recording whose samples have several pictures, for each view.
 
 use taceva_core::Progress;
 use taceva_dataset::Dataset;
@@ -7,9 +7,9 @@ use taceva_evaluate::EvaluateError;
 use crate::finding::{CheckReport, Finding};
 use crate::run::{CheckRequest, check_seen};
 
-/// Looks at the labels of `dataset`, and at the pictures of each of its views.
+/// Checks the labels of `dataset`, and the pictures of each of its views.
 ///
-/// A finding that is there without any picture and in every view is about labels and stands once; any other names its views.
+/// A finding that occurs without any picture and in every view is about labels and is reported once; any other names its views.
 pub(crate) fn check_views(
     dataset: &Dataset,
     request: &CheckRequest,

@@ -1,4 +1,4 @@
-//! Explanation of a path that holds no dataset.
+//! Explanation for a path without a dataset.
 
 use std::fs;
 use std::path::Path;
@@ -9,10 +9,10 @@ use crate::text::shown_path;
 
 /// The file of the plans of a run, by which its folder is recognised, and the folder of its recordings.
 const RUN: [&str; 2] = ["plans.json", "recordings"];
-/// How many names are listed; the others are counted.
+/// Maximum names listed; the others are counted.
 const LISTED: usize = 8;
 
-/// Describes what stands at `path`, which has no header, and names the datasets inside it.
+/// Describes the content of `path`, which has no header, and names the datasets inside it.
 pub(crate) fn absence(path: &Path) -> String {
     if !path.exists() {
         return "there is nothing of that name".to_owned();
@@ -36,7 +36,7 @@ pub(crate) fn absence(path: &Path) -> String {
     }
 }
 
-/// Whether `path` is a folder that neither is a dataset or a recording nor holds any.
+/// True if `path` is a folder that is neither a dataset nor a recording nor a run, and contains no dataset.
 pub fn is_foreign_folder(path: &Path) -> bool {
     let has_own = [layout::HEADER, layout::JOURNAL]
         .iter()
@@ -71,7 +71,7 @@ fn listed(names: &[String]) -> String {
     }
 }
 
-/// A path as it can be typed in a shell.
+/// A path quoted for a shell.
 pub fn quoted(path: &Path) -> String {
     shell_word(&shown_path(path))
 }

@@ -59,11 +59,11 @@ pub enum FrameArrays {
     U16(Array4<u16>),
 }
 
-/// 8-bit pixels are taken over without a copy; 16-bit ones are brought to the byte order of the machine.
+/// 8-bit pixels are moved without a copy; 16-bit pixels are converted to the byte order of the machine.
 impl From<Frame> for FrameArray {
     fn from(frame: Frame) -> FrameArray {
         let shape = shape(frame.info());
-        // A frame has exactly as many numbers as its shape, which its constructor checks.
+        // A frame has as many numbers as its shape, which its constructor checks.
         match frame.info().format.bytes_per_sample() {
             1 => FrameArray::U8(of_len(shape, frame.into_bytes())),
             _ => FrameArray::U16(of_len(shape, frame.samples().collect())),
@@ -112,12 +112,12 @@ impl Dataset {
         Ok(self.frame(row)?.map(FrameArray::from))
     }
 
-    /// The frames of the rows of `pass` as one array, in that order, verified and decoded on its threads. All of them are in memory at once: ask for
-    /// as many as there is room for.
+    /// The frames of the rows of `pass` as one array, in that order, verified and decoded on its threads. All of them are in memory at
+    /// once, so the number of rows must fit.
     ///
     /// # Errors
-    /// As [`map_frames`](Dataset::map_frames), for the first row without a frame too; [`DatasetError::Request`] if the dataset has no frames at
-    /// all.
+    /// As [`map_frames`](Dataset::map_frames), also for the first row without a frame; [`DatasetError::Request`] if the dataset has no
+    /// frames.
     ///
     /// ```
     /// use std::num::NonZeroUsize;
@@ -144,7 +144,7 @@ impl Dataset {
             |_, frame| frame,
             |_, frame| match pixels.push(&frame) {
                 true => Ok(()),
-                // Reading has compared both already.
+                // The reader has compared both already.
                 false => Err(format!("a frame of {}", frame.info()).into()),
             },
         )?;
@@ -159,12 +159,12 @@ fn shape(info: FrameInfo) -> [usize; 3] {
     [height, width, info.format.samples()]
 }
 
-/// `values` as they lie.
+/// `values` in their order.
 fn of_len<T: Clone + Default>(shape: [usize; 3], values: Vec<T>) -> Array3<T> {
     Array3::from_shape_vec(shape, values).unwrap_or_default()
 }
 
-/// The numbers of frames of one size, one frame behind the other.
+/// The numbers of consecutive frames of one size.
 struct Pixels {
     info: FrameInfo,
     frames: usize,
@@ -182,7 +182,7 @@ impl Pixels {
         }
     }
 
-    /// Adds the pixels of `frame`, if it is of that size and format; returns whether it is.
+    /// Adds the pixels of `frame`; returns false if its size or format differs.
     fn push(&mut self, frame: &Frame) -> bool {
         if frame.info() != self.info {
             return false;

@@ -27,7 +27,7 @@ pub use pass::{Pass, StreamReport};
 pub use union::JoinedRecording;
 pub use union::{Difference, differences_of_added};
 
-/// A recording: its header, its labels in memory, and its frames on disk, decoded when asked for.
+/// A recording: its header, its labels in memory, and its frames on disk, decoded on request.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -55,13 +55,13 @@ pub struct Dataset {
     folder: HeldFolder,
     header: Header,
     table: Table,
-    /// The first frame of each pack that was looked into.
+    /// The first frame of each pack that was read.
     firsts: Mutex<BTreeMap<String, Arc<Frame>>>,
-    /// The file of signals, once a row of it was asked for.
+    /// The file of signals, once a row of it was requested.
     signals: Mutex<Option<Arc<SignalsReader>>>,
-    /// The recordings that were joined, in the order of their rows; none where this is one recording.
+    /// The joined recordings, in the order of their rows; empty for a single recording.
     joined: Vec<JoinedRecording>,
-    /// Positions of the views that its frames are of; none where a row has one picture, or no view was named.
+    /// Indices of the views that its frames are from; empty if a row has one picture, or no view was chosen.
     seen: Vec<usize>,
 }
 
@@ -70,7 +70,7 @@ impl Dataset {
     ///
     /// # Errors
     /// [`DatasetError::NoDataset`] if there is none or the recording was not closed; [`DatasetError::Version`] if it is newer;
-    /// [`DatasetError::Digest`] or [`DatasetError::Damaged`] if it is not what was written; [`DatasetError::Io`].
+    /// [`DatasetError::Digest`] or [`DatasetError::Damaged`] if it was changed; [`DatasetError::Io`].
     pub fn open(path: &Path) -> Result<Dataset, DatasetError> {
         let folder = HeldFolder::open(path)?;
         if !folder.has(layout::HEADER) {
@@ -99,12 +99,12 @@ impl Dataset {
         Ok(dataset)
     }
 
-    /// The folder; of joined recordings that of the first.
+    /// The folder; for joined recordings that of the first.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 
-    /// What is known about the recording as a whole.
+    /// The facts of the recording as a whole.
     pub fn header(&self) -> &Header {
         &self.header
     }
@@ -114,7 +114,7 @@ impl Dataset {
         &self.table
     }
 
-    /// The digest of everything that decides a number computed from this dataset.
+    /// The digest of everything that affects a number computed from this dataset.
     pub fn digest(&self) -> Digest {
         self.header.digest
     }

@@ -1,4 +1,4 @@
-//! Images: from the bytes of a PNG, JPEG or TIFF file to a frame.
+//! Decoder of PNG, JPEG and TIFF files to frames.
 
 mod tiff;
 
@@ -17,7 +17,7 @@ use crate::decoder_panic::guarded;
 use crate::jpeg::check_whole;
 use crate::limits;
 
-/// In which order the colours of a pixel are stored in the image files.
+/// Order of the colours of a pixel in the image files.
 ///
 /// ```
 /// use taceva_dataset::ChannelOrder;
@@ -28,16 +28,16 @@ use crate::limits;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ChannelOrder {
-    /// Red, green, blue: what image files promise.
+    /// Red, green, blue: the standard of image files.
     Rgb,
-    /// Blue, green, red: written by a program that did not convert its pixels to the order of the file. Decoded frames are red, green, blue.
+    /// Blue, green, red: written by a program that did not convert its pixels to the standard order. Decoded frames are red, green, blue.
     Bgr,
-    /// One number a pixel.
+    /// One number for each pixel.
     Gray,
 }
 
 impl ChannelOrder {
-    /// How the order is written in files.
+    /// Name of the order in files.
     pub const fn name(self) -> &'static str {
         match self {
             ChannelOrder::Rgb => "rgb",
@@ -47,7 +47,7 @@ impl ChannelOrder {
     }
 }
 
-/// The file formats that frames are kept in.
+/// The file formats of stored frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub enum ImageKind {
@@ -63,11 +63,11 @@ const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 const PNG_END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
 const JPEG_SIGNATURE: &[u8] = b"\xff\xd8\xff";
 const JPEG_END: &[u8] = b"\xff\xd9";
-/// The signatures of either byte order, and of BigTIFF, which may be above 4 GiB.
+/// The signatures of either byte order, and of BigTIFF, which may exceed 4 GiB.
 const TIFF_SIGNATURES: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 impl ImageKind {
-    /// The kind whose signature `bytes` begin with; the name of the file plays no part.
+    /// The kind by the signature of `bytes`; the file name is ignored.
     pub fn of(bytes: &[u8]) -> Option<ImageKind> {
         if bytes.starts_with(PNG_SIGNATURE) {
             Some(ImageKind::Png)
@@ -89,7 +89,7 @@ impl ImageKind {
         }
     }
 
-    /// Whether files of this kind are called `*.extension`.
+    /// True if `extension` is one of files of this kind.
     pub fn has_extension(self, extension: &str) -> bool {
         let known: &[&str] = match self {
             ImageKind::Png => &["png"],
@@ -102,11 +102,11 @@ impl ImageKind {
     }
 }
 
-/// The frame in the image file `bytes`, whose colours are stored in `order`.
+/// Decodes the image file `bytes`, whose colours are stored in `order`.
 ///
-/// 8 and 16 bit, gray and RGB are kept; of PNG palettes and fewer bits become 8-bit RGB or gray; an alpha channel is dropped if it is
-/// opaque everywhere and refused otherwise. A file that does not end in its end marker is refused: it was cut, even where a
-/// decoder would fill the rest with gray.
+/// 8 and 16 bit, gray and RGB are kept. PNG palettes and fewer bits become 8-bit RGB or gray. An alpha channel is dropped if it is opaque
+/// everywhere, and rejected otherwise. A file without its end marker is rejected as truncated, even if a decoder would fill the rest with
+/// gray.
 pub fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
     let kind = kind_of_whole(bytes)?;
     let (info, pixels) = guarded(|| match kind {
@@ -120,7 +120,8 @@ pub fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), S
     Ok((kind, frame))
 }
 
-/// Whether an image file of `kind` that decodes is whole: decoders of PNG check every part, those of TIFF that every strip is there, those of JPEG fill what is missing with gray.
+/// Checks that an image file of `kind` that decodes is complete. PNG decoders check every part, TIFF decoders check every strip, but JPEG
+/// decoders fill missing parts with gray.
 pub fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), String> {
     match kind {
         ImageKind::Png | ImageKind::Tiff => Ok(()),
@@ -129,15 +130,15 @@ pub fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), String> {
     }
 }
 
-/// The kind of an image file that is there to its end.
+/// The kind of an image file that is complete.
 pub(crate) fn kind_of_whole(bytes: &[u8]) -> Result<ImageKind, String> {
     let kind = ImageKind::of(bytes)
         .ok_or("neither PNG nor JPEG nor TIFF: its first bytes are those of another format")?;
     let is_ended = match kind {
         ImageKind::Png => bytes.ends_with(PNG_END),
-        // It has none: its directory names every strip, which the decoder reads.
+        // TIFF has no end marker: its directory names every strip, which the decoder reads.
         ImageKind::Tiff => true,
-        // What some cameras write behind it is no part of the picture.
+        // Some cameras write data after the picture, which is ignored.
         ImageKind::Jpeg => {
             bytes.ends_with(JPEG_END) || bytes.windows(2).rev().any(|pair| pair == JPEG_END)
         }
@@ -198,8 +199,8 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-/// Whether a JPEG that is not progressive has the colours one after the other, each in a scan of its own: its first scan is of fewer components
-/// than its frame (ITU-T T.81, B.2.2 and B.2.3).
+/// True if a sequential JPEG codes each colour in its own scan: its first scan has fewer components than its frame (ITU-T T.81, B.2.2 and
+/// B.2.3).
 fn has_a_scan_a_component(bytes: &[u8]) -> bool {
     let mut of_frame = None;
     let mut rest = bytes.get(2..).unwrap_or(&[]);
@@ -257,7 +258,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-/// Decodes a JPEG whose colours stand in a scan each, which `zune-jpeg` decodes to another picture without an error.
+/// Decodes a JPEG with one scan for each colour, which `zune-jpeg` decodes wrongly without an error.
 fn decode_scan_a_component(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let text = |error: jpeg_decoder::Error| error.to_string();
     let mut decoder = Decoder::new(bytes);
@@ -281,15 +282,15 @@ fn decode_scan_a_component(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String>
     Ok((info, pixels))
 }
 
-/// Bytes that the image in `file` may take once it is decoded.
+/// Size limit of the decoded image in `file`, bytes.
 fn most_of(file: &[u8]) -> usize {
     usize::try_from(limits::decoded_bytes(file.len())).unwrap_or(usize::MAX)
 }
 
-/// The length of the image in `file` in memory.
+/// The decoded size of the image in `file`, bytes.
 ///
 /// # Errors
-/// In words, if that is more than [`most_of`] the file.
+/// A message if it exceeds [`most_of`] the file.
 fn checked_length(bytes: u64, file: &[u8]) -> Result<usize, String> {
     let length = usize::try_from(bytes).map_err(|_| "an image larger than the address space")?;
     match length <= most_of(file) {
@@ -302,7 +303,7 @@ fn checked_length(bytes: u64, file: &[u8]) -> Result<usize, String> {
     }
 }
 
-/// The 16-bit numbers of a PNG, which are big-endian, as frames hold them.
+/// Converts the 16-bit numbers of a PNG from big-endian to little-endian, as in frames.
 fn little_endian(mut pixels: Vec<u8>) -> Vec<u8> {
     pixels
         .chunks_exact_mut(2)
@@ -323,7 +324,7 @@ fn without_alpha<const PIXEL: usize, const ALPHA: usize>(pixels: &[u8]) -> Resul
     Ok(colours)
 }
 
-/// The pixels with their colours in order, if `order` can be meant.
+/// The pixels with their colours in standard order; a message if `order` does not fit them.
 fn in_order(info: FrameInfo, mut pixels: Vec<u8>, order: ChannelOrder) -> Result<Vec<u8>, String> {
     let is_gray = info.format.samples() == 1;
     if is_gray != (order == ChannelOrder::Gray) {

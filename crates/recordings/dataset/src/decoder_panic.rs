@@ -1,6 +1,6 @@
-//! Panics of decoders of other projects, as errors.
+//! Panics of third-party decoders, converted to errors.
 
-/// The value of `decode`; if it panics, the error says so with the panic's message, and nothing is printed.
+/// The value of `decode`. If it panics, the error contains the message of the panic, and nothing is printed.
 pub fn guarded<T>(decode: impl FnOnce() -> T) -> Result<T, String> {
     taceva_core::contained(decode).map_err(|message| format!("the decoder panicked: {message}"))
 }

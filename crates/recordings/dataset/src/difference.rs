@@ -1,15 +1,15 @@
-//! A frame as the difference to another: what both show is zero in it, which takes little room once it is compressed.
+//! Differences of frames: equal parts become zero, which compresses well.
 
 use taceva_core::{Frame, FrameError};
 
 use crate::digest::{Digest, PartsDigest};
 
-/// `frame` less `first`, number by number, wrapping; both are of one kind.
+/// `frame` minus `first`, number by number, wrapping; both are of one kind.
 pub(crate) fn less(frame: &Frame, first: &Frame) -> Result<Frame, FrameError> {
     mixed(frame, first, u8::wrapping_sub, u16::wrapping_sub)
 }
 
-/// The frame of which `difference` was [`less`].
+/// The frame whose [`less`] is `difference`.
 pub(crate) fn plus(difference: &Frame, first: &Frame) -> Result<Frame, FrameError> {
     mixed(difference, first, u8::wrapping_add, u16::wrapping_add)
 }
@@ -34,7 +34,7 @@ fn mixed(
     Frame::new(frame.info(), mixed)
 }
 
-/// The digest of a difference stored as `bytes` to the frame with digest `first`: the same bytes to another frame are another picture.
+/// The digest of a difference stored as `bytes` to the frame with digest `first`: with another frame the same bytes are another picture.
 pub(crate) fn digest(first: Digest, bytes: &[u8]) -> Digest {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.difference/1");

@@ -1,4 +1,4 @@
-//! The fingerprint by which a file, a table or a dataset is known.
+//! Digest of a file, a table or a dataset.
 
 use std::fmt;
 use std::io::{self, Read};
@@ -32,7 +32,7 @@ impl Digest {
         Digest(Sha256::digest(bytes).into())
     }
 
-    /// The digest of everything `reader` still has.
+    /// The digest of the rest of `reader`.
     ///
     /// # Errors
     /// Those of reading.
@@ -53,7 +53,7 @@ impl Digest {
     }
 }
 
-/// Digests a sequence of parts so that no two different sequences run together.
+/// Digests a sequence of parts with their lengths, so that different sequences give different digests.
 #[derive(Clone, Debug, Default)]
 #[doc(hidden)]
 pub struct PartsDigest(Sha256);
@@ -65,7 +65,7 @@ impl PartsDigest {
         self.fixed(bytes);
     }
 
-    /// Adds a part whose length every reader knows beforehand.
+    /// Adds a part of fixed length.
     pub fn fixed(&mut self, bytes: &[u8]) {
         self.0.update(bytes);
     }

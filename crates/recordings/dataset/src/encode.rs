@@ -1,4 +1,4 @@
-//! Encoding of frames as PNG files, without loss.
+//! Lossless encoding of frames as PNG files.
 
 mod png;
 
@@ -6,7 +6,7 @@ use taceva_core::Frame;
 
 use crate::decoder_panic::guarded;
 
-/// The PNG file of `frame`.
+/// Encodes `frame` as a PNG file.
 pub fn encode_png(frame: &Frame) -> Result<Vec<u8>, String> {
     guarded(|| png::file(frame))?
 }

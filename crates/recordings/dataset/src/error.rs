@@ -1,4 +1,4 @@
-//! Why a recording, a table or a map could not be read or written.
+//! Errors of recordings, tables and maps.
 
 use std::fmt;
 use std::io;
@@ -12,7 +12,7 @@ use crate::text::{shown, shown_path};
 use crate::version::Version;
 use crate::view_names::wanted_view;
 
-/// Everything that can go wrong with data on disk; each variant says what was met, where, and what would be accepted.
+/// Error of data on disk; each variant states the content found, its location, and the accepted form.
 ///
 /// ```
 /// use taceva_core::ErrorKind;
@@ -27,65 +27,65 @@ use crate::view_names::wanted_view;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DatasetError {
-    /// The operating system refused.
+    /// An error of the operating system.
     #[error("cannot {doing} {}: {source}", shown_path(path))]
     Io {
-        /// What was being done: `read`, `create`, `make durable`, …
+        /// The operation: `read`, `create`, `make durable`, …
         doing: &'static str,
-        /// On which file or folder.
+        /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
-    /// A map, a header or another TOML file that does not say what it must.
+    /// A map, a header or another TOML file with invalid content.
     #[error("{place}: {problem}")]
     Toml {
-        /// Where.
+        /// Location.
         place: Place,
-        /// What is wrong and what would be accepted.
+        /// The fault, and the accepted form.
         problem: String,
     },
-    /// A table of labels that cannot be read as one.
+    /// A table of labels that cannot be read.
     #[error("{place}: {problem}")]
     Table {
-        /// Where.
+        /// Location.
         place: Place,
-        /// What is wrong and what would be accepted.
+        /// The fault, and the accepted form.
         problem: String,
     },
-    /// A path that a foreign file names and that is not followed.
+    /// A path in a foreign file that is not followed.
     #[error("{}`{}`: {problem}", named_by(place), shown(written))]
     Path {
-        /// Where the path is written.
+        /// Location of the path.
         place: Option<Box<Place>>,
         /// The path as written.
         written: String,
-        /// Why it is not followed.
+        /// Reason why it is not followed.
         problem: String,
     },
     /// An image, or an array of images, that is damaged, too large or unlike the others.
     #[error("{}{problem}", image_at(place, path))]
     Image {
-        /// Where the image is named.
+        /// Location that names the image.
         place: Option<Box<Place>>,
         /// The image.
         path: PathBuf,
-        /// What is wrong and what would be accepted.
+        /// The fault, and the accepted form.
         problem: String,
     },
-    /// Something is already there; it is not written over.
+    /// A target that exists already; it is not overwritten.
     #[error(
         "{} exists already; choose another place or remove it",
         shown_path(path)
     )]
     TargetExists {
-        /// What is there.
+        /// The existing path.
         path: PathBuf,
     },
-    /// Another process is writing there.
+    /// A folder that another process is writing.
     #[error("{} is being written by another process", shown_path(path))]
     Busy {
-        /// Where.
+        /// The folder.
         path: PathBuf,
     },
     /// A folder that is no dataset.
@@ -93,7 +93,7 @@ pub enum DatasetError {
     NoDataset {
         /// The folder.
         path: PathBuf,
-        /// What is missing.
+        /// The missing part.
         problem: String,
     },
     /// A dataset of a format that this version cannot read.
@@ -104,22 +104,22 @@ pub enum DatasetError {
         /// The format it declares.
         found: Version,
     },
-    /// A file whose bytes are not those that were recorded.
+    /// A file whose bytes differ from those recorded.
     #[error("{}: damaged: expected {expected}, found {found}", shown_path(path))]
     Digest {
         /// The file.
         path: PathBuf,
         /// The digest that was recorded.
         expected: Digest,
-        /// The digest of what is there.
+        /// The digest of the present bytes.
         found: Digest,
     },
-    /// A header that is not what it was when it was sealed.
+    /// A header that was changed after it was sealed.
     #[error("{}: {source}", shown_path(path))]
     Seal {
         /// The header.
         path: PathBuf,
-        /// What is wrong.
+        /// The fault.
         source: SealError,
     },
     /// A file of a dataset that contradicts itself or its header.
@@ -127,46 +127,46 @@ pub enum DatasetError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What does not fit.
+        /// The contradiction.
         problem: String,
     },
-    /// A journal whose middle is damaged: what follows was recorded and must not be cut away.
+    /// A journal with damage before its end: the later records were acknowledged and must not be cut.
     #[error("{}: damaged at byte {offset}: {problem}", shown_path(path))]
     Journal {
         /// The journal.
         path: PathBuf,
-        /// Where the damaged record begins.
+        /// Offset of the damaged record, bytes.
         offset: u64,
-        /// What does not fit.
+        /// The fault.
         problem: String,
     },
-    /// A sample that cannot be recorded as it is.
+    /// A sample that cannot be recorded.
     #[error("sample `{}`: {problem}", shown(id))]
     Sample {
         /// The sample.
         id: String,
-        /// Why it is refused.
+        /// The reason.
         problem: String,
     },
-    /// The caller asked for what the dataset does not have.
+    /// A request for something that the dataset lacks.
     #[error("{}: {problem}", shown_path(path))]
     Request {
         /// The dataset.
         path: PathBuf,
-        /// What was asked for and what there is.
+        /// The request, and the available alternatives.
         problem: String,
     },
-    /// A view of pictures that is not there, or none named where samples have several pictures.
+    /// A view of pictures that does not exist, or none named although samples have several pictures.
     #[error("{}: {}", shown_path(path), wanted_view(asked.as_deref(), known))]
     View {
         /// The dataset.
         path: PathBuf,
-        /// The view that was asked for; `None` if none was.
+        /// The requested view; `None` if none was named.
         asked: Option<String>,
-        /// The views that there are.
+        /// The existing views.
         known: Vec<String>,
     },
-    /// Two recordings that cannot be taken as one.
+    /// Two recordings that cannot be joined.
     #[error(
         "{} and {} cannot be taken as one recording: {problem}",
         shown_path(one),
@@ -177,24 +177,24 @@ pub enum DatasetError {
         one: PathBuf,
         /// The other.
         other: PathBuf,
-        /// The key in which they differ, with the value of each, or that they are the same.
+        /// The key in which they differ, with the value of each, or the fact that they are the same.
         problem: String,
     },
-    /// The work was stopped on request; nothing half-written is left.
+    /// The work was cancelled; no partial output is left.
     #[error("stopped on request")]
     Cancelled,
-    /// The sink of the samples refused one.
+    /// A sample that the sink rejected.
     #[error("row {row}: {source}")]
     Sink {
         /// The row of the dataset, from 0.
         row: usize,
-        /// Why.
+        /// The error of the sink.
         source: SinkError,
     },
 }
 
 impl DatasetError {
-    /// The same error, a line higher up: of a table to which a header was added.
+    /// The same error with its line decremented, for a table to which a header was added.
     pub fn a_line_above(mut self) -> DatasetError {
         if let DatasetError::Table { place, .. } = &mut self
             && let Some(line) = &mut place.line
@@ -204,7 +204,7 @@ impl DatasetError {
         self
     }
 
-    /// The same error, so many lines further down: of a part of a table that has only its header before it.
+    /// The same error with its line increased by `lines`, for a part of a table with only its header before it.
     pub fn lines_below(mut self, lines: u64) -> DatasetError {
         if let DatasetError::Table { place, .. } = &mut self
             && let Some(line) = &mut place.line
@@ -215,7 +215,7 @@ impl DatasetError {
         self
     }
 
-    /// What kind of failure it was, by the closed list that every part shares.
+    /// The kind of the error, from the closed list that all crates share.
     pub fn kind(&self) -> ErrorKind {
         match self {
             DatasetError::Io { source, .. } => match source.kind() {
@@ -255,7 +255,7 @@ impl DatasetError {
         }
     }
 
-    /// The same error with other paths: `path` makes one of each, `text` of what is said of them.
+    /// The same error with mapped paths: `path` maps each path, and `text` each message.
     pub fn with_paths(
         mut self,
         path: &dyn Fn(&Path) -> PathBuf,
@@ -290,7 +290,7 @@ impl DatasetError {
         self
     }
 
-    /// The same error, saying where the image or path is named.
+    /// The same error with the location that names the image or path.
     pub fn named_at(mut self, at: Place) -> DatasetError {
         if let DatasetError::Path { place, .. } | DatasetError::Image { place, .. } = &mut self {
             *place = Some(Box::new(at));
@@ -299,7 +299,7 @@ impl DatasetError {
     }
 }
 
-/// A place in a file.
+/// A location in a file.
 ///
 /// ```
 /// use taceva_dataset::{DatasetError, SensorFile};
@@ -318,16 +318,16 @@ impl DatasetError {
 pub struct Place {
     /// The file.
     pub path: PathBuf,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub line: Option<u64>,
-    /// Its row, from 0, where rows are no lines.
+    /// Row, from 0, for files without lines.
     pub row: Option<u64>,
-    /// Its column, by name.
+    /// Column, by name.
     pub column: Option<String>,
 }
 
 impl Place {
-    /// The whole of the file at `path`.
+    /// The whole file at `path`.
     pub fn file(path: &Path) -> Place {
         Place {
             path: path.to_owned(),
@@ -335,7 +335,7 @@ impl Place {
         }
     }
 
-    /// The same place, in the column called `name`.
+    /// The same location, in the column called `name`.
     #[must_use]
     pub fn in_column(self, name: impl Into<String>) -> Place {
         Place {
@@ -344,7 +344,7 @@ impl Place {
         }
     }
 
-    /// The same place, in the row `row`, from 0.
+    /// The same location, in the row `row`, from 0.
     #[must_use]
     pub fn in_row(self, row: u64) -> Place {
         Place {
@@ -353,7 +353,7 @@ impl Place {
         }
     }
 
-    /// The same column of all rows.
+    /// The same column without a row.
     pub fn without_row(self) -> Place {
         Place { row: None, ..self }
     }
@@ -367,7 +367,7 @@ impl Place {
     }
 }
 
-/// Where a picture is: the place that names it, and its own file where that is another one.
+/// The location of a picture: the place that names it, and its own file if that differs.
 fn image_at(place: &Option<Box<Place>>, path: &Path) -> String {
     match place {
         Some(place) if place.path == path => format!("{place}: "),
@@ -391,7 +391,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Why a format is not read, and what to do.
+/// The reason why a format is not supported, with the remedy.
 fn unreadable(found: Version) -> String {
     match found.is_earlier() {
         true => "was written by a TacEva before release 0.2.0; make the dataset anew: taceva import FOLDER --map MAP.toml --out DATASET, or record again"

@@ -1,4 +1,4 @@
-//! Foreign files, checked before they are opened, and our own files, written durably.
+//! Checked opening of foreign files, and durable writing of our own.
 
 use std::fs::{self, File, Metadata};
 use std::io::{Read, Write};
@@ -9,9 +9,9 @@ use taceva_files::sync_folder;
 
 use crate::error::DatasetError;
 
-/// Opens the regular file at `path`, which may hold at most `cap` bytes; returns how many it holds.
+/// Opens the regular file at `path` of at most `cap` bytes; also returns its size.
 ///
-/// The kind is looked at before the file is opened: opening a FIFO would wait for ever.
+/// The kind is checked before opening, since opening a FIFO would block.
 pub fn open_regular(path: &Path, cap: u64) -> Result<(File, u64), DatasetError> {
     let metadata = fs::metadata(path).map_err(DatasetError::io("read", path))?;
     check_regular(path, &metadata, cap)?;
@@ -19,7 +19,7 @@ pub fn open_regular(path: &Path, cap: u64) -> Result<(File, u64), DatasetError> 
     Ok((file, metadata.len()))
 }
 
-/// Whether `path`, whose metadata are `metadata`, is a regular file of at most `cap` bytes.
+/// Checks that `path` with these `metadata` is a regular file of at most `cap` bytes.
 pub(crate) fn check_regular(
     path: &Path,
     metadata: &Metadata,
@@ -55,7 +55,7 @@ pub fn read_capped(path: &Path, cap: u64) -> Result<Vec<u8>, DatasetError> {
     Ok(bytes)
 }
 
-/// Whether a written path stays inside the folder it is relative to, as far as its text shows.
+/// Checks that the text of a relative path stays inside its folder.
 pub fn check_relative(written: &str) -> Result<(), &'static str> {
     if written.is_empty() {
         return Err("empty, expected a path relative to the folder");
@@ -75,7 +75,7 @@ pub fn check_relative(written: &str) -> Result<(), &'static str> {
     Ok(())
 }
 
-/// Writes a new file and returns once its bytes are on the disk. Its name is not, until `make_names_durable`.
+/// Writes a new file and returns once its bytes are on the disk. Its name is durable only after `make_names_durable`.
 pub fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
     let mut file = File::create(path).map_err(DatasetError::io("create", path))?;
     file.write_all(bytes)
@@ -83,12 +83,12 @@ pub fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
         .map_err(DatasetError::io("write", path))
 }
 
-/// Forces the names in a folder to disk.
+/// Syncs the names in a folder to disk.
 pub(crate) fn make_names_durable(folder: &Path) -> Result<(), DatasetError> {
     sync_folder(folder).map_err(DatasetError::io("make durable", folder))
 }
 
-/// Whether `path` is still the name of what is held.
+/// True if `path` still names the open file `held`.
 pub(crate) fn is_same(held: &File, path: &Path) -> bool {
     let (Ok(held), Ok(named)) = (held.metadata(), fs::metadata(path)) else {
         return false;

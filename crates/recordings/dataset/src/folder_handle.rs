@@ -1,4 +1,4 @@
-//! The folder of a dataset that is being read: held open, so that the same files are read whatever becomes of its name.
+//! The open folder of a dataset, which keeps reading the same files even if its name changes.
 
 use std::fs::{File, TryLockError};
 use std::io::{self, Read};
@@ -12,30 +12,30 @@ use crate::file::is_same;
 use crate::layout;
 use crate::replacement::settle;
 
-/// How often a folder that is being put in its place is tried again, and how long the pause before each try is.
+/// Number of attempts to open a folder that is being replaced, and the pause before each.
 const ATTEMPTS: u32 = 200;
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// A folder with a shared lock: who replaces the dataset leaves the old one whole until the lock is released.
+/// A folder with a shared lock: a process that replaces the dataset keeps the old one until the lock is released.
 #[derive(Debug)]
 pub(crate) struct HeldFolder {
     path: PathBuf,
-    /// `None` where there is no folder.
+    /// `None` if there is no folder.
     handle: Option<File>,
 }
 
 impl HeldFolder {
-    /// Holds the folder at `path`, if there is one; what an interrupted replacement left there is put back or cleared before.
+    /// Opens and locks the folder at `path`, if there is one, after cleaning up an interrupted replacement.
     pub(crate) fn open(path: &Path) -> Result<HeldFolder, DatasetError> {
         settle(path)?;
         for attempt in 0..ATTEMPTS {
-            // Whoever names a pipe does not wait for its other end.
+            // Opening a pipe must not wait for its other end.
             let flags = OFlags::RDONLY | OFlags::CLOEXEC | OFlags::NONBLOCK;
             let opened = rustix::fs::open(path, flags, Mode::empty());
             let handle = match opened.map_err(io::Error::from) {
                 Ok(handle) => File::from(handle),
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                    // Where names cannot be exchanged, there is a moment between two of them.
+                    // If names cannot be exchanged, the name is missing for a moment between two renames.
                     settle(path)?;
                     if path.exists() {
                         continue;
@@ -48,9 +48,9 @@ impl HeldFolder {
                 Err(error) => return Err(DatasetError::io("open", path)(error)),
             };
             let is_locked = match handle.try_lock_shared() {
-                // Whoever records has no header yet, and whoever replaces lets go within the attempts.
+                // A recorder has no header yet, and a replacing process releases the lock within the attempts.
                 Err(TryLockError::WouldBlock) => !is_there(&handle, layout::HEADER),
-                // Where there are no locks nobody can be waited for.
+                // Without lock support there is nothing to wait for.
                 Ok(()) | Err(TryLockError::Error(_)) => true,
             };
             let is_last = attempt + 1 == ATTEMPTS;
@@ -65,7 +65,7 @@ impl HeldFolder {
         unreachable!("the last attempt returns")
     }
 
-    /// The same path, through which no file is read: of recordings that hold their files themselves.
+    /// The same path without access to files, for joined recordings, which have their own handles.
     pub(crate) fn without_files(&self) -> HeldFolder {
         HeldFolder {
             path: self.path.clone(),
@@ -73,7 +73,7 @@ impl HeldFolder {
         }
     }
 
-    /// The same folder, held once more.
+    /// Another handle of the same folder.
     pub(crate) fn again(&self) -> Result<HeldFolder, DatasetError> {
         let handle = self.handle.as_ref().map(File::try_clone).transpose();
         Ok(HeldFolder {
@@ -87,13 +87,13 @@ impl HeldFolder {
         &self.path
     }
 
-    /// Whether there is something called `name` in it.
+    /// True if the folder has an entry called `name`.
     pub(crate) fn has(&self, name: &str) -> bool {
         let handle = self.handle.as_ref();
         handle.is_some_and(|handle| is_there(handle, name))
     }
 
-    /// The regular file `relative` to this folder, which may hold at most `cap` bytes, and how many it holds.
+    /// Opens the regular file `relative` to this folder, of at most `cap` bytes; also returns its size.
     pub(crate) fn file(&self, relative: &str, cap: u64) -> Result<(File, u64), DatasetError> {
         let path = self.path.join(relative);
         let wrong = DatasetError::io("open", &path);

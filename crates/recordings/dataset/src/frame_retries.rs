@@ -1,10 +1,10 @@
-//! The count of frames that were taken again, kept beside a recording so that an interrupted run still states it.
+//! Count of retried frames, stored beside a recording so that an interrupted run still reports it.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Adds `count` to what is written beside the recording at `path`.
+/// Adds `count` to the count beside the recording at `path`.
 ///
 /// # Errors
 /// Those of the file system.
@@ -18,7 +18,7 @@ pub fn add_frame_retries(path: &Path, count: u64) -> io::Result<()> {
     )
 }
 
-/// Frames of the recording at `path` that were taken again; 0 where nothing can be read: a recording that was moved has left the count behind.
+/// Number of retried frames of the recording at `path`; 0 if there is no count, as for a recording that was moved.
 pub fn frame_retries(path: &Path) -> u64 {
     let text = fs::read_to_string(place(path)).unwrap_or_default();
     text.trim().parse().unwrap_or(0)

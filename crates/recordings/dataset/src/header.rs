@@ -1,4 +1,4 @@
-//! `dataset.toml`: what is known about a recording as a whole.
+//! `dataset.toml`: the facts of a recording as a whole.
 
 mod class_mapping;
 mod column_mapping;
@@ -103,60 +103,59 @@ impl ChannelInfo {
 pub struct Header {
     /// The version of the format of the folder.
     pub format: Version,
-    /// Whether the samples are measured, simulated or made up.
+    /// Origin of the samples: measured, simulated or synthetic.
     pub source: Source,
-    /// The clock that stamped the samples: what `t_s` counts from.
+    /// The clock that stamped the samples, which defines the origin of `t_s`.
     pub clock: Clock,
-    /// Which sensor it was.
+    /// The sensor.
     pub sensor: SensorFacts,
-    /// Where the sensor senses, if it is known.
+    /// The sensing area, if known.
     pub footprint: Option<Footprint>,
-    /// The settings of the camera that were set and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows.
+    /// Camera settings that were set and read back, by name: `exposure_ms` is `15.7`; empty if unknown.
     pub settings: BTreeMap<String, String>,
-    /// What was measured beside the frames, each with its unit.
+    /// The channels measured besides the frames, each with its unit.
     pub channels: Channels,
     /// The names of the text columns kept for splits.
     pub attributes: Vec<String>,
-    /// Columns of the imported table that no key of its map names; empty of a recording.
+    /// Columns of the imported table that no key of its map names; empty for a recording.
     pub unmentioned_columns: Vec<String>,
-    /// How each label was read, by every map that rows came by; empty of a recording.
+    /// Source of each label, by every map that rows were imported with; empty for a recording.
     pub columns: Vec<MappedColumn>,
-    /// How the rows of joined tables were found, by every map that rows came by; likewise.
+    /// Joins of tables, by every map that rows were imported with; empty for a recording.
     pub joins: Vec<MappedJoin>,
-    /// How each row found its picture, and numbers became pixels, by every map that rows came by; likewise.
+    /// Source of pictures and conversion to pixels, by every map that rows were imported with; empty for a recording.
     pub pictures: Vec<MappedPictures>,
-    /// The closed lists of classes, by every map that rows came by; likewise.
+    /// The closed lists of classes, by every map that rows were imported with; empty for a recording.
     pub classes: Vec<MappedClass>,
     /// Channels that are the parts of one rotation: a rotation vector x, y, z or a quaternion x, y, z, w.
     pub rotations: Vec<Vec<String>>,
-    /// What an import left out; empty of a recording.
+    /// Data that an import left out; empty for a recording.
     pub left_out: LeftOut,
-    /// Warnings of the imports that the rows came by, in their words; empty of a recording.
+    /// Warnings of the imports of the rows; empty for a recording.
     pub warnings: Vec<String>,
-    /// What all frames share; `None` if there is none.
+    /// Properties that all frames share; `None` if there are no frames.
     pub frames: Option<FramesInfo>,
-    /// Frames of each view, where samples have several pictures; `frames` is then of the views by which the dataset is seen.
+    /// Frames of each view, if samples have several pictures; `frames` then belongs to the chosen views.
     pub views: Vec<ViewInfo>,
-    /// How many presses ended in which way, those without a sample too; empty where no protocol pressed.
+    /// Number of presses by outcome, including those without a sample; empty without a protocol.
     pub presses: BTreeMap<PressOutcome, u64>,
-    /// What was lost of a stream that was recorded as it came; `None` of anything else.
+    /// Losses of a recorded stream; `None` for other recordings.
     pub stream: Option<StreamFacts>,
-    /// Predictions that a model made while it was recorded, which are no labels; `None` where none did.
+    /// Predictions that a model made during the recording, which are no labels; `None` if there are none.
     pub predictions: Option<LivePredictions>,
-    /// What the numbers of taxels share, and what their file must be; `None` where there are none.
+    /// Properties of the taxels, and the digests of their file; `None` if there are no taxels.
     pub signals: Option<SignalsInfo>,
-    /// What the recording was before each time that rows were added to it, the first first; empty of one that is as it was imported or
-    /// recorded.
+    /// The states of the recording before each addition of rows, the first first; empty if none were added.
     pub extended: Vec<Extension>,
-    /// What `samples.parquet` must be: its number of rows and its digests.
+    /// Rows and digests of `samples.parquet`.
     pub table: TableInfo,
     /// The digest of the dataset: of its table, its frames and its signals.
     pub digest: Digest,
-    /// Whether the header is sealed, and the edits of it that were accepted.
+    /// State of the seal, with the accepted edits of the header.
     pub seal: Opened,
 }
 
-/// The header in the order in which TOML wants it: plain keys before tables.
+/// The header in the order of TOML: plain keys before tables.
 #[derive(Serialize, Deserialize)]
 struct Written {
     format: Version,
@@ -201,7 +200,7 @@ struct Written {
     pictures: Vec<MappedPictures>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     classes: Vec<MappedClass>,
-    /// Edits that were accepted before rows were added; read by whoever reads the seal.
+    /// Edits that were accepted before rows were added; parsed with the seal.
     #[serde(default, skip_deserializing, skip_serializing_if = "Vec::is_empty")]
     history: Vec<Edit>,
 }
@@ -213,7 +212,7 @@ impl Header {
         Header::parse(&folder.path().join(layout::HEADER), bytes)
     }
 
-    /// The header that `bytes`, the content of the file at `path`, say.
+    /// Parses the header from `bytes`, the content of the file at `path`.
     fn parse(path: &Path, bytes: Vec<u8>) -> Result<Header, DatasetError> {
         #[derive(Deserialize)]
         struct OnlyFormat {
@@ -228,7 +227,7 @@ impl Header {
                 found: format,
             });
         }
-        // A text that is no TOML is refused with its line.
+        // Text that is no TOML is rejected with its line.
         parse_toml::<toml::Table>(path, &text)?;
         let checked = toml_text::check(&text);
         let seal = checked.map_err(|source| DatasetError::Seal {
@@ -292,7 +291,7 @@ impl Header {
         }
     }
 
-    /// How every map read what it read.
+    /// The mappings of all maps.
     pub fn mapping(&self) -> Mapping {
         Mapping {
             columns: self.columns.clone(),
@@ -308,7 +307,7 @@ impl Header {
         toml_text::seal(&self.body()).expect("what was just written is TOML")
     }
 
-    /// What the text says.
+    /// The text of the header without its seal.
     fn body(&self) -> String {
         let written = Written {
             format: self.format,

@@ -1,12 +1,11 @@
-//! The journal of a recording: whatever was appended is there after a power cut, if the append had returned.
+//! The journal of a recording: an appended record survives a power cut once the append has returned.
 //!
-//! A record is `length: u32 · kind: u8 · sequence: u64 · header check: 8 bytes · payload · chain: 32 bytes`, numbers
-//! little-endian. The header check is the beginning of a SHA-256 over the 13 bytes before it, so that a length can be trusted
-//! before it is followed. The chain is the SHA-256 of the chain before, the header and the payload, so that no record can be
-//! missing, changed or moved.
+//! A record is `length: u32 · kind: u8 · sequence: u64 · header check: 8 bytes · payload · chain: 32 bytes`, numbers little-endian. The
+//! header check is the beginning of a SHA-256 over the 13 bytes before it, so that a length is verified before it is used. The chain is the
+//! SHA-256 of the previous chain, the header and the payload. It detects missing, changed or moved records.
 //!
-//! A record is made durable before the next is begun, so only the last can be torn. A torn tail is cut when the journal is
-//! opened; damage with records behind it is an error, because what is behind was acknowledged.
+//! A record is made durable before the next is begun, so only the last can be torn. A torn tail is cut when the journal is opened. Damage
+//! before further records is an error, because those were acknowledged.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Write};
@@ -22,7 +21,7 @@ use crate::limits;
 const HEADER: usize = 4 + 1 + 8 + 8;
 const CHAIN: usize = 32;
 
-/// What a record holds.
+/// Content of a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub(crate) enum RecordKind {
@@ -34,7 +33,7 @@ pub(crate) enum RecordKind {
     Reference = 3,
     /// All samples of one press.
     Press = 4,
-    /// Frames of a stream that came together.
+    /// Frames of a stream that arrived together.
     Stream = 5,
 }
 
@@ -52,7 +51,7 @@ impl RecordKind {
     }
 }
 
-/// One whole record.
+/// One complete record.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct JournalRecord {
     pub(crate) kind: RecordKind,
@@ -69,16 +68,16 @@ pub(crate) struct Journal {
     has_failed: bool,
 }
 
-/// What was found in a journal when it was opened.
+/// Records found when a journal was opened.
 #[derive(Debug, Default)]
 pub(crate) struct Recovered {
     pub(crate) records: Vec<JournalRecord>,
-    /// Bytes of a torn last record that were cut away.
+    /// Size of a torn last record that was cut, bytes.
     pub(crate) cut_bytes: u64,
 }
 
 impl Journal {
-    /// A new journal, durable with its first record.
+    /// Creates a journal that is durable with its first record.
     pub(crate) fn create(path: &Path, start: &[u8]) -> Result<Journal, DatasetError> {
         let file = OpenOptions::new()
             .append(true)
@@ -97,7 +96,7 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Opens a journal and cuts a torn tail away.
+    /// Opens a journal and cuts a torn tail.
     pub(crate) fn open(path: &Path) -> Result<(Journal, Recovered), DatasetError> {
         let (mut file, _) = open_regular(path, limits::TABLE_BYTES)?;
         let mut bytes = Vec::new();
@@ -117,7 +116,7 @@ impl Journal {
             file.set_len(scanned.whole as u64)
                 .map_err(DatasetError::io("cut the torn tail of", path))?;
         }
-        // A killed process leaves records and a name that nobody made durable: nothing may be appended behind them before.
+        // A killed process leaves records and a name that are not durable yet: sync before any append.
         file.sync_all()
             .map_err(DatasetError::io("make durable", path))?;
         make_names_durable(parent_of(path))?;
@@ -137,7 +136,7 @@ impl Journal {
 
     /// Appends a record and returns its sequence number once it is durable.
     ///
-    /// After an error nothing is known about the file until it is opened anew, so every later append fails, too.
+    /// After an error the state of the file is unknown until it is reopened, so every later append fails, too.
     pub(crate) fn append(&mut self, kind: RecordKind, payload: &[u8]) -> Result<u64, DatasetError> {
         if self.has_failed {
             let earlier = io::Error::other("an earlier write failed; open the recording anew");
@@ -190,7 +189,7 @@ fn chained(before: &[u8; CHAIN], header: &[u8; HEADER], payload: &[u8]) -> [u8; 
         .into()
 }
 
-/// The whole records of a journal and how many bytes they take.
+/// The complete records of a journal, and their size in bytes.
 struct Scanned {
     records: Vec<JournalRecord>,
     chain: [u8; CHAIN],
@@ -246,7 +245,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
     Ok(scanned)
 }
 
-/// The header that stands at `at` and the length it names, if its check holds.
+/// The header at `at` and the length in it, if its check matches.
 fn header_at(bytes: &[u8], at: usize) -> Option<([u8; HEADER], usize)> {
     let found: [u8; HEADER] = bytes.get(at..at + HEADER)?.try_into().ok()?;
     let length = u32::from_le_bytes(found[..4].try_into().ok()?);
@@ -255,10 +254,10 @@ fn header_at(bytes: &[u8], at: usize) -> Option<([u8; HEADER], usize)> {
     holds.then_some((found, length as usize))
 }
 
-/// Whether the header of a record stands anywhere from `from` on: then what is before is no torn tail.
+/// True if there is the header of a record anywhere from `from` on: then the bytes before it are no torn tail.
 fn has_record_behind(bytes: &[u8], from: usize) -> bool {
     (from..bytes.len()).any(|at| {
-        // The cheap looks come first: a check is a SHA-256.
+        // Cheap tests first: the check is a SHA-256.
         bytes.get(at + 3) == Some(&0)
             && bytes
                 .get(at + 4)

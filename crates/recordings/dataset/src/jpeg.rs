@@ -1,7 +1,7 @@
-//! Whether a JPEG is whole: its entropy-coded data is read to its end, block by block, and must be exactly what the headers promise.
+//! Completeness check of JPEG files: reads the entropy-coded data to its end, block by block, and compares it with the headers.
 //!
-//! Decoders fill what is missing with gray and go on after what is damaged; here anything of that kind is an error. What cannot be
-//! seen is damage after which every code is still one of the table and the last one ends where the marker begins.
+//! Decoders fill missing parts with gray and continue after damage; here either is an error. Damage is not detected if every code is still
+//! in the table and the last one ends at the marker.
 
 mod bits;
 mod frame;
@@ -11,12 +11,11 @@ mod segments;
 
 use segments::Reader;
 
-/// Reads the JPEG `bytes` to its end marker; what follows that is not looked at.
+/// Reads the JPEG `bytes` to its end marker; later bytes are ignored.
 ///
 /// # Errors
-/// In words: entropy-coded data that ends early, goes on after its last block, has a code of no table or values that no picture has; a
-/// restart marker that is missing, astray or out of turn; scans that do not make a whole picture; a segment that is cut or contradicts
-/// another.
+/// A message: entropy-coded data that ends early or late, has an unknown code or impossible values; a restart marker that is missing,
+/// misplaced or out of order; scans that make no complete picture; a truncated or inconsistent segment.
 pub(crate) fn check_whole(bytes: &[u8]) -> Result<(), String> {
     Reader::new(bytes).read_all()
 }

@@ -1,4 +1,4 @@
-//! The names on disk.
+//! File names of a dataset.
 
 use std::ops::Range;
 
@@ -9,13 +9,13 @@ pub const PREDICTIONS: &str = "predictions.csv";
 pub const FRAMES: &str = "frames";
 pub const JOURNAL: &str = "journal";
 
-/// Stands in the folder of an export while it is written: what a kill leaves is known by it.
+/// Marks the folder of an export while it is written, so that the remains of a killed export are recognised.
 pub const MARK: &str = ".taceva-export";
 
-/// Every name that stands in the folder of a dataset or of a recording.
+/// All names in the folder of a dataset or of a recording.
 pub const ALL: [&str; 6] = [HEADER, SAMPLES, SIGNALS, PREDICTIONS, FRAMES, JOURNAL];
 
-/// Frames in one folder: some file systems slow down beyond a few thousand.
+/// Maximum frames in one folder: some file systems slow down above a few thousand.
 const FRAMES_A_FOLDER: usize = 1_000;
 
 /// The folder of frame `number`, relative to the dataset.
@@ -23,7 +23,7 @@ pub fn frame_folder(number: usize) -> String {
     format!("{FRAMES}/{:04}", number / FRAMES_A_FOLDER)
 }
 
-/// `path`, a file or a folder of frames, in the folder of the view called so; `path` itself without a view.
+/// `path`, a file or a folder of frames, in the folder of the view; `path` itself without a view.
 pub fn in_view(view: Option<&str>, path: &str) -> String {
     match (view, path.strip_prefix(FRAMES)) {
         (Some(view), Some(rest)) => format!("{FRAMES}/{view}{rest}"),
@@ -41,7 +41,7 @@ pub fn pack_path(number: usize) -> String {
     format!("{FRAMES}/{number:04}.pack")
 }
 
-/// The number of the pack at `path`, if that is one.
+/// The number of the pack at `path`; `None` if it is no pack.
 pub fn pack_number(path: &str) -> Option<usize> {
     let name = path.strip_prefix(FRAMES)?.strip_prefix('/')?;
     name.strip_suffix(".pack")?.parse().ok()
@@ -52,7 +52,7 @@ pub fn reference_path(extension: &str) -> String {
     format!("{FRAMES}/reference.{extension}")
 }
 
-/// The file of the frame without contact when `before` were taken already, relative to the dataset.
+/// The file of the frame without contact after `before` earlier ones, relative to the dataset.
 pub fn reference_path_anew(before: usize, extension: &str) -> String {
     match before {
         0 => reference_path(extension),
@@ -60,7 +60,7 @@ pub fn reference_path_anew(before: usize, extension: &str) -> String {
     }
 }
 
-/// The folders that the frames with these numbers lie in, relative to the dataset.
+/// The folders of the frames with these numbers, relative to the dataset.
 pub fn frame_folders(numbers: Range<usize>) -> impl Iterator<Item = String> {
     let end = match numbers.is_empty() {
         true => numbers.start,

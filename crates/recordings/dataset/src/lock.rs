@@ -1,4 +1,4 @@
-//! A folder that one process at a time writes in.
+//! Lock of a folder for one writing process.
 
 use std::fs::{File, TryLockError};
 use std::path::Path;
@@ -6,12 +6,12 @@ use std::time::Duration;
 
 use crate::error::DatasetError;
 
-/// How often a folder that is held is asked for, and how long after each time: a process that was just forked holds what its parent held
-/// until its own program begins.
+/// Number of attempts to lock a folder, and the pause after each: a newly forked process holds the locks of its parent until it executes
+/// its own program.
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// Locks a folder for this process; the system releases the lock when the process ends, however it ends.
+/// Locks a folder for this process; the system releases the lock when the process ends.
 pub(crate) fn lock_folder(path: &Path) -> Result<File, DatasetError> {
     let folder = File::open(path).map_err(DatasetError::io("open", path))?;
     for _ in 0..ATTEMPTS {

@@ -1,9 +1,8 @@
-//! Packs: frames of a recording one behind the other in a few files, each found by its offset.
+//! Packs: consecutive frames of a recording in a few files, each found by its offset.
 //!
-//! What stands in a pack is a whole image file, byte for byte, so that anybody who knows offset and length can read one. The picture is the
-//! frame, or, where that is smaller, its difference to the first frame of the pack, number by number and wrapping: what never moves in
-//! the pictures of a sensor is then stored once. A pack only grows. What lies behind the last frame that the journal names was never acknowledged, and is cut
-//! when the recording goes on.
+//! Each entry of a pack is a complete image file, readable with its offset and length. The picture is the frame or, if that is smaller, its
+//! difference to the first frame of the pack, number by number and wrapping. Static parts of the pictures are thus stored once. A pack only
+//! grows. Bytes after the last frame in the journal were never acknowledged, and are cut when the recording is resumed.
 
 use std::fmt;
 use std::fs::{self, File, OpenOptions};
@@ -16,7 +15,7 @@ use crate::file::make_names_durable;
 use crate::layout;
 use crate::limits;
 
-/// Which bytes of a pack are a frame; written `@OFFSET+LENGTH` behind the path of the pack, and `-first` behind that of a difference.
+/// Bytes of a frame in a pack; written `@OFFSET+LENGTH` after the path of the pack, and `-first` after that for a difference.
 ///
 /// ```
 /// use taceva_dataset::{Digest, FrameEntry};
@@ -29,19 +28,19 @@ use crate::limits;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
-    /// Bytes before it.
+    /// Offset, bytes.
     pub offset: u64,
-    /// How many it takes.
+    /// Length, bytes.
     pub length: u32,
-    /// Whether it is the difference to the first frame of the pack.
+    /// True for the difference to the first frame of the pack.
     pub is_difference: bool,
 }
 
-/// What is written behind a difference.
+/// Suffix of a difference.
 const DIFFERENCE: &str = "-first";
 
 impl Span {
-    /// The first byte behind it.
+    /// Offset of the end.
     pub(crate) fn end(self) -> u64 {
         self.offset.saturating_add(u64::from(self.length))
     }
@@ -86,24 +85,24 @@ pub(crate) fn read_span(mut file: File, path: &Path, span: Span) -> Result<Vec<u
     let failed = || DatasetError::io("read", path);
     file.seek(SeekFrom::Start(span.offset)).map_err(failed())?;
     let mut bytes = Vec::new();
-    // A pack that ends early gives fewer bytes, which the digest of the frame shows.
+    // A truncated pack gives fewer bytes, which the digest of the frame detects.
     file.take(u64::from(span.length))
         .read_to_end(&mut bytes)
         .map_err(failed())?;
     Ok(bytes)
 }
 
-/// Where the next frame goes.
+/// Position of the next frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PackEnd {
     /// The number of the pack, from 0.
     pub(crate) number: usize,
-    /// The bytes in it.
+    /// Number of bytes in it.
     pub(crate) length: u64,
 }
 
 impl PackEnd {
-    /// The end behind a frame at `path`, if that is in a pack and lies behind this one.
+    /// The end after a frame at `path`, if that is in a pack and after this end.
     pub(crate) fn behind(self, path: &str, span: Option<Span>) -> PackEnd {
         let found = layout::pack_number(path).zip(span);
         found.map_or(self, |(number, span)| {
@@ -119,7 +118,7 @@ impl PackEnd {
     }
 }
 
-/// A pack that frames are appended to.
+/// A pack for appending frames.
 #[derive(Debug)]
 pub(crate) struct PackWriter {
     folder: PathBuf,
@@ -128,7 +127,7 @@ pub(crate) struct PackWriter {
 }
 
 impl PackWriter {
-    /// Goes on at `end` in the dataset at `folder`; its name is durable when this returns.
+    /// Continues at `end` in the dataset at `folder`; its name is durable on return.
     pub(crate) fn open(folder: &Path, end: PackEnd) -> Result<PackWriter, DatasetError> {
         let path = folder.join(layout::pack_path(end.number));
         let file = OpenOptions::new()
@@ -136,7 +135,7 @@ impl PackWriter {
             .create(true)
             .open(&path)
             .map_err(DatasetError::io("open", &path))?;
-        // Even where it is there: a killed process leaves names that nobody made durable.
+        // Also if it exists: a killed process leaves names that are not durable.
         make_names_durable(&folder.join(layout::FRAMES))?;
         Ok(PackWriter {
             folder: folder.to_owned(),
@@ -168,7 +167,7 @@ impl PackWriter {
         Ok((path, span))
     }
 
-    /// Begins another pack where this one is full.
+    /// Starts another pack if this one is full.
     pub(crate) fn roll(&mut self) -> Result<(), DatasetError> {
         if self.end.length >= limits::PACK_BYTES {
             self.sync()?;
@@ -181,12 +180,12 @@ impl PackWriter {
         Ok(())
     }
 
-    /// Where the next frame goes.
+    /// Position of the next frame.
     pub(crate) fn end(&self) -> PackEnd {
         self.end
     }
 
-    /// Makes what was appended durable.
+    /// Syncs the appended frames to disk.
     pub(crate) fn sync(&self) -> Result<(), DatasetError> {
         let path = self.folder.join(layout::pack_path(self.end.number));
         self.file
@@ -195,7 +194,7 @@ impl PackWriter {
     }
 }
 
-/// Cuts what lies behind `end` in the packs of the dataset at `folder`, which was never acknowledged.
+/// Cuts unacknowledged bytes after `end` in the packs of the dataset at `folder`.
 pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError> {
     let path = folder.join(layout::pack_path(end.number));
     match fs::metadata(&path) {

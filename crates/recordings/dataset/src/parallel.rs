@@ -1,23 +1,23 @@
-//! Work on many cores whose results arrive in order, with bounded memory.
+//! Parallel work whose results arrive in order, with bounded memory.
 
 use std::num::NonZeroUsize;
 use std::sync::mpsc::{channel, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// Results a worker may be ahead of the one that is awaited.
+/// Number of results that a worker may be ahead of the one awaited.
 const AHEAD: usize = 4;
 
-/// The cores of this machine.
+/// Number of cores of this machine.
 pub fn all_cores() -> NonZeroUsize {
     thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
-/// Calls `work` on `0..count` from `jobs` threads and `take` with each result in order, on the calling thread.
+/// Calls `work` on `0..count` from `jobs` threads, and `take` with each result in order on the calling thread.
 ///
-/// Worker `k` does items `k`, `k + jobs`, … and hands them over through its own bounded queue, so order needs no sorting and
-/// the first error in order is the one that is returned, whatever the number of threads. Where the system starts fewer threads than `jobs`, those that it
-/// starts do everything, and the calling thread where it starts none.
+/// Worker `k` does items `k`, `k + jobs`, … and returns them through its own bounded queue, so no sorting is needed. The first error in
+/// order is returned, whatever the number of threads. If the system starts fewer threads than `jobs`, those do everything; if it starts
+/// none, the calling thread does.
 pub fn ordered_map<T: Send, E>(
     count: usize,
     jobs: NonZeroUsize,
@@ -35,7 +35,7 @@ pub fn ordered_map<T: Send, E>(
             let (workers, known) = channel::<usize>();
             let thread = thread::Builder::new().spawn_scoped(scope, move || {
                 let Ok(workers) = known.recv() else { return };
-                // A closed queue means that the taker stopped: nobody wants the rest.
+                // A closed queue means that the receiver stopped and needs no more results.
                 let _ = (worker..count)
                     .step_by(workers)
                     .try_for_each(|item| sender.send(work(item)));
@@ -48,20 +48,20 @@ pub fn ordered_map<T: Send, E>(
             return (0..count).try_for_each(|item| take(item, work(item)));
         }
         let queues = started.into_iter().map(|(workers, receiver)| {
-            // A thread that waits for the number of workers has not ended.
+            // Threads that wait for the number of workers still run.
             let _ = workers.send(jobs);
             receiver
         });
         let queues: Vec<_> = queues.collect();
         (0..count).try_for_each(|item| match queues[item % jobs].recv() {
             Ok(result) => take(item, result),
-            // The worker panicked; leaving the scope raises its panic here.
+            // The worker panicked; leaving the scope propagates its panic.
             Err(_) => Ok(()),
         })
     })
 }
 
-/// Calls `work` on each part from its own thread, or from the calling one where the system starts none; the results are in the order of the parts.
+/// Calls `work` on each part in its own thread, or in the calling one if the system starts none; results are in the order of the parts.
 pub fn each_part<P: Send, T: Send>(parts: Vec<P>, work: impl Fn(P) -> T + Sync) -> Vec<T> {
     let work = &work;
     let parts: Vec<_> = parts

@@ -1,11 +1,11 @@
 //! Columns of a table that rate its rows.
 
-/// Words in the name of a column that may say which rows are bad.
+/// Words in the name of a column that may mark bad rows.
 const WORDS: [&str; 9] = [
     "quality", "flag", "valid", "status", "error", "outlier", "reject", "bad", "warning",
 ];
 
-/// Whether a column called `name` may say which rows are bad.
+/// True if a column called `name` may mark bad rows.
 ///
 /// ```
 /// assert!(taceva_dataset::names_quality("Quality_Flags"));

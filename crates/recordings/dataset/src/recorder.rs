@@ -1,4 +1,4 @@
-//! A recording while it is made: each sample is durable before it counts.
+//! Recorder: each sample is durable before it counts.
 
 use std::collections::{BTreeMap, HashSet};
 use std::fs::{self, File};
@@ -37,7 +37,7 @@ use predictions::PredictedTable;
 use replay::ReplayError;
 pub use stream::Streamed;
 
-/// What a recording is of.
+/// Facts and channels of a recording.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, Clock};
@@ -55,9 +55,9 @@ pub struct RecordingSpec {
     pub facts: RecordingFacts,
     /// The channels of the truth of each sample.
     pub channels: Channels,
-    /// The taxels of each sample, of a sensor that has such: then every sample must have their signals.
+    /// The taxels of the sensor, if it has any: then every sample must have their signals.
     pub signals: Option<SignalsSpec>,
-    /// From what each frame was reduced before it came here, where it was.
+    /// The original form of frames that were reduced before recording.
     pub reduced: Option<ReducedFrames>,
 }
 
@@ -72,7 +72,7 @@ impl RecordingSpec {
         }
     }
 
-    /// The same of a sensor with taxels: every sample must have their signals.
+    /// The same recording for a sensor with taxels: every sample must have their signals.
     #[must_use]
     pub fn with_signals(self, signals: SignalsSpec) -> RecordingSpec {
         RecordingSpec {
@@ -81,7 +81,7 @@ impl RecordingSpec {
         }
     }
 
-    /// The same of frames that are not as the camera gave them.
+    /// The same recording for frames that differ from those of the camera.
     #[must_use]
     pub fn with_reduced(self, reduced: ReducedFrames) -> RecordingSpec {
         RecordingSpec {
@@ -91,7 +91,7 @@ impl RecordingSpec {
     }
 }
 
-/// Writes samples as they come. A killed process or a power cut loses at most the sample that was not yet acknowledged.
+/// Writes samples as they arrive. A killed process or a power cut loses at most the sample that was not yet acknowledged.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, Clock, Readings, Sample};
@@ -120,19 +120,19 @@ pub struct Recorder {
     stream: Option<StreamFacts>,
     predictions: Option<PredictedTable>,
     frame_info: Option<FrameInfo>,
-    /// From what frames were reduced before they came here.
+    /// The original form of frames that were reduced before recording.
     reduced: Option<ReducedFrames>,
     reference: Option<ReferenceInfo>,
     cut_bytes: u64,
-    /// What frames are appended to, once there is one.
+    /// The pack for new frames, once there is one.
     pack: Option<PackWriter>,
-    /// Behind the last frame that the journal names.
+    /// End of the last frame in the journal.
     pack_end: PackEnd,
     /// The first frame of the pack, and its digest.
     first: Option<(Digest, Frame)>,
-    /// Frames without contact recorded so far.
+    /// Number of frames without contact recorded so far.
     references: usize,
-    /// The file of signals, which is written anew from the journal where a recording is resumed.
+    /// The file of signals, which is rewritten from the journal when a recording is resumed.
     signals: Option<SignalsWriter>,
 }
 
@@ -152,7 +152,7 @@ impl Recorder {
         Recorder::new(path, lock, journal, spec.clone())
     }
 
-    /// Goes on with a recording that was not closed; what was torn by the interruption is cut away.
+    /// Resumes a recording that was not closed; a torn record is cut.
     ///
     /// # Errors
     /// [`DatasetError::NoDataset`] if nothing was recorded there; [`DatasetError::TargetExists`] if it was closed;
@@ -163,7 +163,7 @@ impl Recorder {
         let lock = lock_folder(path)?;
         if path.join(layout::HEADER).exists() {
             if journal_path.exists() {
-                // Closed, and interrupted before the last step.
+                // Closed, but interrupted before the last step.
                 remove_journal(path)?;
             }
             return Err(DatasetError::TargetExists {
@@ -199,8 +199,7 @@ impl Recorder {
     /// Resumes the recording at `path`, or begins it if nothing was recorded there yet.
     ///
     /// # Errors
-    /// As [`create`](Recorder::create) and [`resume`](Recorder::resume); [`DatasetError::Request`] if the recording is of
-    /// something else than `spec` says.
+    /// As [`create`](Recorder::create) and [`resume`](Recorder::resume); [`DatasetError::Request`] if the recording differs from `spec`.
     pub fn open(path: &Path, spec: &RecordingSpec) -> Result<Recorder, DatasetError> {
         if !path.exists() {
             return Recorder::create(path, spec);
@@ -255,7 +254,7 @@ impl Recorder {
         })
     }
 
-    /// Whether a sample of this name is recorded.
+    /// True if a sample of this name is recorded.
     pub fn has(&self, id: &str) -> bool {
         self.finished.contains(id)
     }
@@ -265,7 +264,7 @@ impl Recorder {
         &self.table
     }
 
-    /// Bytes of a torn last record that were cut away when the recording was resumed.
+    /// Size of a torn last record that was cut on resuming, bytes.
     pub fn cut_bytes(&self) -> u64 {
         self.cut_bytes
     }
@@ -273,9 +272,9 @@ impl Recorder {
     /// Records a sample and returns its number in the journal, from 1, once it is durable. Predictions are not recorded.
     ///
     /// # Errors
-    /// [`DatasetError::Sample`] if its name is empty or taken, a number is not finite, there are more values than channels, its
-    /// signals are not of the taxels of the recording, or its frame is unlike the first; [`DatasetError::Io`], after which the recording
-    /// must be resumed.
+    /// [`DatasetError::Sample`] if its name is empty or taken, a number is not finite, there are more values than channels, its signals do
+    /// not match the taxels of the recording, or its frame is unlike the first. [`DatasetError::Io`], after which the recording must be
+    /// resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
         let mut entries = self.write_frames(std::slice::from_ref(sample))?;
@@ -290,18 +289,18 @@ impl Recorder {
         Ok(sequence)
     }
 
-    /// Whether a frame without contact was recorded.
+    /// True if a frame without contact was recorded.
     pub fn has_reference(&self) -> bool {
         self.reference.is_some()
     }
 
-    /// Records the frame without contact; the last one counts.
+    /// Records the frame without contact; the last one is used.
     ///
     /// # Errors
     /// [`DatasetError::Sample`] if it is unlike the other frames; [`DatasetError::Io`].
     pub fn append_reference(&mut self, frame: &Frame) -> Result<u64, DatasetError> {
         self.check_frame("reference", frame)?;
-        // The one before keeps its file: the journal names it until this one is durable.
+        // The previous one keeps its file: the journal names it until this one is durable.
         let relative = layout::reference_path_anew(self.references, "png");
         let digest = self.write_image(&relative, frame)?;
         let written = WrittenFrame {
@@ -316,7 +315,7 @@ impl Recorder {
         Ok(sequence)
     }
 
-    /// Takes what is durable into the table and the file of signals.
+    /// Adds a durable sample to the table and the file of signals.
     fn take(
         &mut self,
         row: Row,
@@ -362,7 +361,7 @@ impl Recorder {
             t_s: sample.stamp.map(|stamp| stamp.valid_s),
             kind: sample.kind,
             spacing: sample.spacing,
-            // What the sample says, or else what its picture shows.
+            // The value of the sample, or else of its picture.
             intensity: sample
                 .intensity
                 .or_else(|| sample.frame.as_ref().map(Frame::mean_luma)),
@@ -376,7 +375,7 @@ impl Recorder {
     }
 }
 
-/// Where the file called `name` stands until the recording is closed.
+/// Path of the file called `name` until the recording is closed.
 fn partial(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.partial"))
 }

@@ -1,8 +1,8 @@
-//! A dataset that takes the place of another: which names are used meanwhile, and what is done about those that an interruption left.
+//! Replacement of a dataset: temporary names, and recovery from an interruption.
 //!
-//! The new dataset is whole and durable under a hidden name before names are exchanged, so readers see the old one or the new one at
-//! every moment. Where the file system cannot exchange names there is a moment between two renames; whoever looks for the dataset
-//! then finds the old one set aside, and puts it back if nobody is at work.
+//! The new dataset is complete and durable under a hidden name before names are exchanged, so readers always see the old or the new one. If
+//! the file system cannot exchange names, the name is missing between two renames. A process that opens the dataset then finds the old one
+//! set aside, and restores it if no process is replacing it.
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -16,9 +16,9 @@ use crate::error::DatasetError;
 use crate::file::{is_same, make_names_durable};
 use crate::layout;
 
-/// The most old datasets of one name that are kept while they are still read.
+/// Maximum old datasets of one name that are kept while they are read.
 const SET_ASIDE: usize = 64;
-/// How often a replacement that is between two renames is waited for, and how long each time.
+/// Number of waits for a replacement between two renames, and the pause of each.
 const WAITS: u32 = 2_000;
 const PAUSE: Duration = Duration::from_millis(1);
 
@@ -27,7 +27,7 @@ pub(crate) fn partial_name(target: &Path) -> Option<PathBuf> {
     hidden(target, ".partial")
 }
 
-/// The hidden name beside `target` under which what stood there is set aside, for the `number`-th time.
+/// The hidden name beside `target` for the `number`-th dataset set aside.
 fn aside_name(target: &Path, number: usize) -> Option<PathBuf> {
     match number {
         0 => hidden(target, ".replaced"),
@@ -42,11 +42,11 @@ fn hidden(target: &Path, end: &str) -> Option<PathBuf> {
     Some(parent_of(target).join(name))
 }
 
-/// Puts back or clears what an interrupted replacement of the dataset at `target` left beside it. Every command that opens the
-/// dataset does so first; nothing is done while whoever replaces it is at work, nor where nothing may be written.
+/// Restores or clears the remains of an interrupted replacement of the dataset at `target`. Every command that opens the dataset calls it
+/// first. It does nothing while a replacing process is active, or without write permission.
 ///
 /// # Errors
-/// [`DatasetError::Io`] if the old dataset is there under its hidden name and cannot be put back.
+/// [`DatasetError::Io`] if the old dataset under its hidden name cannot be restored.
 pub fn settle(target: &Path) -> Result<(), DatasetError> {
     let (Some(partial), Some(first)) = (partial_name(target), aside_name(target, 0)) else {
         return Ok(());
@@ -67,7 +67,7 @@ pub fn settle(target: &Path) -> Result<(), DatasetError> {
         }
         match fs::rename(&aside, target) {
             Ok(()) => make_names_durable(parent_of(target))?,
-            // Somebody else was faster.
+            // Another process was faster.
             Err(_) if exists(target) => {}
             Err(error) => return Err(DatasetError::io("put back", &aside)(error)),
         }
@@ -75,7 +75,7 @@ pub fn settle(target: &Path) -> Result<(), DatasetError> {
     Ok(())
 }
 
-/// Removes what is left of the predecessors of the dataset at `target`, once it is certain that a power cut cannot bring them back.
+/// Removes the predecessors of the dataset at `target` once a power cut can no longer bring them back.
 fn clear_beside(target: &Path, partial: &Path, first: &Path) {
     let (is_partial, is_aside) = (exists(partial), exists(first));
     if !(is_partial || is_aside) || make_names_durable(parent_of(target)).is_err() {
@@ -91,7 +91,7 @@ fn clear_beside(target: &Path, partial: &Path, first: &Path) {
     }
 }
 
-/// The dataset that was set aside for `target` and is still whole; one that an older version set aside, too.
+/// The complete dataset that was set aside for `target`, also by an older version.
 fn set_aside(target: &Path) -> Option<PathBuf> {
     let prefix = format!(".{}.", target.file_name()?.to_str()?);
     let entries = fs::read_dir(parent_of(target)).ok()?.flatten();
@@ -113,7 +113,7 @@ fn set_aside(target: &Path) -> Option<PathBuf> {
     found.pop()
 }
 
-/// Whether a process holds the folder at `partial`, which it writes.
+/// True if a process locks the folder at `partial`, which it is writing.
 fn is_at_work(partial: &Path) -> bool {
     matches!(
         File::open(partial).map(|folder| folder.try_lock()),
@@ -121,7 +121,7 @@ fn is_at_work(partial: &Path) -> bool {
     )
 }
 
-/// Removes the folder at `path` if it is a leftover of ours that no process reads or writes; otherwise leaves it to the next call.
+/// Removes the folder at `path` if it is a leftover of ours that no process uses; otherwise a later call removes it.
 pub(crate) fn clear(path: &Path) {
     if !path.is_symlink()
         && let Ok(folder) = File::open(path)
@@ -129,14 +129,14 @@ pub(crate) fn clear(path: &Path) {
         && is_same(&folder, path)
         && foreign_entry(path).is_none()
     {
-        // The header last: what is without one is no dataset that could be put back.
+        // The header first: a folder without one is no dataset that could be restored.
         drop(remove(path));
     }
 }
 
-/// Removes a dataset so that it ceases to be one first.
+/// Removes a dataset, its header first, so that no partial dataset remains.
 pub(crate) fn remove(path: &Path) -> io::Result<()> {
-    // What a link leads to is somebody else's.
+    // The target of a link is not removed.
     if path.is_symlink() {
         return Err(io::Error::other("a link, which is not followed; remove it"));
     }
@@ -147,7 +147,7 @@ pub(crate) fn remove(path: &Path) -> io::Result<()> {
     fs::remove_dir_all(path)
 }
 
-/// Takes the dataset that stood in place out of `path`: removed if no process reads it, else set aside until none does.
+/// Removes the replaced dataset at `path` if no process reads it; else sets it aside until none does.
 pub(crate) fn retire(path: &Path, target: &Path) {
     clear(path);
     if exists(path) {
@@ -155,7 +155,7 @@ pub(crate) fn retire(path: &Path, target: &Path) {
     }
 }
 
-/// Gives the folder at `path` the first name that is free for what stood at `target`.
+/// Renames the folder at `path` to the first free name for predecessors of `target`.
 pub(crate) fn move_aside(path: &Path, target: &Path) -> Result<PathBuf, DatasetError> {
     let names = (0..SET_ASIDE).filter_map(|number| aside_name(target, number));
     for aside in names {
@@ -175,7 +175,7 @@ pub(crate) fn move_aside(path: &Path, target: &Path) -> Result<PathBuf, DatasetE
     })
 }
 
-/// A name in the folder at `path` that no dataset and no recording has.
+/// A name in the folder at `path` that belongs to no dataset or recording.
 pub(crate) fn foreign_entry(path: &Path) -> Option<OsString> {
     let mut names = fs::read_dir(path)
         .ok()?
@@ -184,7 +184,7 @@ pub(crate) fn foreign_entry(path: &Path) -> Option<OsString> {
     names.find(|name| !layout::ALL.iter().any(|ours| name == ours))
 }
 
-/// Whether there is a dataset at `path`, damaged or not.
+/// True if there is a dataset at `path`, damaged or not.
 pub(crate) fn is_dataset(path: &Path) -> bool {
     path.join(layout::HEADER).is_file()
 }
@@ -193,7 +193,7 @@ fn exists(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
 
-/// Exchanges two names at once; `false` where the file system cannot.
+/// Exchanges two names atomically; `false` if the file system cannot.
 pub(crate) fn exchange(one: &Path, other: &Path) -> io::Result<bool> {
     #[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
     {

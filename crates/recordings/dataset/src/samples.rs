@@ -14,12 +14,12 @@ use read::read;
 use rows::assemble;
 use write::write;
 
-/// The bytes of the file that holds `table`.
+/// Encodes `table` as a file.
 pub(crate) fn to_parquet(table: &Table) -> Result<Vec<u8>, String> {
     guarded(|| write(table).map_err(|error| error.to_string()))?
 }
 
-/// The table in `file`, whose digest the caller has checked.
+/// Decodes the table in `file`, whose digest the caller has checked.
 pub(crate) fn from_parquet(
     file: File,
     channels: &Channels,

@@ -1,4 +1,4 @@
-//! What is known of a sensor, as a file of its own: for tables of numbers, which say nothing about it.
+//! Sensor facts in a separate file, for tables of numbers, which do not contain them.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::error::DatasetError;
 use crate::header::{Footprint, Known};
 use crate::toml_file::{parse_toml, read_toml_text, toml_error};
 
-/// What a sensor file says; all of it is optional.
+/// Content of a sensor file; all of it is optional.
 ///
 /// ```toml
 /// model = "DIGIT"
@@ -38,13 +38,13 @@ pub struct SensorFile {
     pub serial: Option<String>,
     /// The id of the gel.
     pub gel: Option<String>,
-    /// Whether ambient light cannot reach the camera.
+    /// True if ambient light cannot reach the camera.
     pub opaque: Option<bool>,
     /// The scene that others are compared with.
     pub reference_scene: Option<String>,
-    /// Where the sensor senses.
+    /// The sensing area.
     pub footprint: Option<taceva_core::Footprint>,
-    /// Width and height of its pictures in pixels.
+    /// Width and height of its pictures, pixels.
     pub frame_size: Option<[u32; 2]>,
 }
 
@@ -65,8 +65,8 @@ impl SensorFile {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// [`DatasetError::Toml`] with the line for what is no TOML, an unknown key, or a length that no sensor has;
-    /// [`DatasetError::Path`], [`DatasetError::Io`].
+    /// [`DatasetError::Toml`] with the line for invalid TOML, an unknown key, or an impossible length; [`DatasetError::Path`],
+    /// [`DatasetError::Io`].
     pub fn read(path: &Path) -> Result<SensorFile, DatasetError> {
         let written: Written = parse_toml(path, &read_toml_text(path)?)?;
         let wrong = |problem: &str| toml_error(path, None, problem);

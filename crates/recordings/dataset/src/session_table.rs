@@ -8,43 +8,43 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{DatasetError, Place};
 
-/// The beginning of a session, a row of the table. Lengths are in mm and forces in N, in the frame of the sensor.
+/// The beginning of a session, one row of the table. Lengths are in mm and forces in N, in the frame of the sensor.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Session {
-    /// The boot of the machine whose clock stamps the samples of the session; empty where the machine does not say.
+    /// The boot of the machine whose clock stamps the samples of the session; empty if unknown.
     pub boot_id: String,
-    /// The time of the beginning by that clock, in s.
+    /// Time of the beginning by that clock, s.
     pub begun_s: f64,
     /// The unit of the sensor.
     pub unit: String,
     /// The specimen of the gentle touch.
     pub specimen: String,
-    /// The height at which the gel began.
+    /// Height at which the gel began, mm.
     pub height_mm: f64,
-    /// The depth of the touch.
+    /// Depth of the touch, mm.
     pub depth_mm: f64,
-    /// The normal force of the touch.
+    /// Normal force of the touch, N.
     #[serde(rename = "Fz_N")]
     pub fz_n: f64,
-    /// The load at rest along x.
+    /// Load at rest along x, N.
     #[serde(rename = "zero_Fx_N")]
     pub zero_fx_n: f64,
-    /// The load at rest along y.
+    /// Load at rest along y, N.
     #[serde(rename = "zero_Fy_N")]
     pub zero_fy_n: f64,
-    /// The load at rest along z.
+    /// Load at rest along z, N.
     #[serde(rename = "zero_Fz_N")]
     pub zero_fz_n: f64,
-    /// Whether a push along x was felt.
+    /// True if a push along x was measured.
     pub x_felt: bool,
-    /// Whether a push along y was felt.
+    /// True if a push along y was measured.
     pub y_felt: bool,
-    /// Whether the picture changed.
+    /// True if the picture changed.
     pub picture_changed: bool,
-    /// The time from a force to the halt of the robot.
+    /// Time from a force to the halt of the robot, ms.
     pub reaction_ms: f64,
-    /// The way of the tip after the halt.
+    /// Travel of the tip after the halt, mm.
     pub overshoot_mm: f64,
 }
 
@@ -57,10 +57,10 @@ pub struct SessionTable {
 }
 
 impl SessionTable {
-    /// Reads the table beside the recording at `recording`; it is empty where there was no session.
+    /// Reads the table beside the recording at `recording`; empty without a session.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] for a file that is no such table.
+    /// [`DatasetError::Table`] for an invalid file.
     pub fn of(recording: &Path) -> Result<SessionTable, DatasetError> {
         let path = place(recording);
         let refused = |problem: String| DatasetError::Table {
@@ -83,12 +83,12 @@ impl SessionTable {
         Ok(SessionTable { path, rows })
     }
 
-    /// Its rows, the first session first.
+    /// The rows, the first session first.
     pub fn rows(&self) -> &[Session] {
         &self.rows
     }
 
-    /// Adds a session; durable when this returns.
+    /// Adds a session; durable on return.
     ///
     /// # Errors
     /// Those of the file system.
@@ -110,14 +110,14 @@ impl SessionTable {
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecordedSessions {
-    /// How many boots of the machine stamped its samples: each has a clock that begins anew.
+    /// Number of boots of the machine that stamped its samples; each restarts the clock.
     pub boots: usize,
-    /// What reports say of them.
+    /// Sentence for reports.
     pub note: String,
 }
 
 impl RecordedSessions {
-    /// The sessions of the recording at `path`; `None` where their table is not beside it.
+    /// The sessions of the recording at `path`; `None` without a table beside it.
     pub fn of(path: &Path) -> Option<RecordedSessions> {
         let rows = SessionTable::of(path).ok()?.rows;
         let note = note(&rows)?;
@@ -131,7 +131,7 @@ impl RecordedSessions {
     }
 }
 
-/// A sentence for reports; a recording that was moved has left the table behind.
+/// A sentence for reports; `None` without rows, as for a recording that was moved without its table.
 fn note(rows: &[Session]) -> Option<String> {
     let first = rows.first()?;
     let spread = |of: fn(&Session) -> f64| {

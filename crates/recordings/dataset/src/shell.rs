@@ -1,6 +1,6 @@
-//! Words for a shell.
+//! Quoting for a shell.
 
-/// `text` as one word of a shell, quoted where it is not plain.
+/// `text` as one shell word, quoted if necessary.
 ///
 /// ```
 /// use taceva_dataset::internal::shell_word;

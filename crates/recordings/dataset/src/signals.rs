@@ -11,10 +11,10 @@ pub(crate) use spec::WrittenSignals;
 pub use spec::{SignalsInfo, SignalsSpec};
 pub use write::SignalsWriter;
 
-/// Numbers of a row group: 4 MiB, whatever the number of taxels.
+/// Number of values of a row group: 4 MiB, whatever the number of taxels.
 const GROUP_VALUES: usize = 1 << 20;
 
-/// Rows of a row group of samples of `length` numbers.
+/// Number of rows of a row group of samples of `length` values.
 fn rows_of_group(length: usize) -> usize {
     (GROUP_VALUES / length.max(1)).max(1)
 }

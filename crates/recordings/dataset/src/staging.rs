@@ -1,4 +1,4 @@
-//! A folder that appears whole or not at all.
+//! A folder that appears atomically.
 
 use std::fs::{self, File};
 use std::io;
@@ -13,10 +13,10 @@ use crate::lock::lock_folder;
 use crate::replacement;
 use crate::text::shown;
 
-/// How often a folder that vanishes before it is locked is made again.
+/// Maximum attempts to create a folder that vanishes before it is locked.
 const CREATIONS: u32 = 100;
 
-/// What may stand where the folder will be.
+/// Permitted content of the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub enum Place {
@@ -26,9 +26,9 @@ pub enum Place {
     OfDataset,
 }
 
-/// A hidden sibling of the target, renamed into place once everything in it is durable and removed if that never happens.
+/// A hidden sibling of the target, renamed once everything in it is durable, and removed if that never happens.
 ///
-/// It is locked while in use, so that the leftover of a killed process is distinguished from the work of a running one.
+/// It is locked while in use, which distinguishes it from the leftover of a killed process.
 #[derive(Debug)]
 #[doc(hidden)]
 pub struct StagedFolder {
@@ -42,7 +42,7 @@ pub struct StagedFolder {
 impl StagedFolder {
     pub fn create(target: &Path, place: Place) -> Result<StagedFolder, DatasetError> {
         let target = match target.is_symlink() {
-            // What a link leads to is replaced, not the link.
+            // The target of a link is replaced, not the link.
             true => fs::canonicalize(target).map_err(DatasetError::io("follow", target))?,
             false => target.to_owned(),
         };
@@ -60,7 +60,7 @@ impl StagedFolder {
             }
             created.map_err(DatasetError::io("create", &path))?;
             let lock = match lock_folder(&path) {
-                // Taken for a leftover before it was locked.
+                // Another process removed it as a leftover before it was locked.
                 Err(DatasetError::Io { source, .. })
                     if source.kind() == io::ErrorKind::NotFound =>
                 {
@@ -81,12 +81,12 @@ impl StagedFolder {
         Err(DatasetError::Busy { path })
     }
 
-    /// Where to write meanwhile.
+    /// Path for writing.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Marks the folder as ours until it is put in place: for an export, whose files do not have the names of those of a dataset.
+    /// Marks the folder as ours until it is renamed, for an export, whose files have other names than those of a dataset.
     pub fn mark(&self) -> Result<(), DatasetError> {
         let path = self.path.join(layout::MARK);
         fs::write(&path, "").map_err(DatasetError::io("create", &path))
@@ -98,7 +98,7 @@ impl StagedFolder {
         fs::create_dir(&path).map_err(DatasetError::io("create", &path))
     }
 
-    /// Creates a folder inside, unless it is there already.
+    /// Creates a folder inside, unless it exists already.
     pub fn ensure_folder(&self, relative: &str) -> Result<(), DatasetError> {
         match self.create_folder(relative) {
             Err(DatasetError::Io { source, .. })
@@ -110,8 +110,8 @@ impl StagedFolder {
         }
     }
 
-    /// Makes the names in this folder and in the given ones durable, then gives it the name of its target: in one step, whether
-    /// something stood there or not, where the file system can exchange names.
+    /// Makes the names in this folder and in the given ones durable, then renames it to its target. This is atomic, with or without an
+    /// existing target, if the file system can exchange names.
     pub fn put_in_place(self, folders: &[String]) -> Result<(), DatasetError> {
         self.put_in_place_by(folders, replacement::exchange)
     }
@@ -148,14 +148,14 @@ impl StagedFolder {
         } else {
             let aside = replacement::move_aside(&self.target, &self.target)?;
             if let Err(error) = fs::rename(&self.path, &self.target) {
-                // Should this fail as well, whoever looks for the dataset puts it back.
+                // If this fails as well, the next process that opens the dataset restores it.
                 let _ = fs::rename(&aside, &self.target);
                 return Err(DatasetError::io("rename into place", &self.target)(error));
             }
             Some(aside)
         };
         if let Err(error) = make_names_durable(parent_of(&self.target)) {
-            // Nobody knows whether the name would survive: an error promises that the target is what it was.
+            // The name may not survive a power cut: an error promises that the target is unchanged.
             let _ = match &old {
                 None => fs::rename(&self.target, &self.path),
                 Some(old) if *old == self.path => exchange(&self.path, &self.target).map(drop),
@@ -176,13 +176,13 @@ impl StagedFolder {
 impl Drop for StagedFolder {
     fn drop(&mut self) {
         if !self.is_in_place {
-            // What cannot be removed now is recognised and removed by the next one.
+            // A later call recognises and removes remaining files.
             let _ = fs::remove_dir_all(&self.path);
         }
     }
 }
 
-/// Whether what stands at `target` may be there. Only datasets are ever replaced, and nothing that is no part of one goes with them.
+/// Checks that the content of `target` may be replaced. Only complete datasets without foreign files are replaced.
 pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
     let refused = |problem: String| {
         Err(DatasetError::Request {
@@ -208,7 +208,7 @@ pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
     }
 }
 
-/// Removes the folder that an interrupted import left at `path`; what was set aside and is still read gets out of the way.
+/// Removes the folder that an interrupted import left at `path`; a replaced dataset that is still read is set aside.
 fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
     if path.is_symlink() {
         return Err(DatasetError::Request {
@@ -227,7 +227,7 @@ fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
         });
     }
     match lock_folder(path) {
-        // Held until it is gone: nobody else takes it for a leftover meanwhile.
+        // Locked until it is gone, so that no other process takes it for a leftover.
         Ok(stale) => match is_same(&stale, path) {
             true => {
                 replacement::remove(path).map_err(DatasetError::io("remove the leftover", path))
@@ -242,7 +242,7 @@ fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
     }
 }
 
-/// Whether those who hold the folder at `path` only read in it.
+/// True if the processes that lock the folder at `path` only read it.
 fn is_read(path: &Path) -> bool {
     replacement::is_dataset(path)
         && File::open(path).is_ok_and(|folder| folder.try_lock_shared().is_ok())

@@ -1,4 +1,4 @@
-//! The last step of every dataset: its table is written, and its header with the digests that table, frames and signals must have.
+//! The last step of every dataset: writing its table, and its header with the digests of table, frames and signals.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,35 +18,35 @@ use crate::table::Table;
 use crate::version::Version;
 use taceva_files::seal::{Edit, Opened};
 
-/// What a header says besides, of how the recording was made.
+/// Further content of a header, about the origin of the recording.
 #[derive(Debug, Default)]
 #[doc(hidden)]
 pub struct Beside {
-    /// How many presses ended in which way.
+    /// Number of presses by outcome.
     pub presses: BTreeMap<PressOutcome, u64>,
-    /// Frames of each view, where samples have several pictures.
+    /// Frames of each view, if samples have several pictures.
     pub views: Vec<ViewInfo>,
     /// Columns that no key of an import names.
     pub unmentioned_columns: Vec<String>,
-    /// How each map read what it read.
+    /// The mappings of all maps.
     pub mapping: Mapping,
-    /// What an import left out.
+    /// Data that an import left out.
     pub left_out: LeftOut,
     /// Warnings of an import.
     pub warnings: Vec<String>,
-    /// What was lost of a stream.
+    /// Losses of a stream.
     pub stream: Option<StreamFacts>,
-    /// Predictions of a model, which are written already.
+    /// Predictions of a model; their file is already written.
     pub predictions: Option<LivePredictions>,
-    /// The file of signals, which is written already.
+    /// Signals; their file is already written.
     pub signals: Option<SignalsInfo>,
-    /// What the recording was before rows were added to it.
+    /// The states of the recording before each addition of rows.
     pub extended: Vec<Extension>,
     /// Edits of its header that were accepted before that.
     pub history: Vec<Edit>,
 }
 
-/// Writes the table and the header to the given files, durable but for their names.
+/// Writes the table and the header to the given files and syncs them, except their names.
 pub fn write_table_and_header(
     samples: &Path,
     header: &Path,

@@ -57,7 +57,7 @@ pub struct Table {
     attribute_names: Vec<String>,
     attributes: Vec<Vec<Option<String>>>,
     frames: Vec<Option<FrameEntry>>,
-    /// The pictures of rows that have several.
+    /// The pictures of rows with several pictures.
     views: Vec<ViewFrames>,
 }
 
@@ -141,7 +141,7 @@ impl Table {
         &self.channels
     }
 
-    /// The values of the channel at `position`, as the reference instruments measured them.
+    /// The values of the channel at `position`, measured by the reference instruments.
     pub fn truth(&self, position: usize) -> &Column {
         &self.truth[position]
     }
@@ -176,27 +176,27 @@ impl Table {
         &self.repeat
     }
 
-    /// Load or unload, of each row.
+    /// The phase of each row: load or unload.
     pub fn phase(&self) -> &[Option<Phase>] {
         &self.phase
     }
 
-    /// The limit of the gel that kept the tip from where it was sent, of each row.
+    /// The limit of the gel that stopped the tip before its target, of each row.
     pub fn limited_by(&self) -> &[Option<Limit>] {
         &self.limited_by
     }
 
-    /// The table of the lab that each row was imported from, relative to its folder.
+    /// The table of the lab from which each row was imported, relative to its folder.
     pub fn source_table(&self) -> &[Option<String>] {
         &self.source_table
     }
 
-    /// Which row of that table each was, from 0.
+    /// The row of each sample in that table, from 0.
     pub fn source_row(&self) -> &[Option<u32>] {
         &self.source_row
     }
 
-    /// The picture that each sample came with in the folder of its lab, such as `clip.mp4#12`.
+    /// The original picture of each sample in the folder of its lab, such as `clip.mp4#12`.
     pub fn source_frame(&self) -> &[Option<String>] {
         &self.source_frame
     }
@@ -206,12 +206,12 @@ impl Table {
         &self.part
     }
 
-    /// The time of each row in seconds.
+    /// The time of each row, s.
     pub fn t_s(&self) -> &[Option<f64>] {
         &self.t_s
     }
 
-    /// The relief of the grating that each row touches.
+    /// The relief of the grating touched by each row.
     pub fn kind(&self) -> &[Option<GratingKind>] {
         &self.kind
     }
@@ -245,7 +245,7 @@ impl Table {
         Some(&self.attributes[position])
     }
 
-    /// The column called `name` as text, whatever it holds: an id, an attribute, a count, a phase or a number.
+    /// The column called `name` as text, whatever its type: an id, an attribute, a count, a phase or a number.
     pub fn as_text(&self, name: &str) -> Option<Vec<Option<String>>> {
         let named = self
             .columns()
@@ -254,7 +254,7 @@ impl Table {
         Some((0..self.rows()).map(|row| named.cells.text(row)).collect())
     }
 
-    /// The fields that at least one row carries.
+    /// The fields of at least one row.
     pub fn fields(&self) -> FieldSet {
         let carried = [
             (Field::Frame, self.frames.iter().any(Option::is_some)),
@@ -280,7 +280,7 @@ impl Table {
             .collect()
     }
 
-    /// The sample of a row, with the given frame and of the rest what `fields` asks for.
+    /// The sample of a row, with the given frame and the fields in `fields`.
     pub fn sample(&self, row: usize, fields: FieldSet, frame: Option<Frame>) -> Sample {
         let wanted = |field| fields.contains(field);
         let text = |field, column: &[Option<String>]| {
@@ -319,7 +319,7 @@ impl Table {
         sample
     }
 
-    /// The digest of what the table says, however it is stored and wherever its frames lie.
+    /// The digest of the content of the table, whatever its storage and the location of its frames.
     pub fn digest(&self) -> Digest {
         let mut digest = PartsDigest::default();
         digest.part(b"taceva.table/1");
@@ -340,13 +340,13 @@ impl Table {
         digest.finish()
     }
 
-    /// Says where the file of a row's frame lies, and how bright it is.
+    /// Sets the file and the brightness of a row's frame.
     pub fn set_frame(&mut self, row: usize, entry: FrameEntry, intensity: f64) {
         self.frames[row] = Some(entry);
         self.intensity[row] = Some(intensity);
     }
 
-    /// Every column that holds a value, in the one order in which tables are digested, stored and exported.
+    /// All columns with a value, in the order in which tables are digested, stored and exported.
     pub fn columns(&self) -> Vec<NamedColumn<'_>> {
         let named = |name, cells| NamedColumn { name, cells };
         let mut columns = vec![

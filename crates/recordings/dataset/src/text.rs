@@ -1,10 +1,10 @@
-//! Foreign text in messages: by the rule of [`taceva_core::shown`], and long texts and lists are cut.
+//! Foreign text in messages: by the rule of [`taceva_core::shown`]; long texts and lists are cut.
 
 use std::path::Path;
 
 const SHOWN_CHARACTERS: usize = 80;
 
-/// `text` with what a terminal would obey written out, cut after 80 characters.
+/// `text` with control characters escaped, cut after 80 characters.
 pub fn shown(text: &str) -> String {
     match text.char_indices().nth(SHOWN_CHARACTERS) {
         Some((end, _)) => format!("{}…", taceva_core::shown(&text[..end])),
@@ -12,12 +12,12 @@ pub fn shown(text: &str) -> String {
     }
 }
 
-/// `path` with what a terminal would obey written out.
+/// `path` with control characters escaped.
 pub fn shown_path(path: &Path) -> String {
     taceva_core::shown(path).to_string()
 }
 
-/// Names that a message lists; the others are counted.
+/// Names for a message; after the first few the others are counted.
 pub fn listed(names: &[String]) -> String {
     const LISTED: usize = 64;
     let shown: Vec<String> = names.iter().take(LISTED).map(|name| shown(name)).collect();

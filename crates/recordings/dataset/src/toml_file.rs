@@ -1,4 +1,4 @@
-//! TOML files, read strictly: an unknown key is an error with its line and the nearest key there is.
+//! Strict parsing of TOML files: an unknown key is an error with its line and the nearest key.
 
 use std::path::Path;
 
@@ -10,11 +10,11 @@ use crate::limits;
 use crate::text::shown;
 use taceva_core::nearest;
 
-/// The TOML file at `path` as a `T`.
+/// Parses the TOML file at `path` as a `T`.
 ///
 /// # Errors
-/// [`DatasetError::Toml`] with the line, if it is no TOML or not what `T` accepts; [`DatasetError::Path`] if it is no regular
-/// file or above 1 MiB; [`DatasetError::Io`].
+/// [`DatasetError::Toml`] with the line, if it is invalid TOML or `T` rejects it; [`DatasetError::Path`] if it is no regular file or
+/// exceeds 1 MiB; [`DatasetError::Io`].
 pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T, DatasetError> {
     parse_toml(path, &read_toml_text(path)?)
 }
@@ -24,7 +24,7 @@ pub fn read_toml_text(path: &Path) -> Result<String, DatasetError> {
     utf8(path, read_capped(path, limits::TOML_BYTES)?)
 }
 
-/// The text that `bytes`, the content of the file at `path`, are.
+/// `bytes`, the content of the file at `path`, as text.
 pub fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, DatasetError> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
@@ -32,7 +32,7 @@ pub fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, DatasetError> {
     })
 }
 
-/// `text`, which stands in the file at `path`, as a `T`.
+/// Parses `text`, the content of the file at `path`, as a `T`.
 pub fn parse_toml<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, DatasetError> {
     toml::from_str(text).map_err(|error| {
         let line = error
@@ -42,7 +42,7 @@ pub fn parse_toml<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, Dat
     })
 }
 
-/// A problem on a line of the TOML file at `path`.
+/// The error for a line of the TOML file at `path`.
 pub fn toml_error(path: &Path, line: Option<u64>, problem: &str) -> DatasetError {
     DatasetError::Toml {
         place: Place {
@@ -59,7 +59,7 @@ pub fn line_of(text: &[u8], offset: usize) -> u64 {
     1 + before.iter().filter(|byte| **byte == b'\n').count() as u64
 }
 
-/// The parser's message with what helps: the nearest key, or that `unknown` may be said.
+/// The parser's message with a hint: the nearest key, or that `unknown` is accepted.
 fn explained(message: &str) -> String {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {

@@ -1,4 +1,4 @@
-//! The version of the format on disk, and who can read it.
+//! Version of the format on disk, and its compatibility.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,8 +7,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 /// A version of the dataset format, written `major.minor`.
 ///
-/// A minor adds and never changes a meaning, so any minor of a known major can be read; a newer major cannot. Formats 1.1 to 1.10
-/// were written before release 0.2.0 and are not read.
+/// A minor version adds and never changes a meaning. Any minor of a known major can be read; a newer major cannot. Formats 1.1 to 1.10 were
+/// written before release 0.2.0 and are not supported.
 ///
 /// ```
 /// use taceva_dataset::Version;
@@ -20,25 +20,25 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Version {
-    /// Raised when a meaning changes.
+    /// Incremented when a meaning changes.
     pub major: u32,
-    /// Raised when something is added.
+    /// Incremented when something is added.
     pub minor: u32,
 }
 
 impl Version {
-    /// The newest that this crate writes.
+    /// The newest version, which this crate writes.
     pub const CURRENT: Version = Version { major: 1, minor: 0 };
 
-    /// The last minor that was written before release 0.2.0, which began again at 1.0.
+    /// The last minor before release 0.2.0, which restarted at 1.0.
     const LAST_BEFORE_RELEASE: u32 = 10;
 
-    /// Whether this crate can read it.
+    /// True if this crate can read it.
     pub fn is_readable(self) -> bool {
         self.major == Version::CURRENT.major && !self.is_earlier()
     }
 
-    /// Whether it was written before release 0.2.0.
+    /// True if it was written before release 0.2.0.
     pub fn is_earlier(self) -> bool {
         self.major == 1 && (1..=Version::LAST_BEFORE_RELEASE).contains(&self.minor)
     }

@@ -1,11 +1,11 @@
-//! Names of views: several of them in one text, and what is said where one is missing.
+//! Names of views: several in one text, and messages about missing ones.
 
 use crate::text::shown;
 
-/// Stands between the names of views whose pictures are put side by side.
+/// Separator between the names of views that are placed side by side.
 pub(crate) const BESIDE: char = '+';
 
-/// Reason why a view is not there, or none is meant, in words.
+/// The message that a view does not exist, or that none was named.
 pub(crate) fn wanted_view(asked: Option<&str>, known: &[String]) -> String {
     let quoted = |name: &String| format!("`{}`", shown(name));
     let names: Vec<String> = known.iter().map(quoted).collect();

@@ -1,25 +1,25 @@
-//! Who may ask: the page that this server gave out, opened by the address that was printed.
+//! Access control: requests must come from the page of this server, opened by the printed address.
 
 use crate::request::Request;
 use crate::response::Status;
 use crate::token::Token;
 
-/// What a request must say.
+/// Requirements on a request.
 #[derive(Debug)]
 pub(crate) struct Access {
-    /// What `Host` may be.
+    /// Accepted values of `Host`.
     hosts: [String; 2],
     pub(crate) token: Token,
 }
 
 impl Access {
-    /// To a page on `port` of this machine.
+    /// Access to a page on `port` of this machine.
     pub(crate) fn new(port: u16, token: Token) -> Access {
         let hosts = ["127.0.0.1", "localhost"].map(|host| format!("{host}:{port}"));
         Access { hosts, token }
     }
 
-    /// Refuses a request that came by another name, or from a page of another origin.
+    /// Rejects a request to another host name, or from a page of another origin.
     pub(crate) fn check_origin(&self, request: &Request) -> Result<(), Status> {
         let is_own = |host: &[u8]| self.hosts.iter().any(|own| own.as_bytes() == host);
         if !request.host.as_deref().is_some_and(is_own) {
@@ -27,13 +27,13 @@ impl Access {
         }
         match &request.origin {
             None => Ok(()),
-            // That of the name it came by: to a browser the two names are two origins.
+            // The origin must have the same host name: browsers treat the two names as two origins.
             Some(origin) if origin.strip_prefix(b"http://") == request.host.as_deref() => Ok(()),
             Some(_) => Err(Status::Forbidden),
         }
     }
 
-    /// Refuses a request that does not know the token.
+    /// Rejects a request without the token.
     pub(crate) fn check_token(&self, request: &Request) -> Result<(), Status> {
         let given = request.token.as_deref();
         match given.is_some_and(|given| self.token.is(given)) {

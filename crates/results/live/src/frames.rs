@@ -1,4 +1,4 @@
-//! From the newest frame to the newest JPEG, on a thread that may be slow.
+//! Encoding of the newest frame to JPEG, on a thread that may be slow.
 
 use std::borrow::Cow;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -11,15 +11,15 @@ use taceva_core::Frame;
 use crate::overlay::Overlay;
 use crate::sight::Sight;
 
-/// From one picture to the next, at least: 15 a second are what a person sees move.
+/// Minimum interval between pictures: 15 a second look like motion.
 const PERIOD: Duration = Duration::from_nanos(1_000_000_000 / 15);
-/// The same of pictures with a prediction: 30 a second all pass, however unevenly they come.
+/// Minimum interval between pictures with a prediction: a stream of 30 a second passes completely, even if uneven.
 const PREDICTED_PERIOD: Duration = Duration::from_millis(16);
-/// The greatest side of a picture that is shown.
+/// Maximum side of a picture, pixels.
 const SIDE_MAX: usize = 960;
 const QUALITY: u8 = 80;
 
-/// The newest frame, and the newest picture of one.
+/// The newest frame, and the newest encoded picture.
 #[derive(Default)]
 pub(crate) struct Frames {
     newest: Mutex<Newest>,
@@ -31,9 +31,9 @@ pub(crate) struct Frames {
 #[derive(Default)]
 struct Newest {
     frame: Option<Frame>,
-    /// Predictions of it.
+    /// Predictions of the frame.
     overlay: Option<Overlay>,
-    /// When the last was taken away to be encoded.
+    /// Time of the last encoding.
     taken: Option<Instant>,
 }
 
@@ -43,20 +43,20 @@ struct Shown {
     jpeg: Option<Arc<[u8]>>,
     overlay: Option<Arc<Overlay>>,
     sight: Option<Sight>,
-    /// When that was looked at.
+    /// Time of the last sight.
     looked: Option<Instant>,
 }
 
-/// A picture that is ready for a browser.
+/// A picture ready for a browser.
 pub(crate) struct Picture {
     pub(crate) number: u64,
     pub(crate) jpeg: Arc<[u8]>,
-    /// Predictions of it.
+    /// Predictions of the picture.
     pub(crate) overlay: Option<Arc<Overlay>>,
 }
 
 impl Frames {
-    /// Leaves `frame`, with what was predicted of it, for the encoder, unless that has had enough of them.
+    /// Offers `frame`, with its predictions, to the encoder; skipped if the last one was too recent.
     pub(crate) fn offer(&self, frame: &Frame, overlay: Option<Overlay>) {
         let mut newest = lock(&self.newest);
         let period = match overlay {
@@ -72,7 +72,7 @@ impl Frames {
         self.came.notify_one();
     }
 
-    /// Encodes the newest frame, if one comes within `patience`.
+    /// Encodes the newest frame; waits up to `patience` for one.
     pub(crate) fn encode_next(&self, patience: Duration) {
         let waited = self
             .came
@@ -94,7 +94,7 @@ impl Frames {
         let is_seen = shown.looked.is_some_and(|looked| looked.elapsed() < PERIOD);
         drop(shown);
         self.encoded.notify_all();
-        // After the picture: nobody sees saturation and sharpness change as fast.
+        // After the picture: saturation and sharpness need no faster update.
         if !is_seen {
             let sight = Sight::of(&frame);
             let mut shown = lock(&self.shown);
@@ -102,7 +102,7 @@ impl Frames {
         }
     }
 
-    /// A picture newer than number `after`, waited for as long as `patience`.
+    /// A picture newer than number `after`; waits up to `patience`.
     pub(crate) fn next(&self, after: u64, patience: Duration) -> Option<Picture> {
         let waited = self
             .encoded
@@ -116,7 +116,7 @@ impl Frames {
         })
     }
 
-    /// What the last picture showed of its camera.
+    /// The camera facts of the last picture.
     pub(crate) fn sight(&self) -> Option<Sight> {
         lock(&self.shown).sight
     }
@@ -126,7 +126,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The frame as JPEG, every so many pixels of a great one; none if it cannot be encoded.
+/// Encodes the frame as JPEG, with large ones subsampled; `None` if it cannot be encoded.
 fn encode(frame: &Frame) -> Option<Vec<u8>> {
     let info = frame.info();
     let [width, height] = [info.width, info.height].map(|side| side as usize);
@@ -221,7 +221,7 @@ mod tests {
         frames.encode_next(Duration::ZERO);
         let shown = |after| frames.next(after, Duration::ZERO).expect("one").overlay;
         assert_eq!(shown(0).map(|overlay| overlay.stamp_s), Some(2.0));
-        // What comes after it without a prediction has none.
+        // A later frame without a prediction has none.
         std::thread::sleep(PERIOD);
         frames.offer(&frame, None);
         frames.encode_next(Duration::ZERO);

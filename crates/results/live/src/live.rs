@@ -1,4 +1,4 @@
-//! The state that the program with the devices writes and the page reads: the newest value of everything, and no history.
+//! Shared state between the program with the devices and the page: the newest value of everything, without history.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -11,7 +11,7 @@ use crate::frames::Frames;
 use crate::overlay::Overlay;
 use crate::state::{Asked, Limits, Place, PlaceState, PredictedFrames, State};
 
-/// What a page shows, written by the program that runs the devices. Clones share one state; no call waits for a reader.
+/// Content of a page, written by the program that runs the devices. Clones share one state; no call waits for a reader.
 #[derive(Clone)]
 pub struct Live {
     pub(crate) shared: Arc<Shared>,
@@ -21,12 +21,12 @@ pub(crate) struct Shared {
     state: Mutex<Inside>,
     answered: Condvar,
     pub(crate) frames: Frames,
-    /// Streams that somebody reads: without any nothing is encoded.
+    /// Number of open streams; without any, no frame is encoded.
     pub(crate) viewers: AtomicUsize,
     pub(crate) is_over: AtomicBool,
-    /// The last picture with a prediction that went to a browser.
+    /// Number of the last picture with a prediction that was sent to a browser.
     last_sent: AtomicU64,
-    /// Listener for that, by the stamp of its frame in s.
+    /// Callback for such pictures, with the stamp of the frame, s.
     on_sent: OnceLock<Box<dyn Fn(f64) + Send + Sync>>,
 }
 
@@ -34,18 +34,18 @@ pub(crate) struct Shared {
 struct Inside {
     state: State,
     places: Vec<Place>,
-    /// Grows whenever a place changes.
+    /// Incremented whenever a place changes.
     places_version: u64,
     questions: u64,
-    /// When frames came lately, for their rate.
+    /// Arrival times of recent frames, for their rate.
     recent: std::collections::VecDeque<Instant>,
 }
 
-/// The rate of frames is that of so long.
+/// Averaging time of the frame rate.
 const RATE_OVER: Duration = Duration::from_secs(2);
 
 impl Live {
-    /// A page headed `title`, of which nothing else is known yet.
+    /// An empty page with the heading `title`.
     pub fn new(title: &str) -> Live {
         let state = State {
             title: title.to_owned(),
@@ -68,32 +68,32 @@ impl Live {
         }
     }
 
-    /// Shows `frame` as the newest one; frames that come faster than pictures are made of them are counted and not shown.
+    /// Shows `frame` as the newest one; frames faster than the picture rate are counted but not shown.
     pub fn frame(&self, frame: &Frame) {
         self.count_frame();
-        // Even if nobody looks: who comes later sees the last one, which may be all there is for a while.
+        // Also without viewers: a later viewer sees the last frame, which may be the only one for a while.
         self.shared.frames.offer(frame, None);
     }
 
-    /// Shows `frame` as the newest one, with what a model predicts of it over the picture.
+    /// Shows `frame` as the newest one, with the predictions of a model over the picture.
     pub fn predicted(&self, frame: &Frame, overlay: Overlay) {
         self.count_frame();
         self.shared.frames.offer(frame, Some(overlay));
     }
 
-    /// Says in words whose predictions are written over pictures.
+    /// Shows the name of the model behind the predictions.
     pub fn predictor(&self, words: &str) {
         self.shared.inside().state.predicted_by = Some(words.to_owned());
     }
 
-    /// Shows how many frames were predicted and left out.
+    /// Shows the numbers of predicted and dropped frames.
     pub fn predicted_frames(&self, frames: PredictedFrames) {
         self.shared.inside().state.predicted = Some(frames);
     }
 
-    /// Lets `heard` know, by the stamp of its frame in s, when a picture with a prediction went to a browser: once a picture.
+    /// Sets the callback `heard` for pictures with a prediction sent to a browser. It receives the stamp of each frame once, s.
     ///
-    /// A thread of the page calls it; the first one that is given stays.
+    /// It runs on a thread of the page; only the first one is kept.
     pub fn on_sent(&self, heard: impl Fn(f64) + Send + Sync + 'static) {
         drop(self.shared.on_sent.set(Box::new(heard)));
     }
@@ -112,14 +112,14 @@ impl Live {
         }
     }
 
-    /// Shows a reading of the force transducer, tared.
+    /// Shows a tared reading of the force transducer.
     pub fn force(&self, wrench: &Wrench) {
         let [x, y, z] = wrench.force.map(|force| force.0);
         let mut inside = self.shared.inside();
         (inside.state.normal_n, inside.state.shear_n) = (Some(z), Some(x.hypot(y)));
     }
 
-    /// Shows the depth of the tip at `pose`, which is in the sensor's frame.
+    /// Shows the depth of the tip at `pose`, in the frame of the sensor.
     pub fn pose(&self, pose: &Pose) {
         self.shared.inside().state.depth_mm = Some(pose.position.z.0);
     }
@@ -129,19 +129,19 @@ impl Live {
         self.shared.inside().state.limits = limits;
     }
 
-    /// Shows what the program is doing, in words.
+    /// Shows the current stage in words.
     pub fn stage(&self, words: &str) {
         words.clone_into(&mut self.shared.inside().state.stage);
     }
 
-    /// Shows the number of frames that were dropped and of those that came damaged; only where the camera numbers its frames are all dropped ones counted.
+    /// Shows the numbers of dropped and of damaged frames. All dropped ones are counted only if the camera numbers its frames (`numbered`).
     pub fn lost(&self, dropped: u64, damaged: u64, numbered: bool) {
         let mut inside = self.shared.inside();
         let state = &mut inside.state;
         (state.dropped, state.damaged, state.numbered) = (dropped, damaged, numbered);
     }
 
-    /// Shows the places where the gel will be pressed.
+    /// Shows the places to be pressed on the gel.
     pub fn places(&self, places: Vec<Place>) {
         let mut inside = self.shared.inside();
         inside.state.presses = [done(&places), places.len()];
@@ -160,17 +160,17 @@ impl Live {
         inside.places_version += 1;
     }
 
-    /// Ends the page, which shows in words how the run ended.
+    /// Ends the page and shows how the run ended.
     pub fn ended(&self, words: &str) {
         self.shared.inside().state.ended = Some(words.to_owned());
     }
 
-    /// Whether somebody pressed stop.
+    /// True once the stop button was pressed.
     pub fn is_stopping(&self) -> bool {
         self.shared.inside().state.is_stopping
     }
 
-    /// Shows `question` with its buttons until what is returned is dropped.
+    /// Shows `question` with its buttons until the returned value is dropped.
     pub fn ask(&self, question: &Question) -> Open {
         let mut inside = self.shared.inside();
         inside.questions += 1;
@@ -189,14 +189,14 @@ fn done(places: &[Place]) -> usize {
     places.iter().filter(is_done).count()
 }
 
-/// An open question on the page; dropping it takes it off.
+/// An open question on the page; removed on drop.
 pub struct Open {
     live: Live,
     number: u64,
 }
 
 impl Open {
-    /// Waits for the answer for at most `patience`; `None` if none came.
+    /// Waits for the answer for at most `patience`; `None` if there is none.
     pub fn answer(&self, patience: Duration) -> Option<Answer> {
         let shared = &self.live.shared;
         let is_open = |inside: &mut Inside| match &inside.state.question {
@@ -223,7 +223,7 @@ impl Drop for Open {
 }
 
 impl Shared {
-    /// Gives the answer to question `number`; whether that was open.
+    /// Records the answer to question `number`; false if it is not open.
     pub(crate) fn give_answer(&self, number: u64, answer: Answer) -> bool {
         let mut inside = self.inside();
         let asked = inside.state.question.as_mut();
@@ -237,7 +237,7 @@ impl Shared {
         true
     }
 
-    /// Notes that picture `number` went to a browser.
+    /// Records that picture `number` was sent to a browser.
     pub(crate) fn sent(&self, number: u64, overlay: &Overlay) {
         let before = self.last_sent.fetch_max(number, Ordering::AcqRel);
         if let Some(heard) = self.on_sent.get().filter(|_| before < number) {
@@ -245,12 +245,12 @@ impl Shared {
         }
     }
 
-    /// Notes that somebody pressed stop.
+    /// Records that stop was pressed.
     pub(crate) fn stop(&self) {
         self.inside().state.is_stopping = true;
     }
 
-    /// Everything that is known, as JSON.
+    /// The whole state as JSON.
     pub(crate) fn state_json(&self) -> String {
         let mut inside = self.inside();
         let sight = self.frames.sight();
@@ -270,7 +270,7 @@ impl Shared {
         serde_json::to_string(state).unwrap_or_default()
     }
 
-    /// The places, if they changed since `version`, as JSON.
+    /// The places as JSON if they changed since `version`; else `None`.
     pub(crate) fn places_json(&self, version: &mut Option<u64>) -> Option<String> {
         let inside = self.inside();
         if *version == Some(inside.places_version) {

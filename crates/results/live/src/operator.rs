@@ -1,4 +1,4 @@
-//! The operator, asked on the page and answering by its buttons.
+//! The operator who answers by the buttons of the page.
 
 use std::time::Duration;
 
@@ -6,10 +6,10 @@ use taceva_protocol::{Answer, Cancel, Operator, Question};
 
 use crate::live::Live;
 
-/// How often it is looked whether the run goes on.
+/// Interval at which a cancelled run is detected.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Asks on the page alone, not at the terminal.
+/// Asks on the page only, not at the terminal.
 ///
 /// ```
 /// use taceva_live::{Live, PageOperator};
@@ -25,7 +25,7 @@ pub struct PageOperator {
 }
 
 impl PageOperator {
-    /// An operator who has the page of `live` open.
+    /// An operator with the page of `live` open.
     pub fn new(live: Live) -> PageOperator {
         PageOperator { live }
     }

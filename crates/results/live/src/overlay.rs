@@ -1,10 +1,10 @@
-//! Predictions of a picture, written over it.
+//! Predictions shown over a picture.
 
 use std::fmt::Write as _;
 
 use serde::Serialize;
 
-/// Predictions of a frame, shown over its picture and named as predictions.
+/// Predictions of a frame, shown over its picture and marked as predictions.
 ///
 /// ```
 /// use taceva_live::{Overlay, PredictedValue};
@@ -15,14 +15,14 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Overlay {
-    /// When the frame was true, in s of the clock that stamps frames.
+    /// Time of the frame, s, by the clock that stamps frames.
     #[serde(rename = "t_s")]
     pub stamp_s: f64,
     /// The value of each channel.
     pub values: Vec<PredictedValue>,
-    /// Distance of the picture from what the model has seen, 1 at the limit; `None` where the model does not know.
+    /// Distance of the picture from the training data, 1 at the limit; `None` if the model does not state it.
     pub distance: Option<f64>,
-    /// True outside what the model has seen; likewise.
+    /// True outside the training data; `None` if the model does not state it.
     pub outside: Option<bool>,
 }
 
@@ -50,7 +50,7 @@ impl PredictedValue {
 }
 
 impl Overlay {
-    /// Predictions of a frame that was true at `stamp_s`, in s, by a model that does not know what it has seen.
+    /// Predictions of a frame with the stamp `stamp_s`, s, by a model that does not state its distance from the training data.
     pub fn new(stamp_s: f64, values: Vec<PredictedValue>) -> Overlay {
         Overlay {
             stamp_s,
@@ -60,7 +60,7 @@ impl Overlay {
         }
     }
 
-    /// The same at `distance` from what the model has seen.
+    /// The same predictions at `distance` from the training data.
     #[must_use]
     pub fn with_distance(self, distance: f64, outside: bool) -> Overlay {
         Overlay {
@@ -70,7 +70,7 @@ impl Overlay {
         }
     }
 
-    /// As the value of a header: JSON of ASCII alone, since browsers read headers as Latin-1.
+    /// The value of a header: ASCII JSON, since browsers read headers as Latin-1.
     pub(crate) fn header(&self) -> String {
         let json = serde_json::to_string(self).unwrap_or_default();
         let mut header = String::with_capacity(json.len());

@@ -1,4 +1,4 @@
-//! The server of a page, while somebody has it.
+//! The server of a page.
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
@@ -14,14 +14,14 @@ use crate::route::{self, Site};
 use crate::strangers::Strangers;
 use crate::token::Token;
 
-/// How long a browser that takes nothing may hold its thread.
+/// Timeout of a write to a browser.
 const WRITING: Duration = Duration::from_secs(2);
-/// How long the encoder waits for a frame before it looks whether it is over.
+/// Interval at which the encoder checks whether the page has ended.
 const LOOK: Duration = Duration::from_millis(100);
-/// How long the last word may take to reach the browsers.
+/// Time for the last event to reach the browsers.
 const LAST_WORD: Duration = Duration::from_millis(400);
 
-/// A page on `127.0.0.1`, until this is dropped.
+/// A page on `127.0.0.1`, served until it is dropped.
 pub struct Page {
     address: SocketAddr,
     token: Token,
@@ -31,11 +31,11 @@ pub struct Page {
 }
 
 impl Page {
-    /// Shows `live` on `port` of loopback, 0 for any; `on_stop` is called on a thread of the page whenever somebody presses stop, and returns
-    /// at once.
+    /// Serves `live` on `port` of loopback, 0 for any free port. `on_stop` is called on a thread of the page whenever stop is pressed, and
+    /// must return at once.
     ///
     /// # Errors
-    /// [`PageError`] if the port is taken, no thread starts, or the system has no random numbers.
+    /// [`PageError`] if the port is taken, no thread starts, or the system provides no random numbers.
     pub fn open(
         live: &Live,
         port: u16,
@@ -82,7 +82,7 @@ impl Page {
         Ok(page)
     }
 
-    /// The address that a browser opens; the part behind `#` is the token.
+    /// The address for a browser; the part after `#` is the token.
     pub fn url(&self) -> String {
         format!("http://{}/#{}", self.address, self.token.text())
     }
@@ -96,13 +96,13 @@ impl Page {
 impl Drop for Page {
     fn drop(&mut self) {
         self.shared.is_over.store(true, Ordering::Release);
-        // Wakes who waits for a connection.
+        // Wakes the thread that accepts connections.
         drop(TcpStream::connect(self.address));
         for thread in self.threads.drain(..) {
-            // One that panicked has said so.
+            // A panic of the thread was already reported.
             drop(thread.join());
         }
-        // Streams have a last event to send, which says how it ended.
+        // Streams send a last event with the end of the run.
         let began = std::time::Instant::now();
         while self.connections.load(Ordering::Acquire) > 0 && began.elapsed() < LAST_WORD {
             std::thread::sleep(Duration::from_millis(5));
@@ -110,7 +110,7 @@ impl Drop for Page {
     }
 }
 
-/// Gives every connection a thread. One that has not shown the token may be closed for a newer one, so that the stop button is always answered.
+/// Starts a thread for every connection. A new one may close one without the token, so that the stop button is always answered.
 fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsize>) {
     let strangers = Arc::new(Strangers::default());
     loop {
@@ -119,7 +119,7 @@ fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsiz
             return;
         }
         let Ok((stream, _)) = accepted else {
-            // Too many files are open, or the client is gone already.
+            // Too many files are open, or the client has already gone.
             std::thread::sleep(Duration::from_millis(5));
             continue;
         };
@@ -133,22 +133,22 @@ fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsiz
             continue;
         };
         let served = (Arc::clone(site), Leaves::enter(connections));
-        // A thread that does not start is a connection that is closed.
+        // If the thread does not start, the connection is closed.
         let _ = std::thread::Builder::new()
             .name("page connection".to_owned())
             .spawn(move || {
                 let (site, _leaves) = served;
-                // A browser that goes ends its connection.
+                // Errors mean that the browser has gone.
                 let _ = route::serve(stream, stranger, &site);
             });
     }
 }
 
-/// Counts a connection off, however it ends.
+/// Decrements the count of connections on drop.
 struct Leaves(Arc<AtomicUsize>);
 
 impl Leaves {
-    /// Counts a connection on.
+    /// Increments the count of connections.
     fn enter(connections: &Arc<AtomicUsize>) -> Leaves {
         connections.fetch_add(1, Ordering::AcqRel);
         Leaves(Arc::clone(connections))

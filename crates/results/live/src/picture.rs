@@ -1,14 +1,14 @@
-//! What is to be mounted, drawn.
+//! Drawings of specimens to be mounted.
 
 use std::fmt::Write as _;
 
 use taceva_core::{GratingKind, Specimen};
 use taceva_protocol::Question;
 
-/// The side of the drawing, in mm of the specimen.
+/// Side of the drawing, mm.
 const SIDE_MM: f64 = 24.0;
 
-/// The drawing that goes with a question, as SVG whose unit is a mm; none where words are enough.
+/// The drawing for a question, as SVG in mm; `None` if words are enough.
 pub(crate) fn of(question: &Question) -> Option<String> {
     match question {
         Question::Mount(specimen) => drawn(specimen),
@@ -30,7 +30,7 @@ fn drawn(specimen: &Specimen) -> Option<String> {
     Some(svg)
 }
 
-/// From the side: the ball on its stem over the gel, and its radius.
+/// Side view: the ball on its stem over the gel, and its radius.
 fn sphere(radius_mm: f64) -> String {
     let radius = radius_mm.min(0.3 * SIDE_MM);
     let gel = 0.36 * SIDE_MM;
@@ -50,7 +50,7 @@ fn sphere(radius_mm: f64) -> String {
     )
 }
 
-/// From below: the lines, which lie along y, or the dots, at their spacing and not turned.
+/// Bottom view: the lines along y, or the dots, at their spacing and without rotation.
 fn grating(kind: GratingKind, spacing_mm: f64) -> String {
     let side = 16.0_f64;
     let half = side / 2.0;
@@ -59,11 +59,11 @@ fn grating(kind: GratingKind, spacing_mm: f64) -> String {
         -half,
         -half - 1.5
     );
-    // Nobody tells finer ones apart on a screen.
+    // Finer spacings cannot be resolved on a screen.
     let step = spacing_mm.max(0.4);
     let count = ((half - 1.0) / step).floor();
     let places = std::iter::successors(Some(-count), |at| (*at < count).then_some(at + 1.0));
-    // A string takes whatever is written, so writing to it does not fail.
+    // Writing to a string cannot fail.
     for across in places.clone() {
         let x = across * step;
         match kind {

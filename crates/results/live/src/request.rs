@@ -1,4 +1,4 @@
-//! A request as it comes over a socket: bounded in length, in lines and in time.
+//! HTTP requests from a socket, limited in length, lines and time.
 
 use std::io::{self, Read};
 use std::net::{Shutdown, TcpStream};
@@ -6,18 +6,18 @@ use std::time::{Duration, Instant};
 
 use crate::response::Status;
 
-/// The longest head, in bytes.
+/// Maximum head, bytes.
 const HEAD_MAX: usize = 8192;
-/// The most header lines.
+/// Maximum number of header lines.
 const HEADERS_MAX: usize = 32;
-/// The longest body, in bytes: an answer to a question is shorter.
+/// Maximum body, bytes: answers to questions are shorter.
 const BODY_MAX: usize = 1024;
-/// A request that is not whole after so long is none.
+/// Timeout of a whole request.
 const WHOLE: Duration = Duration::from_secs(5);
-/// How long one read waits.
+/// Timeout of one read.
 const READING: Duration = Duration::from_millis(250);
 
-/// A request that is whole.
+/// A complete request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Request {
     pub(crate) method: String,
@@ -28,7 +28,7 @@ pub(crate) struct Request {
     pub(crate) body: Vec<u8>,
 }
 
-/// Reads one request; what it is answered where it is none.
+/// Reads one request; the error is the status of the response.
 pub(crate) fn read(stream: &mut TcpStream) -> Result<Request, Status> {
     let began = Instant::now();
     stream
@@ -56,7 +56,7 @@ pub(crate) fn read(stream: &mut TcpStream) -> Result<Request, Status> {
     }
 }
 
-/// Takes what a client that was refused still sends, for a moment: a connection that is closed with bytes unread takes its answer back.
+/// Discards further bytes of a rejected client for a moment: closing a connection with unread bytes would discard the response.
 pub(crate) fn drain(mut stream: TcpStream) -> io::Result<()> {
     const MOMENT: Duration = Duration::from_millis(500);
     stream.shutdown(Shutdown::Write)?;
@@ -66,7 +66,7 @@ pub(crate) fn drain(mut stream: TcpStream) -> io::Result<()> {
     Ok(())
 }
 
-/// Reads what comes next.
+/// Reads the next bytes.
 fn more(stream: &mut TcpStream, bytes: &mut Vec<u8>, began: Instant) -> Result<(), Status> {
     let mut read = [0; 2048];
     loop {
@@ -92,14 +92,14 @@ fn more(stream: &mut TcpStream, bytes: &mut Vec<u8>, began: Instant) -> Result<(
 /// The head of a request.
 struct Head {
     request: Request,
-    /// Bytes of the head.
+    /// Size of the head, bytes.
     length: usize,
-    /// Bytes of the body.
+    /// Size of the body, bytes.
     body: usize,
 }
 
 impl Head {
-    /// The head that `bytes` begin with; `None` while it is not whole.
+    /// Parses the head at the start of `bytes`; `None` if it is incomplete.
     fn parse(bytes: &[u8]) -> Result<Option<Head>, Status> {
         let mut headers = [httparse::EMPTY_HEADER; HEADERS_MAX];
         let mut parsed = httparse::Request::new(&mut headers);
@@ -120,7 +120,7 @@ impl Head {
                 .filter(|header| header.name.eq_ignore_ascii_case(name));
             named.map(|header| header.value).collect::<Vec<_>>()
         };
-        // Two of one of these mean two things to two readers.
+        // Two headers of one of these names are ambiguous.
         let one = |name: &str| match all(name).as_slice() {
             [] => Ok(None),
             [value] => Ok(Some(value.to_vec())),

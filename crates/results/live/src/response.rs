@@ -1,8 +1,8 @@
-//! Answers, each with the same headers that keep a browser from doing more than this page needs.
+//! HTTP responses, all with headers that restrict the browser to what this page needs.
 
 use std::io::{self, Write};
 
-/// What a request is answered.
+/// Status of a response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Status {
     Ok,
@@ -39,7 +39,7 @@ impl Status {
         }
     }
 
-    /// What helps whoever reads the answer.
+    /// Hint for the reader of the response.
     const fn hint(self) -> &'static str {
         match self {
             Status::Unauthorized => {
@@ -55,7 +55,7 @@ impl Status {
     }
 }
 
-/// What every answer says: nothing is kept, guessed, framed or loaded from elsewhere.
+/// Headers of every response: no caching, no type guessing, no framing, no content from elsewhere.
 const ALWAYS: &str = "Cache-Control: no-store\r\n\
     Content-Security-Policy: default-src 'none'; connect-src 'self'; img-src 'self'; script-src 'self'; style-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n\
     Cross-Origin-Opener-Policy: same-origin\r\n\
@@ -65,7 +65,7 @@ const ALWAYS: &str = "Cache-Control: no-store\r\n\
     X-Frame-Options: DENY\r\n\
     Connection: close\r\n";
 
-/// Writes a whole answer.
+/// Writes a complete response.
 pub(crate) fn whole(
     out: &mut impl Write,
     status: Status,
@@ -80,7 +80,7 @@ pub(crate) fn whole(
     out.write_all(&[head.as_bytes(), body].concat())
 }
 
-/// Writes an answer that says no more than its status.
+/// Writes a response with only its status.
 pub(crate) fn bare(out: &mut impl Write, status: Status) -> io::Result<()> {
     whole(
         out,
@@ -90,7 +90,7 @@ pub(crate) fn bare(out: &mut impl Write, status: Status) -> io::Result<()> {
     )
 }
 
-/// Writes the head of an answer that ends when the connection does.
+/// Writes the head of a response that ends with the connection.
 pub(crate) fn stream(out: &mut impl Write, kind: &str) -> io::Result<()> {
     let head = format!(
         "HTTP/1.1 {}\r\n{ALWAYS}Content-Type: {kind}\r\n\r\n",

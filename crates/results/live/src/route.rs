@@ -1,4 +1,4 @@
-//! What each path answers.
+//! Handlers of the paths.
 
 use std::io::{self, Write};
 use std::net::TcpStream;
@@ -15,27 +15,27 @@ use crate::request::{self, Request};
 use crate::response::{self, Status};
 use crate::strangers::Stranger;
 
-/// Streams at most: two pages.
+/// Maximum number of streams: two pages.
 const STREAMS_MAX: usize = 4;
-/// From one event to the next.
+/// Interval of events.
 const EVENTS: Duration = Duration::from_millis(100);
-/// How long a stream waits for a picture before it looks whether it is over.
+/// Interval at which a stream without pictures checks whether the page has ended.
 const LOOK: Duration = Duration::from_millis(250);
-/// What a browser has to take a picture or an event within.
+/// Timeout for a browser to receive a picture or an event.
 const TAKING: Duration = Duration::from_secs(5);
-/// What stands between two pictures.
+/// Boundary between two pictures.
 const BOUNDARY: &str = "taceva-picture";
-/// The line with the predictions of a picture, in the head of its part.
+/// Header line with the predictions of a picture, in the head of its part.
 const PREDICTION: &str = "X-Taceva-Prediction";
 
-/// What all connections have in common.
+/// State that all connections share.
 pub(crate) struct Site {
     pub(crate) access: Access,
     pub(crate) shared: Arc<Shared>,
     pub(crate) on_stop: Box<dyn Fn() + Send + Sync>,
 }
 
-/// Serves one connection: one request, one answer. Who reads a stream has shown the token, and is no `stranger` any more.
+/// Serves one connection: one request, one response. A reader of a stream has shown the token and no longer counts as a `stranger`.
 pub(crate) fn serve(mut stream: TcpStream, stranger: Stranger, site: &Site) -> io::Result<()> {
     let done = request::read(&mut stream).and_then(|request| {
         site.access.check_origin(&request)?;
@@ -61,7 +61,7 @@ pub(crate) fn serve(mut stream: TcpStream, stranger: Stranger, site: &Site) -> i
     }
 }
 
-/// What a request is answered with.
+/// Response to a request.
 enum Reply {
     Bare(Status),
     File(&'static str, &'static str),
@@ -89,7 +89,7 @@ fn route(request: &Request, site: &Site) -> Result<Reply, Status> {
         };
     }
     if path == "/favicon.ico" {
-        // Browsers ask for it unasked, and without the token.
+        // Browsers request it on their own, without the token.
         return Ok(Reply::Bare(Status::NoContent));
     }
     site.access.check_token(request)?;
@@ -97,7 +97,7 @@ fn route(request: &Request, site: &Site) -> Result<Reply, Status> {
         ("/frames", "GET") => Ok(Reply::Frames(Viewer::enter(&site.shared)?)),
         ("/events", "GET") => Ok(Reply::Events(Viewer::enter(&site.shared)?)),
         ("/stop", "POST") => {
-            // Before anything else: somebody waits for the arm.
+            // First of all, because the arm must stop.
             (site.on_stop)();
             site.shared.stop();
             Ok(Reply::Bare(Status::NoContent))
@@ -136,7 +136,7 @@ fn answer(body: &[u8], shared: &Shared) -> Result<Status, Status> {
     }
 }
 
-/// Somebody who reads a stream, counted while he does.
+/// A reader of a stream, counted until drop.
 struct Viewer(Arc<Shared>);
 
 impl Viewer {
@@ -154,7 +154,7 @@ impl Drop for Viewer {
     }
 }
 
-/// Counts one more, unless there are `most` already.
+/// Increments `count`, unless it is `most` already.
 fn entered(count: &AtomicUsize, most: usize) -> bool {
     let more = |count: usize| (count < most).then_some(count + 1);
     count
@@ -162,7 +162,7 @@ fn entered(count: &AtomicUsize, most: usize) -> bool {
         .is_ok()
 }
 
-/// Sends pictures as they come, leaving out what the browser is too slow for.
+/// Sends pictures as they come, and skips those for which the browser is too slow.
 fn frames(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
     response::stream(
         stream,
@@ -171,7 +171,7 @@ fn frames(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
     let mut last = 0;
     while !shared.is_over.load(Ordering::Acquire) {
         let Some(picture) = shared.frames.next(last, LOOK) else {
-            // A browser that is gone is noticed although nothing new is to be shown.
+            // Detects a closed browser although there is nothing new to show.
             put(stream, b"\r\n")?;
             continue;
         };
@@ -194,7 +194,7 @@ fn frames(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
     Ok(())
 }
 
-/// Says what is known, ten times a second, and where presses are whenever that changed.
+/// Sends the state ten times a second, and the places of presses whenever they change.
 fn events(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
     response::stream(stream, "text/event-stream")?;
     let mut version = None;
@@ -214,7 +214,7 @@ fn events(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
     }
 }
 
-/// Writes all of `bytes` in time, or gives the browser up.
+/// Writes all of `bytes` within the timeout, or gives up.
 fn put(stream: &mut TcpStream, bytes: &[u8]) -> io::Result<()> {
     let began = Instant::now();
     let mut left = bytes;

@@ -1,22 +1,22 @@
-//! What a look at a frame tells of the camera: whether light is clipped, and whether the picture is sharp.
+//! Camera facts of a frame: saturation and sharpness.
 
 use taceva_core::Frame;
 
-/// What one frame shows of its camera.
+/// Camera facts of one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sight {
-    /// Share of the numbers at full scale, 0 to 1, as `taceva check` counts it.
+    /// Share of values at full scale, 0 to 1, as `taceva check` counts it.
     pub(crate) saturated: f64,
-    /// The mean square of the Laplacian (4 times a pixel less its four neighbours) of the first colour, in steps² of 8 bits: it grows until the
-    /// picture is in focus, and means nothing beside that of another scene.
+    /// Mean square of the Laplacian (4 times a pixel minus its four neighbours) of the first colour, in steps² of 8 bits. It grows until
+    /// the picture is in focus, and cannot be compared between scenes.
     pub(crate) sharpness: f64,
 }
 
-/// Rows and columns that are looked at: every second of a frame of 640 by 480.
+/// Maximum rows and columns that are sampled: every second of a frame of 640 by 480.
 const SIDE: usize = 320;
 
 impl Sight {
-    /// Looks at every pixel for saturation, and at a grid of them for sharpness.
+    /// Reads every pixel for saturation, and a grid of them for sharpness.
     pub(crate) fn of(frame: &Frame) -> Sight {
         let info = frame.info();
         let (depth, top) = (info.format.samples(), info.format.full_scale());
@@ -89,7 +89,7 @@ mod tests {
             |x, _| if x < 4 { 0 } else { 140 },
         ));
         assert!(even.sharpness.abs() <= 0.0 && slope.sharpness.abs() <= 0.0);
-        // Two of six columns are bent by 140.
+        // Two of six columns have a Laplacian of 140.
         assert!((edge.sharpness - 2.0 / 6.0 * 140.0_f64.powi(2)).abs() < 1e-9);
     }
 

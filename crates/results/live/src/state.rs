@@ -1,30 +1,30 @@
-//! What the page shows beside frames.
+//! State of the page besides frames.
 
 use serde::Serialize;
 use taceva_protocol::{Answer, Question};
 
-/// The greatest forces and the deepest indentation that the run allows; `None` where there is no limit.
+/// Limits of force and depth of the run; `None` for no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Limits {
-    /// The greatest normal force, in N.
+    /// Maximum normal force, N.
     #[serde(rename = "Fz_max_N")]
     pub normal_max_n: Option<f64>,
-    /// The greatest shear force, in N.
+    /// Maximum shear force, N.
     #[serde(rename = "Fxy_max_N")]
     pub shear_max_n: Option<f64>,
-    /// The deepest indentation, in mm.
+    /// Maximum depth, mm.
     #[serde(rename = "Pz_max_mm")]
     pub depth_max_mm: Option<f64>,
 }
 
 impl Limits {
-    /// No limit is known.
+    /// No known limits.
     pub fn none() -> Limits {
         Limits::default()
     }
 
-    /// The same with the greatest forces, in N.
+    /// The same limits with maximum forces, N.
     #[must_use]
     pub fn with_forces(self, normal_max_n: f64, shear_max_n: f64) -> Limits {
         Limits {
@@ -34,7 +34,7 @@ impl Limits {
         }
     }
 
-    /// The same with the deepest indentation, in mm.
+    /// The same limits with the maximum depth, mm.
     #[must_use]
     pub fn with_depth(self, depth_max_mm: f64) -> Limits {
         Limits {
@@ -44,31 +44,31 @@ impl Limits {
     }
 }
 
-/// A place where the gel is pressed, in the sensor's frame, and the state of that press.
+/// A place to be pressed on the gel, in the frame of the sensor, with the state of its press.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Place {
-    /// Along x, in mm.
+    /// Along x, mm.
     pub x_mm: f64,
-    /// Along y, in mm.
+    /// Along y, mm.
     pub y_mm: f64,
     /// The state of the press.
     pub state: PlaceState,
 }
 
-/// Frames that a model was shown, counted.
+/// Counts of frames given to a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct PredictedFrames {
-    /// Frames that came.
+    /// Frames received.
     pub seen: u64,
-    /// Frames that the model had no time for.
+    /// Frames that were dropped because the model was busy.
     pub dropped: u64,
-    /// Predicted frames outside what the model has seen; `None` where it does not know.
+    /// Predicted frames outside the training data; `None` if the model does not state it.
     pub outside: Option<u64>,
 }
 
 impl PredictedFrames {
-    /// So many frames, of which some were left out, and so many lay outside what the model has seen.
+    /// Counts of `seen` frames, of which `dropped` were dropped and `outside` are outside the training data.
     pub fn new(seen: u64, dropped: u64, outside: Option<u64>) -> PredictedFrames {
         PredictedFrames {
             seen,
@@ -83,65 +83,65 @@ impl PredictedFrames {
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum PlaceState {
-    /// It is still to come.
+    /// Not yet made.
     Open,
-    /// It is being made.
+    /// In progress.
     Now,
-    /// It is recorded.
+    /// Recorded.
     Done,
-    /// It is recorded, and a limit or a miss ended it early.
+    /// Recorded, but ended early by a limit or a miss.
     Short,
-    /// It is left out of this run.
+    /// Not part of this run.
     Skipped,
 }
 
-/// Everything that is said ten times a second.
+/// State that is sent ten times a second.
 #[derive(Clone, Debug, Default, Serialize)]
 pub(crate) struct State {
     pub(crate) title: String,
-    /// What is going on, in words.
+    /// Current stage, in words.
     pub(crate) stage: String,
-    /// Normal force and shear, in N.
+    /// Normal force and shear, N.
     #[serde(rename = "Fz_N")]
     pub(crate) normal_n: Option<f64>,
     #[serde(rename = "Fxy_N")]
     pub(crate) shear_n: Option<f64>,
-    /// How deep the tip is in the gel, in mm; below 0 above it.
+    /// Depth of the tip in the gel, mm; negative above it.
     #[serde(rename = "Pz_mm")]
     pub(crate) depth_mm: Option<f64>,
     pub(crate) limits: Limits,
-    /// The model behind predictions over pictures, in words.
+    /// The model behind the predictions over pictures, in words.
     pub(crate) predicted_by: Option<String>,
     pub(crate) predicted: Option<PredictedFrames>,
-    /// Frames that were shown to the page, and a second.
+    /// Frames given to the page, and their rate, 1/s.
     pub(crate) frames: u64,
     pub(crate) rate_hz: f64,
     pub(crate) dropped: u64,
     pub(crate) damaged: u64,
-    /// Whether lost frames can be counted.
+    /// True if all dropped frames are counted.
     pub(crate) numbered: bool,
-    /// Share of the newest frame's numbers at full scale.
+    /// Share of values at full scale in the newest frame.
     pub(crate) saturated: Option<f64>,
     /// See [`Sight`](crate::sight::Sight).
     pub(crate) sharpness: Option<f64>,
-    /// Presses that are recorded, and all.
+    /// Recorded presses, and all presses.
     pub(crate) presses: [usize; 2],
     pub(crate) question: Option<Asked>,
-    /// Whether somebody pressed stop.
+    /// True once stop was pressed.
     pub(crate) is_stopping: bool,
-    /// How it ended, once it has.
+    /// Result of the run, once it has ended.
     pub(crate) ended: Option<String>,
 }
 
-/// A question that is open.
+/// An open question.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Asked {
-    /// Its number: an answer to another is none to this.
+    /// Number of the question; answers to other numbers are ignored.
     pub(crate) number: u64,
     pub(crate) text: String,
-    /// What the button says that lets it go on.
+    /// Label of the button that continues.
     pub(crate) done: String,
-    /// Whether it can be left out.
+    /// True if the question can be skipped.
     pub(crate) can_skip: bool,
     /// A picture of what to mount, as SVG.
     pub(crate) picture: Option<String>,

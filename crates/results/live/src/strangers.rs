@@ -1,14 +1,14 @@
-//! Connections that have not shown the token: a few, of which the oldest makes room for the newest.
+//! Connections without the token, limited in number: a new one closes the oldest.
 
 use std::collections::VecDeque;
 use std::io;
 use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Connections without a token at most.
+/// Maximum number of connections without the token.
 const STRANGERS_MAX: usize = 32;
 
-/// Connections that have not shown the token, the oldest first.
+/// Connections without the token, the oldest first.
 #[derive(Default)]
 pub(crate) struct Strangers {
     inside: Mutex<Inside>,
@@ -21,10 +21,10 @@ struct Inside {
 }
 
 impl Strangers {
-    /// Counts one more connection, and closes the oldest one where there are too many.
+    /// Counts one more connection, and closes the oldest if there are too many.
     ///
     /// # Errors
-    /// [`io::Error`] if the process has no file left for the connection.
+    /// [`io::Error`] if the process has no file descriptor left for the connection.
     pub(crate) fn enter(self: &Arc<Strangers>, stream: &TcpStream) -> io::Result<Stranger> {
         let other = stream.try_clone()?;
         let mut inside = self.inside();
@@ -34,7 +34,7 @@ impl Strangers {
         if inside.waiting.len() > STRANGERS_MAX
             && let Some((_, oldest)) = inside.waiting.pop_front()
         {
-            // Its thread reads the end of the connection, and ends. A client that is gone already is closed.
+            // Its thread reads the end of the connection, and ends. An error means that the client has already gone.
             let _ = oldest.shutdown(Shutdown::Both);
         }
         drop(inside);
@@ -49,7 +49,7 @@ impl Strangers {
     }
 }
 
-/// One of the connections without a token, until this is dropped.
+/// One of the connections without the token, counted until drop.
 pub(crate) struct Stranger {
     strangers: Arc<Strangers>,
     number: u64,

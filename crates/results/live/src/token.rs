@@ -1,15 +1,15 @@
-//! The secret that a request must know.
+//! The secret token of requests.
 
 use std::fmt;
 
 use crate::error::PageError;
 
-/// 128 random bits, written in hexadecimal.
+/// 128 random bits in hexadecimal.
 #[derive(Clone)]
 pub(crate) struct Token(String);
 
 impl Token {
-    /// A new one, from the random numbers of the system.
+    /// A new token from the random numbers of the system.
     pub(crate) fn random() -> Result<Token, PageError> {
         let mut bytes = [0; 16];
         getrandom::fill(&mut bytes).map_err(|error| PageError::Random(error.to_string()))?;
@@ -22,7 +22,7 @@ impl Token {
         &self.0
     }
 
-    /// Whether `given` is it. It takes as long whichever letter differs, so that no answer says how much was right.
+    /// True if `given` equals the token. Compares in constant time, so that timing reveals nothing.
     pub(crate) fn is(&self, given: &[u8]) -> bool {
         let own = self.0.as_bytes();
         let pairs = own.iter().zip(given.iter().chain(std::iter::repeat(&0)));

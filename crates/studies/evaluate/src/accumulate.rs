@@ -1,4 +1,4 @@
-//! From rows to scores, on all threads, with the same bits on any number of them.
+//! Rows to scores, on all threads, with the same bits on any number of them.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -14,12 +14,12 @@ use crate::recordings;
 /// Rows a batch: large enough that merging is rare, small enough that a batch stays in the cache.
 pub(crate) const BATCH_ROWS: usize = 1 << 12;
 
-/// Where rows with truth and prediction come from: any of them, asked for from any thread.
+/// Source of rows with truth and prediction; any thread may read any range.
 pub trait Rows: Sync {
-    /// How many there are.
+    /// Number of rows.
     fn rows(&self) -> usize;
 
-    /// Those in `rows`, with the channels of the plan.
+    /// The rows in the range `rows`, with the channels of the plan.
     ///
     /// # Errors
     /// [`EvaluateError`] if one of them cannot be read.
@@ -64,7 +64,7 @@ fn accumulate_block(
     Ok(evaluator)
 }
 
-/// Truth and predictions that lie in memory, column by column, and the rest of the same rows in the table of their dataset.
+/// Truth and predictions in memory, column by column; the other fields of the same rows are in the table of their dataset.
 ///
 /// # Shapes
 /// A column a channel of the plan, all as long as `rows`.
@@ -77,7 +77,7 @@ pub struct Columns<'a> {
     pub dataset: &'a Dataset,
     /// The numbers of the rows in it.
     pub rows: &'a [usize],
-    /// The group of every row of the recording, where intervals are by groups.
+    /// The group of every row of the recording, if intervals are by groups.
     pub groups: Option<&'a [String]>,
 }
 
@@ -105,7 +105,7 @@ impl Rows for Columns<'_> {
             batch = batch.with_recordings(recordings::labels(self.dataset, of_table()));
         }
         if let (ClusteredBy::Group, Some(groups)) = (plan.clustered_by(), self.groups) {
-            // By the recording too, so that blocks of several shards are different ones.
+            // Labelled by the recording too, so that blocks of several shards stay distinct.
             let recording = self.dataset.digest().to_string();
             let mut labels = Labels::default();
             of_table().for_each(|row| labels.push(&format!("{recording} {}", groups[row])));

@@ -1,4 +1,4 @@
-//! The one way from scores to a report, with what it is about and where it comes from.
+//! Builds a report from scores, with its subject and its provenance.
 
 use taceva_metrics::{Evaluation, Evaluator};
 use taceva_results::{
@@ -13,49 +13,49 @@ use crate::state_file::StateFile;
 
 /// Rows that were scored.
 pub enum ScoredRows {
-    /// Accumulators, whose state can be joined with that of other rows.
+    /// Accumulators, whose state can be merged with that of other rows.
     Accumulated {
         /// The accumulators.
         evaluator: Box<Evaluator>,
-        /// The rows that they took.
+        /// The rows that they counted.
         taken: Vec<Taken>,
     },
-    /// A finished evaluation of several groups of rows, of which no state is kept.
+    /// A finished evaluation of several groups of rows; no state is kept.
     Finished(Box<Evaluation>),
 }
 
-/// What a report says beside its scores.
+/// Parts of a report besides its scores.
 pub struct Context {
     /// The sensor.
     pub subject: Subject,
     /// The inputs and settings.
     pub provenance: Provenance,
-    /// What a reader must know, in order; `provenance` has what states said before.
+    /// Notes for the reader, in order; `provenance` has those that earlier states made.
     pub notes: Vec<Note>,
-    /// Whether a model was fitted on some of the rows, beyond what `provenance` says.
+    /// True if a model was fitted on some of the rows, beyond what `provenance` says.
     pub is_seen: bool,
-    /// True if tested samples have neighbours, which resemble them, that the model was fitted on.
+    /// True if the model was fitted on neighbours of tested samples that resemble them.
     pub are_neighbours_learnt: bool,
-    /// The fit behind the predictions, of which states say nothing.
+    /// The fit behind the predictions; states do not record it.
     pub fit: FitFacts,
-    /// The scores of each recording alone, where several were joined.
+    /// The scores of each recording alone, if several were joined.
     pub by_recording: Vec<RecordingScores>,
     /// The scores of other seeds of the training.
     pub over_seeds: Option<OverSeeds>,
-    /// The samples, where one call has them all.
+    /// The samples, if one call has them all.
     pub samples: Option<Samples>,
 }
 
-/// What only the call that made a report knows.
+/// Facts of a fit that only the call that made the report knows.
 #[derive(Clone, Debug, Default)]
 pub struct FitFacts {
-    /// Frames that were learnt from.
+    /// Frames that the fit read.
     pub frames_decoded: u64,
-    /// What a reader must know, behind everything else.
+    /// Notes for the reader, placed after all others.
     pub notes: Vec<Note>,
 }
 
-/// A report, and the state behind it where one can be kept.
+/// A report, and its state if one can be kept.
 pub struct Assessed {
     /// The report.
     pub report: EvaluationReport,

@@ -1,17 +1,17 @@
-//! How many predictions lie beyond the bounds of a model: counts that add up over parts and shards.
+//! Shares of predictions beyond the bounds of a model: counts that add up over parts and shards.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// Predictions beyond the bounds of their model, and all of them, by channel; a channel without bounds is absent.
+/// Numbers of predictions beyond the bounds and of all predictions, by channel; a channel without bounds is absent.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Bounded {
     counts: BTreeMap<String, Counts>,
 }
 
-/// How many predictions there are, and how many of them lie beyond the bounds.
+/// Number of predictions, and of those beyond the bounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Counts {
@@ -20,7 +20,7 @@ struct Counts {
 }
 
 impl Bounded {
-    /// Adds predictions of `channel`: whether each lies beyond the bounds.
+    /// Adds predictions of `channel`; each item is true if the prediction lies beyond the bounds.
     pub fn add(&mut self, channel: &str, beyond: impl Iterator<Item = bool>) {
         let counts = self.counts.entry(channel.to_owned()).or_default();
         for is_beyond in beyond {
@@ -29,7 +29,7 @@ impl Bounded {
         }
     }
 
-    /// Both together.
+    /// The sum of both counts.
     pub fn joined(mut self, other: &Bounded) -> Bounded {
         for (channel, counts) in &other.counts {
             let own = self.counts.entry(channel.clone()).or_default();
@@ -39,7 +39,7 @@ impl Bounded {
         self
     }
 
-    /// Whether no channel has bounds.
+    /// True if no channel has bounds.
     pub fn is_empty(&self) -> bool {
         self.counts.is_empty()
     }

@@ -1,4 +1,4 @@
-//! Finished stages of runs, each kept under the digest of everything that it was made from.
+//! Finished stages of runs, each stored under the digest of all its inputs.
 //!
 //! ```text
 //! FOLDER/2/acquire/<key>      a line a folder of a run that holds the closed recording, the last one first
@@ -8,7 +8,7 @@
 //!         /partial/           what is being written; it is renamed when it is whole, and left if the run is stopped
 //! ```
 //!
-//! Scores are no stage: they are formed from kept numbers in less time than it takes to look them up safely.
+//! Scores are no stage: computing them from stored numbers takes less time than a safe look-up.
 
 mod features;
 mod inventory;
@@ -37,26 +37,26 @@ pub use study::StudyCache;
 pub use tree::remove;
 pub use value::Kept;
 
-/// How entries are laid out; another layout is another folder, so that no version reads what it cannot know.
+/// Version of the layout of entries. Each version has its own folder, so that no version reads entries of another.
 const LAYOUT: &str = "2";
-/// Where entries are written before they are whole.
+/// Folder for entries that are still being written.
 const PARTIAL: &str = "partial";
-/// No run takes longer to write a result.
+/// Age at which a partial entry is abandoned: no run takes longer to write a result.
 const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
-/// A folder in which runs find what others have finished, and what was found there by one run.
+/// A folder in which runs find the results of others, and the results that this run found there.
 ///
-/// A cache never stops a run: where it cannot be read or written, stages are carried out again and [`notes`](Cache::notes) say why. Any number of
-/// runs may share one, because an entry appears whole and under a name that only equal entries have.
+/// A cache never stops a run: if it cannot be read or written, stages are computed again and [`notes`](Cache::notes) say why. Any number of
+/// runs may share one, because an entry appears complete and only equal entries share a name.
 #[derive(Debug)]
 pub struct Cache {
     folder: PathBuf,
     models: String,
-    /// Whether many tasks at once take features of the same recordings.
+    /// True if many tasks at once take features of the same recordings.
     is_of_many: bool,
     /// Features of whole recordings, for the folds of one call.
     memory: Option<features::Memory>,
-    /// True if anything is kept in the folder.
+    /// True if entries are stored in the folder.
     is_on_disk: bool,
     written: AtomicU64,
     notes: Mutex<BTreeSet<String>>,
@@ -64,9 +64,9 @@ pub struct Cache {
 }
 
 impl Cache {
-    /// The cache in `folder`, which is made when the first stage is kept.
+    /// The cache in `folder`, which is created when the first stage is stored.
     ///
-    /// `models` says what the simulated drivers of the program are models of, with version and parameters: what other models recorded is
+    /// `models` names the models behind the simulated drivers of the program, with version and parameters. Recordings of other models are
     /// not found.
     pub fn new(folder: PathBuf, models: String) -> Cache {
         Cache {
@@ -81,9 +81,9 @@ impl Cache {
         }
     }
 
-    /// The same for many tasks at once, in this process and in others that share the folder: features are made of whole recordings, whichever rows
-    /// a task learns from, and by one of the tasks that need them, while the others wait for it. Each frame is decoded once for each kind of
-    /// features then, if what it takes is kept at all.
+    /// Shares this cache among many tasks, in this process and in others that use the folder. Features are computed for whole recordings,
+    /// whichever rows a task learns from. One task computes them while the others wait, so each frame is decoded once for each kind of
+    /// features, if the cache keeps them.
     #[must_use]
     pub fn of_many(self) -> Cache {
         Cache {
@@ -92,7 +92,7 @@ impl Cache {
         }
     }
 
-    /// A cache for the folds of one call: features are made of whole recordings, once, and stay in memory; behind it stands the folder of `outer`.
+    /// A cache for the folds of one call: features of whole recordings stay in memory, backed by the folder of `outer`.
     pub(crate) fn of_folds(outer: Option<&Cache>) -> Cache {
         let folder = outer.map_or_else(PathBuf::new, |outer| outer.folder.clone());
         let models = outer.map_or_else(String::new, |outer| outer.models.clone());
@@ -104,7 +104,7 @@ impl Cache {
         }
     }
 
-    /// Whether features are made of whole recordings.
+    /// True if features are computed for whole recordings.
     pub fn is_of_many(&self) -> bool {
         self.is_of_many
     }
@@ -114,7 +114,7 @@ impl Cache {
         &self.folder
     }
 
-    /// What the user should know: a folder that cannot be written, entries that were damaged.
+    /// Messages for the user: a folder that cannot be written, entries that were damaged.
     pub fn notes(&self) -> Vec<String> {
         let notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
         notes.iter().cloned().collect()
@@ -128,7 +128,7 @@ impl Cache {
         records.into_iter().map(|(_, record)| record).collect()
     }
 
-    /// The models behind the simulated drivers, as [`Cache::new`] was told.
+    /// The models behind the simulated drivers, as given to [`Cache::new`].
     pub fn models(&self) -> &str {
         &self.models
     }
@@ -143,20 +143,20 @@ impl Cache {
         records.push((study, record));
     }
 
-    /// Where the entry of `key` is.
+    /// The path of the entry of `key`.
     fn entry(&self, key: &Key) -> PathBuf {
         let folder = self.folder.join(LAYOUT).join(key.stage().name());
         folder.join(key.digits())
     }
 
-    /// Where entries are written before they are whole.
+    /// The folder for entries that are still being written.
     fn partial(&self) -> PathBuf {
         self.folder.join(LAYOUT).join(PARTIAL)
     }
 
-    /// Writes an entry by `write` beside its place and renames it, unless another run was faster.
+    /// Writes an entry by `write` to a temporary path and renames it, unless another run was faster.
     ///
-    /// `write` makes a file or a folder and refuses one that is there.
+    /// `write` creates a file or a folder and fails if the path exists.
     fn put(&self, key: &Key, write: impl Fn(&Path) -> io::Result<()>) {
         let entry = self.entry(key);
         if let Err(error) = self.try_put(&entry, write)
@@ -195,12 +195,12 @@ impl Cache {
             let number = self.written.fetch_add(1, Ordering::Relaxed);
             let beside = partial.join(format!("{}-{number}", std::process::id()));
             let written = match write(&beside) {
-                // Of a process with the same number that was stopped, or that runs on another machine.
+                // Left by a stopped process with the same number, or in use by one on another machine.
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
                 written => written.and_then(|()| fs::rename(&beside, entry)),
             };
             if written.is_err() {
-                // The error that counts is the one that is returned.
+                // The first error is returned, not that of the clean-up.
                 drop(remove(&beside));
             }
             return written;
@@ -211,7 +211,7 @@ impl Cache {
         self.note(format!("{} cannot be used: {error}", shown(entry)));
     }
 
-    /// Removes a damaged entry; its stage is carried out again.
+    /// Removes a damaged entry; its stage is computed again.
     fn discard(&self, key: &Key, problem: &str) {
         let entry = self.entry(key);
         let removed = remove(&entry);

@@ -1,4 +1,4 @@
-//! Whether a model that says how sure it is says it rightly.
+//! Calibration of a model that predicts its own standard deviations.
 
 use std::num::NonZeroUsize;
 
@@ -12,8 +12,8 @@ use crate::error::EvaluateError;
 use crate::note::{Coverage, Note};
 use crate::predict::Predicted;
 
-/// What part of `predicted`, the rows `rows` of `dataset`, lies within 1.96 of its own standard deviations of the truth, channel by channel
-/// with an interval by contact point; `None` of a model that does not know how sure it is.
+/// Share of `predicted`, the rows `rows` of `dataset`, within 1.96 predicted standard deviations of the truth, by channel, with an interval
+/// by contact point. `None` if the model predicts no standard deviation.
 ///
 /// Only rows pressed in the same light as the training data count: a model states nothing about others.
 pub fn calibration(
@@ -49,7 +49,7 @@ pub fn calibration(
         hits.push(own);
         zeros.push(zero);
     }
-    // A hit is 1 and a miss 0, so that the mean of what differs from 0 is the share of hits, and has the interval of any mean.
+    // A hit is 1 and a miss 0, so the mean difference from 0 is the share of hits, with the interval of any mean.
     let share = catalogue::find("mae").expect("it is in the catalogue");
     let available: FieldSet = dataset.table().fields().with(Field::Prediction);
     let plan = MetricPlan::new(&[share], predicted.channels().clone(), available);

@@ -1,4 +1,4 @@
-//! A recording of a run: its plan, beside it, says which presses a model is fitted on.
+//! Rows that the plan beside a recording of a run gives to the fit.
 
 use std::fs;
 use std::path::Path;
@@ -14,11 +14,11 @@ use crate::run_layout::{PLANS, RECORDINGS};
 pub(crate) const NOTE: &str =
     "divided among the calibration presses of the run, as its plan does; all others are left out";
 
-/// The rows that a run divides, and the seed that it divides them by.
+/// The rows that a run divides, and the seed of the division.
 pub(crate) struct PlannedRows {
     /// Ascending.
     pub(crate) rows: Vec<usize>,
-    /// That of the scene.
+    /// The seed of the scene.
     pub(crate) seed: u64,
 }
 
@@ -42,7 +42,7 @@ struct Press {
 }
 
 impl PlannedRows {
-    /// The rows of `dataset` that its run divides; `None` where it is no recording of a run, or its plan divides nothing.
+    /// The rows of `dataset` that its run divides; `None` if it is no recording of a run, or its plan divides nothing.
     ///
     /// # Errors
     /// [`EvaluateError::RunFolder`] if the plan beside it cannot be read.
@@ -53,7 +53,7 @@ impl PlannedRows {
         }
     }
 
-    /// The same of joined recordings: of those without a plan every row is divided.
+    /// The rows of joined recordings; every row of a recording without a plan is divided.
     fn of_joined(joined: &[JoinedRecording]) -> Result<Option<PlannedRows>, EvaluateError> {
         let mut all = PlannedRows {
             rows: Vec::new(),
@@ -112,7 +112,7 @@ impl PlannedRows {
     }
 }
 
-/// The plans of the run in whose folder of recordings `path` lies, and the number of its study, counted from 1.
+/// The plans of the run whose folder of recordings contains `path`, and the number of its study, counted from 1.
 fn plans_of(path: &Path) -> Option<(std::path::PathBuf, usize)> {
     let recordings = path
         .parent()

@@ -1,9 +1,9 @@
-//! Who is at a piece of work that several processes may come to, on one machine or on several that share a folder.
+//! Exclusive claims on work that several processes may start, on one machine or on several that share a folder.
 //!
-//! A claim is a file that is made exclusively. It works where a file system has neither `flock` nor `fcntl` locks, as network file systems
-//! may: only exclusive creation and renaming are asked of it. Its owner counts in it for as long as it lives; whoever waits sees by a clock
-//! of its own whether that number still changes, so that no two clocks are ever compared. An owner that ended on the same machine is known
-//! by its process. A claim that is lost to another costs work done twice and nothing else: the work gives the same bytes whoever does it.
+//! A claim is a file that is created exclusively. This needs neither `flock` nor `fcntl` locks, which network file systems may lack: only
+//! exclusive creation and renaming. While the owner lives, it writes a counter into the file. A waiting process checks with its own clock
+//! whether the counter still changes, so no two clocks are compared. An owner that ended on the same machine is detected by its process. A
+//! lost claim costs duplicate work and nothing else: the result has the same bytes in any process.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -13,12 +13,12 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// How often an owner counts.
+/// Interval between two counts of an owner.
 const COUNTS_EVERY: Duration = Duration::from_secs(2);
-/// After that long without a count an owner is taken for dead.
+/// Time without a count after which an owner is considered dead.
 const DEAD_AFTER: Duration = Duration::from_secs(30);
 
-/// A claim that is held; it is given back when it is dropped.
+/// A held claim, released on drop.
 #[derive(Debug)]
 pub struct Claim {
     path: PathBuf,
@@ -27,7 +27,7 @@ pub struct Claim {
     counting: Option<JoinHandle<()>>,
 }
 
-/// What is seen of somebody else's claim, from the first look on.
+/// Observation of a claim that another process holds, since the first look.
 #[derive(Debug)]
 pub struct Watch {
     path: PathBuf,
@@ -35,7 +35,7 @@ pub struct Watch {
     since: Instant,
 }
 
-/// A name that no other thread, process or machine gives at any time.
+/// A name that is unique among threads, processes and machines at all times.
 pub fn unique_name() -> String {
     static NEXT: AtomicU64 = AtomicU64::new(0);
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
@@ -43,7 +43,7 @@ pub fn unique_name() -> String {
 }
 
 impl Claim {
-    /// The claim at `path`, unless somebody has it.
+    /// The claim at `path`; `None` if another owner holds it.
     ///
     /// # Errors
     /// Those of the file system.
@@ -57,7 +57,7 @@ impl Claim {
         file.write_all(line(&owner, 0).as_bytes())?;
         let (stop, stopped) = channel();
         let own = owner.clone();
-        // By the open file and not by its name, which somebody else may have by now.
+        // Writes to the open file and not by name, because the name may belong to another owner by now.
         let counting = std::thread::Builder::new().spawn(move || {
             let mut count = 0;
             while stopped.recv_timeout(COUNTS_EVERY) == Err(RecvTimeoutError::Timeout) {
@@ -82,18 +82,18 @@ impl Drop for Claim {
     fn drop(&mut self) {
         drop(self.stop.take());
         if let Some(counting) = self.counting.take() {
-            // A panic of that thread says no more than that the claim was not renewed.
+            // A panic of that thread means only that the claim was not renewed.
             drop(counting.join());
         }
         if read(&self.path).is_ok_and(|text| owner_of(&text) == self.owner) {
-            // A claim that stays behind is known to be dead.
+            // A claim that remains is detected as dead.
             drop(fs::remove_file(&self.path));
         }
     }
 }
 
 impl Watch {
-    /// Begins to look at the claim at `path`.
+    /// Starts to observe the claim at `path`.
     pub fn new(path: &Path) -> Watch {
         Watch {
             path: path.to_owned(),
@@ -102,7 +102,8 @@ impl Watch {
         }
     }
 
-    /// Whether the owner is dead: it ended on this machine, or has not counted for long. The claim is out of the way then, once, whoever asks.
+    /// Removes the claim if its owner is dead: it ended on this machine, or has not counted for long. Of several observers one removes it.
+    /// True if this call removed it, or if the claim no longer exists.
     ///
     /// # Errors
     /// Those of the file system.
@@ -124,7 +125,7 @@ impl Watch {
         if !ended_here(&owner) && self.since.elapsed() < dead_after {
             return Ok(false);
         }
-        // Of those who see it dead one alone moves it, or each would move the claim of the one before.
+        // Only one observer moves the dead claim; a second would move the claim that replaced it.
         let mark = self.path.with_file_name(format!(
             ".{}.{}.dead",
             self.path.file_name().unwrap_or_default().to_string_lossy(),
@@ -136,7 +137,7 @@ impl Watch {
         let marked = File::options().write(true).create_new(true).open(&mark);
         match marked {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                // Who marked it may have ended before it moved it.
+                // The process that made the mark may have ended before the rename.
                 if self.since.elapsed() >= 3 * dead_after {
                     drop(fs::remove_file(&mark));
                 }
@@ -183,7 +184,7 @@ fn process_name() -> String {
     name.clone()
 }
 
-/// This machine since it was started, and the namespace of its processes, in digits and letters.
+/// The boot of this machine and the namespace of its processes, in digits and letters.
 fn machine() -> String {
     let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
     let space = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
@@ -191,15 +192,15 @@ fn machine() -> String {
     words.chars().filter(char::is_ascii_alphanumeric).collect()
 }
 
-/// When a process was started, in ticks since the machine was.
+/// Start time of a process, in ticks since the machine booted.
 fn start_of(process: u32) -> Option<String> {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // The name, which may hold anything, ends with the last bracket; the start is the twentieth word behind it.
+    // The name may contain anything, so it ends at the last bracket; the start is the twentieth word after it.
     let (_, rest) = text.rsplit_once(')')?;
     rest.split_whitespace().nth(19).map(str::to_owned)
 }
 
-/// Whether `owner` was a process of this machine that is no more.
+/// True if `owner` was a process of this machine that has ended.
 fn ended_here(owner: &str) -> bool {
     let mut parts = owner.split('-');
     let (Some(of), Some(process), Some(start)) = (parts.next(), parts.next(), parts.next()) else {

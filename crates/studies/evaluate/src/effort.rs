@@ -1,4 +1,4 @@
-//! What fitting and evaluating are going to read and to keep, known before either begins.
+//! Amount that fitting and evaluating will read and store, known before either begins.
 
 use taceva_dataset::Dataset;
 use taceva_models::FeatureSpec;
@@ -10,20 +10,20 @@ use crate::fit::{FitPlan, FitRequest};
 use crate::predict::Target;
 use crate::rows::DataPart;
 
-/// Bytes of a feature that is kept.
+/// Bytes of a stored feature.
 const FEATURE_BYTES: u64 = 4;
 
-/// Pictures that are read, and what is kept of them where there is a cache.
+/// Pictures to read, and bytes to store of them if there is a cache.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Effort {
-    /// The rows whose frames are decoded, those of each part behind each other.
+    /// The rows whose frames are decoded, part after part.
     pub rows: Vec<usize>,
-    /// What is kept of features at most, in bytes; where features are to be chosen, each trial keeps its own beside it.
+    /// Upper limit of the features stored, bytes. If features are to be chosen, each trial stores its own as well.
     pub kept_bytes: u64,
 }
 
 impl Effort {
-    /// Of [`fit`](crate::fit).
+    /// The effort of [`fit`](crate::fit).
     ///
     /// # Errors
     /// [`EvaluateError`] if the request is not valid.
@@ -34,7 +34,7 @@ impl Effort {
         Effort::of_fold(dataset, folds.first(request)?, None)
     }
 
-    /// Of [`evaluate`](crate::evaluate).
+    /// The effort of [`evaluate`](crate::evaluate).
     ///
     /// # Errors
     /// [`EvaluateError`] if the request is not valid.
@@ -46,7 +46,7 @@ impl Effort {
             ModelChoice::Fit(fit) => {
                 if let Some(folds) = folds::of(dataset, fit, request.part)? {
                     folds.refuse_part(request)?;
-                    // The parts of each fold are all samples, whose features are made once.
+                    // The parts of each fold are all samples, whose features are computed once.
                     return Effort::of_fold(dataset, folds.first(fit)?, None);
                 }
                 Effort::of_fold(dataset, FitPlan::new(dataset, fit)?, request.part)
@@ -59,7 +59,7 @@ impl Effort {
         }
     }
 
-    /// Of one fit, and of the predictions of a part with what it gives.
+    /// The effort of one fit, and of predicting a part with its model.
     fn of_fold(
         dataset: &Dataset,
         plan: FitPlan<'_>,
@@ -87,7 +87,7 @@ impl Effort {
         let bytes = rows.len() as u64 * spec.shape().len() as u64 * FEATURE_BYTES;
         Effort {
             rows,
-            // More than that is not kept.
+            // Larger sets are not stored.
             kept_bytes: if bytes > ONE_MAX { 0 } else { bytes },
         }
     }

@@ -1,4 +1,4 @@
-//! Why nothing is evaluated.
+//! Errors of evaluation.
 
 use std::path::PathBuf;
 
@@ -8,11 +8,11 @@ use taceva_metrics::{MetricError, UnknownMetric};
 use taceva_models::{FeatureError, FormatError, SettingError, SplitError, UnknownModel};
 use taceva_tables::TableError;
 
-/// Why nothing is evaluated.
+/// Errors of evaluation.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EvaluateError {
-    /// The dataset or a table cannot be read as it should.
+    /// A dataset or a table that cannot be read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
     /// The model cannot be fitted, read or used.
@@ -24,7 +24,7 @@ pub enum EvaluateError {
     /// Features that cannot be taken from these frames.
     #[error(transparent)]
     Features(#[from] FeatureError),
-    /// A model that cannot be written down.
+    /// A model that cannot be written to a file.
     #[error(transparent)]
     ModelFormat(#[from] FormatError),
     /// A model that does not suit the dataset.
@@ -33,7 +33,7 @@ pub enum EvaluateError {
     /// A setting that no model or feature has.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// Samples cannot be divided as asked.
+    /// Samples that cannot be divided as requested.
     #[error(transparent)]
     Split(#[from] SplitError),
     /// A metric that does not exist.
@@ -42,7 +42,7 @@ pub enum EvaluateError {
     /// Samples that a metric cannot take.
     #[error("cannot score: {0}")]
     Scores(#[from] MetricError),
-    /// A recording that holds nothing.
+    /// A recording without samples.
     #[error("{}: no sample: the dataset has 0 rows", taceva_core::shown(path))]
     NoSamples {
         /// The dataset.
@@ -53,35 +53,35 @@ pub enum EvaluateError {
     Tables {
         /// The table that does not fit the other.
         path: PathBuf,
-        /// What does not fit, and what was expected.
+        /// The mismatch, and what was expected.
         problem: String,
     },
     /// A Parquet table of scores that cannot be read.
     #[error(transparent)]
     Parquet(#[from] TableError),
-    /// A state file that cannot be read, or not be joined with the others.
+    /// A state file that cannot be read or merged with the others.
     #[error("{}: {problem}", taceva_core::shown(path))]
     State {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it, and what was expected.
+        /// The fault, and what was expected.
         problem: String,
     },
-    /// A folder of a run that cannot be made, read or gone on with.
+    /// A folder of a run that cannot be created, read or resumed.
     #[error("{}: {problem}", taceva_core::shown(path))]
     RunFolder {
         /// The folder or a file in it.
         path: PathBuf,
-        /// What is wrong, and what was expected.
+        /// The fault, and what was expected.
         problem: String,
     },
-    /// Something was asked for that the dataset or the model does not have.
+    /// A request for something that the dataset or the model lacks.
     #[error("{0}")]
     Request(String),
 }
 
 impl EvaluateError {
-    /// What kind of failure it was, by the closed list that every part shares.
+    /// The kind of the error, from the closed list that all crates share.
     pub fn kind(&self) -> ErrorKind {
         match self {
             EvaluateError::Dataset(error) => error.kind(),
@@ -94,7 +94,7 @@ impl EvaluateError {
         }
     }
 
-    /// Whether what was typed is at fault, rather than what was read.
+    /// True if the user's input is at fault rather than the data that was read.
     pub fn is_usage(&self) -> bool {
         matches!(
             self,

@@ -1,11 +1,11 @@
-//! What is known of a sensor beside its samples, as metrics ask for it.
+//! Facts about a sensor besides its samples, as metrics need them.
 
 use taceva_dataset::{Dataset, FramesInfo, Known, SensorFile};
 use taceva_metrics::SensorFacts;
 
 use crate::error::EvaluateError;
 
-/// What the header of `dataset` says, or `file` where it says more.
+/// The sensor facts of `file`, completed by those of the header of `dataset`.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] if the footprint of the header has lengths that no sensor has.

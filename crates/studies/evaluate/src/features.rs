@@ -1,4 +1,4 @@
-//! Frames or signals of a dataset, turned into features: one decoded frame a worker, only the features stay.
+//! Features of the frames or signals of a dataset: each worker holds one decoded frame, and only the features stay.
 
 mod model_input;
 mod table;
@@ -17,7 +17,7 @@ use crate::work::Work;
 pub(crate) use model_input::{Sight, kinds, recorded_frames};
 pub use table::{FeatureTable, feature_table};
 
-/// The extractor that `spec` asks for on the frames, or the signals, of `dataset`.
+/// The extractor for `spec` on the frames, or the signals, of `dataset`.
 pub fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, EvaluateError> {
     let sight = Sight::of(dataset, &spec)?;
     let sight = sight.map_err(|absent| {
@@ -26,11 +26,11 @@ pub fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, Eval
     Ok(Extractor::new(spec, sight.info(), sight.reference())?)
 }
 
-/// The features of `rows`, in that order: those that were kept of them, or made now. `extractor` gives the one of a recording, because each has
-/// frames, or signals, without contact of its own.
+/// The features of `rows`, in that order, from the cache or computed now. `extractor` returns the extractor of one recording, because each
+/// recording has its own frames, or signals, without contact.
 ///
-/// # Shapes
-/// `[rows, height, width, depth]`; memory is that of the features and a few frames a worker, and of joined recordings once more that of the
+/// `[rows, height, width, depth]`. Memory: the features and a few frames for each worker; for joined recordings also the features of the
+/// longest run of rows of one.
 /// longest run of rows of one.
 pub fn extract(
     dataset: &Dataset,
@@ -71,8 +71,8 @@ fn of_recording(
     }
 }
 
-/// The same from those of the whole recording, which other tasks need too; where these cannot be kept, or a frame that nobody asked for cannot
-/// be read, those of `rows` alone.
+/// The features of `rows`, taken from those of the whole recording, which other tasks need too. If those cannot be stored, or a frame
+/// outside `rows` cannot be read, only `rows` are computed.
 fn of_whole(
     recording: &Dataset,
     extractor: &Extractor,
@@ -124,7 +124,7 @@ fn make(
     let pass = Pass::new(rows, work.jobs, work.progress);
     match extractor.input() {
         InputInfo::Signals(_) => {
-            // One thread: what they would share is one file.
+            // One thread: several would share one file.
             let pass = Pass::new(rows, NonZeroUsize::MIN, work.progress);
             let read = |row| {
                 let signals = dataset.signals(row)?;
@@ -155,7 +155,7 @@ fn make(
     Ok(Features::new(shape, values)?)
 }
 
-/// Features that are all 0, for models that use none: no frame is read for them.
+/// Features that are all 0, for models that use none; reads no frame.
 pub fn blank(shape: FeatureShape, rows: usize) -> Result<Features, EvaluateError> {
     Ok(Features::new(shape, vec![0.0; rows * shape.len()])?)
 }

@@ -1,4 +1,4 @@
-//! The stage that fits: a dataset and a request in, a model out.
+//! The fit stage: a dataset and a request in, a model out.
 
 mod features;
 mod plan;
@@ -21,11 +21,11 @@ pub use request::Recipe;
 pub struct Fitted {
     /// The model.
     pub model: Model,
-    /// How the dataset was divided.
+    /// The division of the dataset.
     pub divided: Divided,
     /// The same as a record.
     pub manifest: SplitManifest,
-    /// Frames decoded for it.
+    /// Frames decoded for the fit.
     pub frames_decoded: u64,
     /// Samples of the training and validation parts that lack a label or a frame.
     pub left_out: usize,
@@ -33,7 +33,7 @@ pub struct Fitted {
 
 /// Fits a model on the training part of `dataset`.
 ///
-/// A long training keeps a checkpoint in `checkpoints` and resumes from it; models that are fitted in one go have none.
+/// A long training keeps a checkpoint in `checkpoints` and resumes from it; models fitted in one step have none.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid, the dataset cannot be read, or no model can be fitted to it.

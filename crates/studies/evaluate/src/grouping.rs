@@ -1,4 +1,4 @@
-//! Groups of samples that stay together in a division, and what a split looks at.
+//! Groups of samples that stay together in a division, and the columns that a split reads.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,10 +9,10 @@ use crate::neighbours::{Blocks, Resemblance};
 use crate::note::{Division, Neighbours, Note};
 use crate::recordings;
 
-/// Share of the tested samples with a neighbour that was learnt from, above which a division is marked.
+/// Share of tested samples with a learnt neighbour above which a division is marked.
 const SHARE_BESIDE: f64 = 0.1;
 
-/// Samples that stay together where nobody says how to divide.
+/// Samples that stay together by default.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Grouping {
     /// Samples of one contact point, of which some repeat.
@@ -21,7 +21,7 @@ pub(crate) enum Grouping {
     Column(String),
     /// Blocks of time.
     Blocks,
-    /// Single samples; whether it was found that they do not resemble their neighbours.
+    /// Single samples; `are_apart` is true if they were found not to resemble their neighbours.
     Samples { are_apart: bool },
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn has_repeats(dataset: &Dataset, rows: &[usize]) -> bool {
     points.is_some_and(|points| points.iter().collect::<BTreeSet<_>>().len() < points.len())
 }
 
-/// The columns that a split looks at, of some rows.
+/// The columns that a split reads, of some rows.
 pub(crate) struct SplitFields {
     points: Option<Vec<String>>,
     times_s: Option<Vec<f64>>,
@@ -83,7 +83,7 @@ pub(crate) struct SplitFields {
 }
 
 impl SplitFields {
-    /// The columns of `rows` of `dataset` that `kind` asks for.
+    /// The columns of `rows` of `dataset` that `kind` needs.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize], kind: &SplitKind) -> SplitFields {
         let table = dataset.table();
         let wanted = match kind {
@@ -96,7 +96,7 @@ impl SplitFields {
         };
         let column = wanted.and_then(|name| {
             let cells = table.as_text(name)?;
-            // A sample without the value is in no part: nobody can name the empty text.
+            // A sample without the value is in no part: no request can name the empty text.
             let filled = rows
                 .iter()
                 .map(|&row| cells[row].clone().unwrap_or_default());
@@ -140,7 +140,7 @@ impl SplitFields {
         }
     }
 
-    /// The note on neighbours among `rows` that `splits`, by positions among them, keep together or separate.
+    /// The note on neighbours among `rows` that `splits` keep together or separate; `splits` hold positions among `rows`.
     pub(crate) fn neighbours(
         &self,
         dataset: &Dataset,
@@ -185,7 +185,7 @@ impl SplitFields {
         Some(Note::Neighbours { found, division })
     }
 
-    /// True if each of `rows` is a point of its own: nobody names points, chance divides samples, and neighbours do not resemble each other.
+    /// True if each of `rows` is its own point: points are not named, the division is random, and neighbours do not resemble each other.
     pub(crate) fn are_independent(
         &self,
         dataset: &Dataset,
@@ -207,7 +207,7 @@ impl SplitFields {
             && Resemblance::of(dataset, rows) == Resemblance::Apart
     }
 
-    /// The group of every row of `dataset` by which intervals are formed, where the division makes such groups.
+    /// The group of every row of `dataset` for intervals, if the division makes such groups.
     pub(crate) fn groups_of_rows(
         &self,
         dataset: &Dataset,
@@ -228,7 +228,7 @@ impl SplitFields {
     }
 }
 
-/// Counts the tested samples of `split` that have a neighbour in the training or validation part.
+/// Counts the tested samples of `split` with a neighbour in the training or validation part.
 fn beside_learnt(dataset: &Dataset, rows: &[usize], split: &Split) -> usize {
     let mut parts = vec![None; rows.len()];
     for part in Part::ALL {
@@ -246,7 +246,7 @@ fn beside_learnt(dataset: &Dataset, rows: &[usize], split: &Split) -> usize {
     split.test.iter().filter(|&&row| beside[row]).count()
 }
 
-/// The texts of `rows`, if each has one.
+/// The texts of `rows`; `None` if any is missing.
 fn all_texts(column: &[Option<String>], rows: &[usize]) -> Option<Vec<String>> {
     rows.iter().map(|&row| column[row].clone()).collect()
 }

@@ -62,7 +62,7 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
         let ReadState { file, digest } = StateFile::read_whole(path)?;
         take_rows(path, &digest, &file.taken)?;
         take(path, &file)?;
-        // Models that were fitted on other samples have no common constant: skill is measured by the mean of truth there.
+        // Models fitted on different samples share no constant, so skill is measured against the mean of truth.
         constants.retain(|channel, constant| {
             let other = file.plan.constants.get(channel);
             other.is_some_and(|other| other.to_bits() == constant.to_bits())
@@ -77,7 +77,7 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
     finished.merge(evaluator)?;
     let is_of_shards = all_taken.is_of_shards_of_one_input();
     let taken = all_taken.into_taken();
-    // All shards of one input are that input, and one state is itself: nothing else is to be said of them.
+    // All shards of one input equal that input, and one state equals itself: neither needs a note.
     let (mut notes, mut of_report) = (Vec::new(), Vec::new());
     match (
         is_of_shards || rest.is_empty(),

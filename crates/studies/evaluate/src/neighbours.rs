@@ -1,4 +1,4 @@
-//! Neighbouring samples that resemble each other, found in the labels and their order: what a division at random would leak.
+//! Neighbouring samples that resemble each other, found from labels and their order: a random division would leak them.
 
 mod blocks;
 mod sequence;
@@ -11,20 +11,20 @@ use crate::note::Neighbours;
 pub(crate) use blocks::Blocks;
 use sequence::Sequence;
 
-/// Resemblance of neighbours from which on they are kept together.
+/// Resemblance from which neighbours are kept together.
 const LEAST: f64 = 0.3;
-/// Standard deviations of the resemblance of independent samples, which is about 1/√pairs, that it must exceed.
+/// Multiple of the standard deviation of the resemblance of independent samples, about 1/√pairs, that it must exceed.
 const DEVIATIONS: f64 = 3.5;
-/// Fewest pairs of neighbours by which anything is decided.
+/// Minimum pairs of neighbours for any decision.
 const PAIRS_LEAST: usize = 20;
-/// Groups from which on a column is preferred to blocks of time.
+/// Number of groups from which a column is preferred to blocks of time.
 const GROUPS_LEAST: usize = 5;
-/// Names of columns whose values are groups, in the order in which they are preferred.
+/// Names of columns whose values are groups, in order of preference.
 const GROUP_NAMES: [&str; 10] = [
     "clip", "video", "episode", "take", "trial", "press", "repeat", "session", "run", "object",
 ];
 
-/// Resemblance of neighbouring samples by the labels of a recording.
+/// Resemblance of neighbouring samples, from the labels of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Resemblance {
     /// Neighbours resemble each other.
@@ -58,7 +58,7 @@ pub(crate) fn pairs(dataset: &Dataset, rows: &[usize]) -> Vec<[usize; 2]> {
     Sequence::of(dataset, rows).pairs(1).collect()
 }
 
-/// The channel whose neighbours resemble each other most, its ranks, and how much; `None` where no channel shows it.
+/// The channel whose neighbours resemble each other most, its ranks and the resemblance; `None` if no channel shows any.
 fn most_alike(
     dataset: &Dataset,
     rows: &[usize],
@@ -85,13 +85,13 @@ fn most_alike(
     most
 }
 
-/// The resemblance that independent samples do not reach in so many pairs.
+/// Least resemblance that independent samples do not reach in that many pairs.
 fn least(pairs: usize) -> f64 {
     LEAST.max(DEVIATIONS / (pairs as f64).sqrt())
 }
 
-/// One minus the mean squared difference of pairs of ranks, over that of ranks that do not depend on each other; `None` of ranks that are all the
-/// same.
+/// One minus the mean squared difference of pairs of ranks, over that of independent ranks, with the number of pairs; `None` if all ranks
+/// are equal.
 fn resemblance(pairs: impl Iterator<Item = [f64; 2]>) -> Option<(f64, usize)> {
     let (mut count, mut apart, mut sum, mut squares) = (0_usize, 0.0, 0.0, 0.0);
     for [one, other] in pairs {
@@ -105,7 +105,7 @@ fn resemblance(pairs: impl Iterator<Item = [f64; 2]>) -> Option<(f64, usize)> {
     (variance > 1e-12).then(|| (1.0 - apart / count as f64 / (2.0 * variance), count))
 }
 
-/// The rank of each label from 0 to 1, equal labels with the mean of theirs: no outlier decides.
+/// The rank of each label, 0 to 1, so that outliers have no weight. Equal labels share their mean rank.
 fn ranks(labels: &[Option<f64>]) -> Vec<Option<f64>> {
     let mut order: Vec<(f64, usize)> = labels
         .iter()
@@ -126,8 +126,8 @@ fn ranks(labels: &[Option<f64>]) -> Vec<Option<f64>> {
     ranks
 }
 
-/// The column whose values are groups of neighbours: each stands in a row, there are several, and the last of one does not resemble the first of the
-/// next.
+/// The column whose values are groups of neighbours: several groups of consecutive rows, where the last sample of one does not resemble the
+/// first of the next.
 fn group_column(
     dataset: &Dataset,
     rows: &[usize],
@@ -157,7 +157,7 @@ fn group_column(
     found.first().map(|(_, _, name)| (*name).to_owned())
 }
 
-/// The number of groups that `values` make, if they are such.
+/// The number of groups among `values`; `None` if they form none.
 fn groups_in_rows(values: &[&str], sequence: &Sequence, ranks: &[Option<f64>]) -> Option<usize> {
     let mut sizes: BTreeMap<&str, usize> = BTreeMap::new();
     values
@@ -255,7 +255,7 @@ mod tests {
             groups_in_rows(&turns, &sequence, &ranks(&independent)),
             None
         );
-        // Thirty short pieces of one slow walk: the end of each is the beginning of the next.
+        // Thirty short pieces of one slow walk: each piece ends where the next begins.
         let pieces: Vec<String> = (0..900).map(|row| format!("clip {}", row / 30)).collect();
         let pieces: Vec<&str> = pieces.iter().map(String::as_str).collect();
         let walk: Vec<Option<f64>> = walk(900).into_iter().map(Some).collect();

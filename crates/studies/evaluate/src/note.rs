@@ -1,4 +1,4 @@
-//! What a reader of scores must know of the samples and the model behind them: data here, sentences in a report.
+//! Notes on the samples and the model behind scores: data here, sentences in a report.
 
 mod division;
 
@@ -9,10 +9,10 @@ use taceva_dataset::{Extension, FramesInfo};
 
 pub use division::{Division, Independence, Neighbours, SampleOrder};
 
-/// Below so many recordings an interval by them states how few they are: Student's t has too few degrees of freedom to be narrow.
+/// Number of recordings below which an interval by recording states that number: Student's t has too few degrees of freedom to be narrow.
 const CLUSTERS_MANY: usize = 10;
 
-/// One thing that a reader of scores must know; the sentence of it is its `Display`.
+/// One note for a reader of scores; `Display` gives its sentence.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
@@ -25,49 +25,49 @@ pub enum Note {
         /// The division that follows from it.
         division: Division,
     },
-    /// Samples that are taken as independent, each as a point of its own.
+    /// Samples treated as independent, each as a point of its own.
     Independent(Independence),
-    /// The clusters of intervals, where recordings were joined.
+    /// The clusters of intervals, if recordings were joined.
     Clusters {
         /// Recordings with scored rows.
         recordings: usize,
         /// Contact points within them.
         points: usize,
-        /// Recordings that intervals by them take.
+        /// Minimum recordings for intervals by recording.
         least: usize,
     },
     /// Too few contact points for any interval.
     FewPoints(usize),
     /// Rows that were added to a recording later.
     Extended {
-        /// The recording, where several were joined.
+        /// The recording, if several were joined.
         recording: Option<String>,
         /// Rows that were added.
         added: u64,
-        /// The rows before, the day and the folder.
+        /// Rows before, day and folder of the extension.
         extension: Extension,
     },
-    /// Frames that are not as the camera gave them.
+    /// Frames that differ from what the camera gave.
     Reduced {
-        /// The recording, where several were joined.
+        /// The recording, if several were joined.
         recording: Option<String>,
-        /// The frames as they were kept.
+        /// The frames as stored.
         frames: FramesInfo,
     },
-    /// The view by which frames are seen, of a recording whose samples have several pictures.
+    /// The view used, in a recording whose samples have several pictures.
     View {
-        /// The recording, where several were joined.
+        /// The recording, if several were joined.
         recording: Option<String>,
         /// The view: `left`, or `left+right` side by side.
         view: String,
         /// All views, in words.
         of: String,
     },
-    /// A warning of the import that made a recording, or what it took from labels.
+    /// A warning of the import of a recording, or what the import took from labels.
     Imported {
-        /// The recording, where several were joined.
+        /// The recording, if several were joined.
         recording: Option<String>,
-        /// The words of the import.
+        /// The message of the import.
         words: String,
     },
     /// Angles between predicted and true rotations.
@@ -78,23 +78,23 @@ pub enum Note {
         samples: usize,
         /// Mean angle, degrees.
         mean: f64,
-        /// Angle that 95 % of the samples stay below, degrees.
+        /// 95th percentile of the angle, degrees.
         most: f64,
     },
     /// A scored part that the model was fitted on.
     Seen(&'static str),
-    /// A model that was fitted on other data, with their digest.
+    /// A model fitted on other data, with the digest of that data.
     FittedElsewhere(String),
-    /// Pictures of the test part that are fitted on too.
+    /// Pictures of the test part that the model was also fitted on.
     Copies {
-        /// Such pictures.
+        /// Number of such pictures.
         copies: usize,
-        /// Scored rows.
+        /// Number of scored rows.
         of: usize,
     },
     /// A model that was fitted before rows were added.
     FittedBefore {
-        /// Rows at that time.
+        /// Rows at the time of the fit.
         rows: u64,
         /// Rows now.
         now: u64,
@@ -110,14 +110,14 @@ pub enum Note {
     Bounded(Vec<(String, f64)>),
     /// Shares of samples within 1.96 predicted standard deviations, by channel.
     Calibration(Vec<Coverage>),
-    /// A choice that a person left open, in the words of the model's card.
+    /// A setting that the user left open, in the words of the model's card.
     Chosen {
-        /// The recording that the fold leaves out, where there are folds.
+        /// The recording that the fold leaves out, if there are folds.
         fold: Option<String>,
         /// The choice.
         choice: String,
     },
-    /// Metrics of the truth alone, which read every row.
+    /// Metrics of the truth alone, which use every row.
     EveryRow {
         /// Their ids.
         metrics: Vec<&'static str>,
@@ -126,17 +126,17 @@ pub enum Note {
     },
     /// A model that a caller holds.
     CallersModel(Learning),
-    /// Predictions of such a model that were scored as they came.
+    /// Predictions of such a model that were scored unclipped.
     Unbounded,
-    /// States that were joined.
+    /// Number of merged states.
     States(usize),
-    /// Rows of an input, of which some are in no joined shard.
+    /// Rows of an input, some of which are in no merged shard.
     Shards([usize; 2]),
     /// The shard of two tables that was scored.
     Shard {
-        /// Its number among all.
+        /// Number of the shard and of all shards.
         shard: String,
-        /// Its first row and the row behind its last one.
+        /// First row, and the row after the last.
         rows: [u64; 2],
         /// Rows of the tables.
         of: u64,
@@ -145,21 +145,21 @@ pub enum Note {
     Paired(PairedBy),
     /// Tables of truth and predictions with the same bytes.
     SameBytes,
-    /// Something that a plan left out.
+    /// Something that a plan leaves out.
     NotPlanned {
         /// The thing.
         what: String,
         /// The reason.
         reason: String,
     },
-    /// Planned samples that were not taken.
+    /// Planned samples that were not recorded.
     Untaken {
         /// Their number.
         count: usize,
         /// Planned samples.
         of: usize,
     },
-    /// The unit that was measured, where metrics between units felt others too.
+    /// The unit of the sensor that was measured, if metrics between units used others too.
     MeasuredUnit {
         /// The serial number of the unit.
         unit: String,
@@ -168,22 +168,22 @@ pub enum Note {
         /// The serial numbers of all units.
         of: Vec<String>,
     },
-    /// The noise of untouched frames as a force, which is no detection limit.
+    /// The noise of untouched frames as a force, which is not a detection limit.
     DetectionLimit,
     /// The way in which spacings of gratings were predicted.
     Spacings(&'static str),
     /// The sessions on a real rig in which a recording was made.
     Sessions(String),
-    /// Frames that were taken again.
+    /// Frames that were recorded again.
     FramesRetried(u64),
 }
 
-/// The way in which rows of truth and predictions find each other; its `Display` ends the sentence "rows were paired".
+/// Pairing of the rows of truth and predictions; its `Display` ends the sentence "rows were paired".
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PairedBy {
-    /// The first row with the first, because no key stands in both tables.
+    /// The first row with the first, because the tables share no key.
     Order,
-    /// The first row with the first, by the word of the caller.
+    /// The first row with the first, as the caller requested.
     ChosenOrder,
     /// The rows with the same label in the index of a data frame.
     Index,
@@ -196,25 +196,25 @@ pub enum PairedBy {
     },
 }
 
-/// What is known of the learning of a model that a caller holds.
+/// Training data of a model that a caller holds, as far as known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Learning {
-    /// On the training part, here.
+    /// The training part, in this call.
     Here,
-    /// On the training part, by the word of the caller.
+    /// The training part, as the caller states.
     Stated,
-    /// On unknown samples.
+    /// Unknown samples.
     Unknown,
 }
 
-/// The share of samples of a channel whose truth lies within 1.96 predicted standard deviations.
+/// Share of the samples of a channel whose truth lies within 1.96 predicted standard deviations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coverage {
     /// The channel.
     pub channel: String,
     /// The share, in percent.
     pub percent: f64,
-    /// Its 95 % interval by contact point, in percent.
+    /// 95 % interval of the share by contact point, in percent.
     pub interval: Option<[f64; 2]>,
     /// Samples.
     pub n: u64,
@@ -431,7 +431,7 @@ impl fmt::Display for Coverage {
     }
 }
 
-/// The name of a recording before what is said of it alone.
+/// The name of a recording, as the prefix of a note on it.
 fn of(recording: &Option<String>) -> String {
     recording
         .as_ref()

@@ -40,7 +40,7 @@ fn range(metric: &str, known: &[f64]) -> [f64; 2] {
     match metric {
         "r2" | "skill" => [f64::MIN, 1.0],
         "sr" | "tolerance" => [0.0, 1.0],
-        // Of what is never below zero, as errors are; a bias is.
+        // Metrics that are never negative, such as errors; a bias may be.
         _ if known.iter().all(|value| *value >= 0.0) => [0.0, f64::MAX],
         _ => [f64::MIN, f64::MAX],
     }

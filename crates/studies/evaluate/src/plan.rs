@@ -1,24 +1,24 @@
-//! What would be done, before anything is: the answer to `--explain`.
+//! Steps of an evaluation before it runs: the output of `--explain`.
 
 use std::fmt;
 
 use taceva_core::Skipped;
 
-/// What an evaluation would read, decode, fit and skip.
+/// Steps that an evaluation would read, decode, fit and skip.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
-    /// What would be done, in order.
+    /// The steps, in order.
     pub steps: Vec<Step>,
-    /// What would not, and why.
+    /// Skipped things, with reasons.
     pub skipped: Vec<Skipped>,
 }
 
-/// One thing that would be done.
+/// One step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Step {
     /// `read`, `decode`, `fit`, `predict`, `score`, `write`.
     pub verb: &'static str,
-    /// What, with its numbers.
+    /// The object of the verb, with its numbers.
     pub what: String,
 }
 

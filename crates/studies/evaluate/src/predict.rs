@@ -1,4 +1,4 @@
-//! The stage that predicts.
+//! The prediction stage.
 
 mod csv_tables;
 mod predictions;
@@ -18,7 +18,7 @@ pub use predictions::Predicted;
 pub use predictor::Predictor;
 pub use target::Target;
 
-/// Predicts a part of `dataset`; by default what the model has not seen: the test part of its own dataset, all of another.
+/// Predicts a part of `dataset`; by default the unseen data: the test part of the model's own dataset, or all of another.
 ///
 /// # Errors
 /// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
@@ -32,7 +32,7 @@ pub fn predict(
     predict_target(dataset, model, &target, work)
 }
 
-/// Predictions of `model` for the rows of `target`, within the bounds of the model and as it gives them.
+/// Predictions of `model` for the rows of `target`, both within the bounds of the model and unclipped.
 ///
 /// # Errors
 /// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
@@ -46,10 +46,10 @@ pub fn predict_target(
     predicted_table(dataset, Predictor::of(model), target, &numbers)
 }
 
-/// Predictions of `model` for the rows of `target`, not clipped to its bounds, and standard deviations where the model gives them.
+/// Unclipped predictions of `model` for the rows of `target`, with standard deviations if the model gives them.
 ///
 /// # Shapes
-/// `[rows, channels]`, row after row; behind it standard deviations in the same order, or nothing.
+/// `[rows, channels]`, row after row; then standard deviations in the same order, or nothing.
 pub fn predicted_numbers(
     dataset: &Dataset,
     model: &Model,
@@ -84,7 +84,7 @@ pub fn model_extractor(
     Ok(model.extractor(sight.info(), sight.reference())?)
 }
 
-/// The numbers of whatever predicted with the labels of the same rows.
+/// Combines predicted numbers with the labels of the same rows.
 pub fn predicted_table(
     dataset: &Dataset,
     predictor: Predictor,
@@ -148,14 +148,14 @@ fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<St
             rows.iter().map(|&row| texts[row].clone()).collect(),
         ))
     };
-    // Points have a column of their own.
+    // Points have their own column.
     let others = BESIDE_CHANNELS
         .into_iter()
         .filter(|field| *field != Field::Point);
     others.filter_map(column).collect()
 }
 
-/// The truth of `rows`; a channel that the dataset does not have is absent in every row.
+/// The truth of `rows`; a channel that the dataset lacks is absent in every row.
 pub fn truth(
     dataset: &Dataset,
     channel: &Channel,

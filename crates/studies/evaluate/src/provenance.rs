@@ -1,4 +1,4 @@
-//! Provenance of results: inputs and settings, enough to make them again.
+//! Provenance of results: inputs and settings, enough to reproduce them.
 
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ pub fn of(dataset: &Dataset) -> Provenance {
     provenance
 }
 
-/// Adds what the header of a recording says of how it came to be; its file is called by `folder` first.
+/// Adds the origin of a recording from its header; the names of its files begin with `folder`.
 fn add_recording(provenance: &mut Provenance, dataset: &Dataset, folder: &str) {
     let header = dataset.header();
     if !header.presses.is_empty() {
@@ -42,7 +42,7 @@ fn add_recording(provenance: &mut Provenance, dataset: &Dataset, folder: &str) {
         .extend(edits.map(|edit| format!("{folder}dataset.toml, {edit}")));
 }
 
-/// Whether the model was fitted on some of the samples that were scored, so that its skill on others stays unknown.
+/// True if the model was fitted on some of the scored samples, so that its skill on others is unknown.
 pub(crate) fn is_of_seen_samples(provenance: &Provenance) -> bool {
     let is_test = |part: &str| part == DataPart::Test.name();
     let part = provenance.part.as_deref();
@@ -84,7 +84,7 @@ pub fn model(model: &Model) -> Result<ModelProvenance, EvaluateError> {
     })
 }
 
-/// The choices that a person left open.
+/// The settings that the user left open.
 pub fn choices(model: &Model) -> impl Iterator<Item = Note> {
     let card = model.card();
     let features = card.feature_choice.as_ref().map(ToString::to_string);

@@ -1,4 +1,4 @@
-//! Several recordings taken as one: which row is of which, what a model has seen of them, and how intervals treat them.
+//! Several recordings joined as one: the recording of each row, the rows that a model has seen, and intervals across recordings.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::row_ledger::Taken;
 
-/// The fewest recordings with scored samples by which intervals are formed; fewer clusters give no interval.
+/// Minimum recordings with scored samples for intervals; fewer clusters give no interval.
 pub(crate) const CLUSTERS_LEAST: usize = 5;
 
-/// The recordings that `dataset` was joined of; none of a single one.
+/// The recordings that `dataset` was joined from; empty for a single one.
 pub(crate) fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
     let joined = dataset.recordings().iter();
     joined
@@ -27,7 +27,7 @@ pub(crate) fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
         .collect()
 }
 
-/// Where the recordings lie: all that were joined, or the one.
+/// The paths of the recordings: all that were joined, or the one.
 pub(crate) fn paths(dataset: &Dataset) -> Vec<PathBuf> {
     match dataset.recordings() {
         [] => vec![dataset.path().to_owned()],
@@ -38,14 +38,14 @@ pub(crate) fn paths(dataset: &Dataset) -> Vec<PathBuf> {
     }
 }
 
-/// The name of the recording of each of `rows`, where several were joined.
+/// The name of the recording of each of `rows`; `None` if none were joined.
 pub(crate) fn names(dataset: &Dataset, rows: &[usize]) -> Option<Vec<String>> {
     let joined = dataset.recordings();
     let name = |row: &usize| joined[at(dataset, *row)].name().to_owned();
     (!joined.is_empty()).then(|| rows.iter().map(name).collect())
 }
 
-/// The digest of the recording of each of `rows`: labels by which intervals are formed, the same in every shard whatever folders are called.
+/// The digest of the recording of each of `rows`: labels for intervals, the same in every shard whatever the names of folders.
 pub(crate) fn labels(dataset: &Dataset, rows: impl Iterator<Item = usize>) -> Labels {
     let joined = dataset.recordings();
     let digests = joined.iter().map(|own| own.dataset().digest().to_string());
@@ -55,13 +55,13 @@ pub(crate) fn labels(dataset: &Dataset, rows: impl Iterator<Item = usize>) -> La
     labels
 }
 
-/// Which of the joined recordings `row` is of.
+/// The index of the joined recording that contains `row`.
 fn at(dataset: &Dataset, row: usize) -> usize {
     let joined = dataset.recordings();
     joined.partition_point(|own| own.rows().end <= row)
 }
 
-/// The positions among `rows`, which ascend, at which a recording begins or rows that were added later, but for the first.
+/// The positions among the ascending `rows` at which a recording begins or added rows begin, except the first.
 pub(crate) fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
     let mut starts = BTreeSet::new();
     let mut add = |recording: &Dataset, first: usize| {
@@ -85,7 +85,7 @@ pub(crate) fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
     positions.into_iter().collect()
 }
 
-/// `rows` in runs of one recording, each with that recording and its own numbers of the rows, in their order.
+/// Splits `rows` into runs of one recording, each with that recording and the row numbers in it, in order.
 pub(crate) fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset, Vec<usize>)> {
     if dataset.recordings().is_empty() {
         return vec![(dataset, rows.to_vec())];
@@ -100,8 +100,8 @@ pub(crate) fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset
     chunks.map(run).collect()
 }
 
-/// What was taken of `rows`, by the digest under which each row first stood in its recording: a row that was added later stands under that of
-/// the extended one, all before under that of before.
+/// The rows of `rows` under the digest of the stage of the recording that first contained them: added rows under that of the extended
+/// recording, earlier ones under the digest before.
 pub(crate) fn taken(dataset: &Dataset, rows: &[usize]) -> Vec<Taken> {
     let mut taken = Vec::new();
     for (recording, own) in runs(dataset, rows) {
@@ -140,7 +140,7 @@ pub(crate) fn extended(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, of)
 }
 
-/// Warnings of the imports that made the recordings, and what these took from labels.
+/// Warnings of the imports that made the recordings, and what the imports took from labels.
 pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let header = recording.header();
@@ -157,7 +157,7 @@ pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
-/// Recordings whose frames are not as the camera gave them.
+/// Recordings whose frames differ from what the camera gave.
 pub fn reduced(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let frames = recording.header().frames.as_ref();
@@ -170,7 +170,7 @@ pub fn reduced(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
-/// The view by which frames are seen, of recordings whose samples have several pictures.
+/// The view used, for recordings whose samples have several pictures.
 pub(crate) fn viewed(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let note = recording.view().map(|view| Note::View {
@@ -195,10 +195,10 @@ fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, Option<&str>) -> Vec<Note>) 
     }
 }
 
-/// Whether `model` was fitted on `dataset`: on each of its recordings, or on what that was before rows were added to it.
+/// True if `model` was fitted on `dataset`: on each of its recordings, or on a recording before rows were added to it.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] if it was fitted on some of them and not on others, because nobody could say what it has not seen.
+/// [`EvaluateError::Request`] if it was fitted on only some of them, because the unseen samples are then unknown.
 pub(crate) fn is_fitted_on(model: &Model, dataset: &Dataset) -> Result<bool, EvaluateError> {
     let provenance = &model.card().provenance;
     let fitted_on: Vec<&str> = match &provenance.recordings[..] {
@@ -232,7 +232,7 @@ pub(crate) fn is_fitted_on(model: &Model, dataset: &Dataset) -> Result<bool, Eva
     }
 }
 
-/// By what intervals are formed, of the scored rows of joined recordings.
+/// The clusters of intervals, for the scored rows of joined recordings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Clusters {
     recordings: usize,
@@ -240,7 +240,7 @@ pub(crate) struct Clusters {
 }
 
 impl Clusters {
-    /// Of `rows`; `None` where no recordings were joined.
+    /// The clusters of `rows`; `None` if no recordings were joined.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Option<Clusters> {
         if dataset.recordings().is_empty() {
             return None;
@@ -257,7 +257,7 @@ impl Clusters {
         })
     }
 
-    /// Whether there are enough recordings for intervals by them.
+    /// True if there are enough recordings for intervals by recording.
     pub(crate) fn are_recordings(self) -> bool {
         self.recordings >= CLUSTERS_LEAST
     }

@@ -1,4 +1,4 @@
-//! Which rows a state has taken, so that none is taken twice.
+//! Rows that a state has counted, so that none is counted twice.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -11,15 +11,15 @@ use serde::{Deserialize, Serialize};
 pub struct Taken {
     /// The digest of the recording, or of both tables.
     input: String,
-    /// From which row to before which, counted from 0, in order.
+    /// Ranges of rows, counted from 0, end exclusive, in order.
     rows: Vec<[usize; 2]>,
-    /// How many rows the input has, where these are some of several shards of it.
+    /// Number of rows of the input, if these are shards of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     of: Option<usize>,
 }
 
 impl Taken {
-    /// The given rows of an input.
+    /// Records the given rows of an input.
     pub(crate) fn rows_of(input: String, rows: &[usize]) -> Taken {
         let mut sorted = rows.to_vec();
         sorted.sort_unstable();
@@ -37,7 +37,7 @@ impl Taken {
         }
     }
 
-    /// All rows of an input.
+    /// Records all rows of an input.
     pub(crate) fn all_of(input: String, rows: usize) -> Taken {
         Taken {
             input,
@@ -46,7 +46,7 @@ impl Taken {
         }
     }
 
-    /// Some rows of an input of so many; those of a shard, which may be none.
+    /// Records some rows of an input with `of` rows, as a shard, which may be empty.
     pub(crate) fn part_of(input: String, rows: Range<usize>, of: usize) -> Taken {
         let ranges = match rows.is_empty() {
             true => Vec::new(),
@@ -60,18 +60,18 @@ impl Taken {
         .whole_or_not()
     }
 
-    /// Whether these are rows of a shard.
+    /// True if these are rows of a shard.
     pub(crate) fn is_of_shard(&self) -> bool {
         self.of.is_some()
     }
 
-    /// Of shards of one input: how many rows they have, and how many there are.
+    /// For shards of one input: the rows they have, and the rows of the input.
     pub(crate) fn share(&self) -> Option<[usize; 2]> {
         let own = self.rows.iter().map(|[begin, end]| end - begin).sum();
         Some([own, self.of?])
     }
 
-    /// All rows of an input are no shard.
+    /// Drops the total if all rows are there: all rows of an input are no shard.
     fn whole_or_not(mut self) -> Taken {
         if let ([[0, end]], Some(of)) = (self.rows.as_slice(), self.of)
             && *end == of
@@ -81,7 +81,7 @@ impl Taken {
         self
     }
 
-    /// The rows of another shard of the same input, as well.
+    /// Adds the rows of another shard of the same input.
     fn join(&mut self, other: &Taken) {
         let mut ranges = self.rows.clone();
         ranges.extend(&other.rows);
@@ -95,7 +95,7 @@ impl Taken {
         }
     }
 
-    /// The first row that both have taken, and how many.
+    /// The first row that both have counted, and the number of such rows.
     fn shared(&self, other: &Taken) -> Option<(usize, usize)> {
         if self.input != other.input {
             return None;
@@ -118,7 +118,7 @@ impl Taken {
     }
 }
 
-/// All that several states have taken, each with the file that it is in.
+/// Rows that several states have counted, each with its file.
 #[derive(Debug, Default)]
 pub(crate) struct AllTaken {
     taken: Vec<(PathBuf, Taken)>,
@@ -126,9 +126,9 @@ pub(crate) struct AllTaken {
 }
 
 impl AllTaken {
-    /// Adds what the state in the file at `path`, of this digest, has taken; or says in words what was taken before.
+    /// Adds the rows of the state in the file at `path` with this digest; returns a message if some were counted before.
     pub(crate) fn add(&mut self, path: &Path, digest: &str, taken: &[Taken]) -> Result<(), String> {
-        // Shards without a row are equal, and nothing in them counts twice.
+        // Shards without rows are equal, and counting one twice changes nothing.
         let is_empty = !taken.is_empty() && taken.iter().all(|taken| taken.rows.is_empty());
         let known = self.states.iter().find(|(_, known)| known == digest);
         if let Some((before, _)) = known.filter(|_| !is_empty) {
@@ -154,7 +154,7 @@ impl AllTaken {
         Ok(())
     }
 
-    /// Whether all states are of shards of one input.
+    /// True if all states are of shards of one input.
     pub(crate) fn is_of_shards_of_one_input(&self) -> bool {
         let mut taken = self.taken.iter().map(|(_, taken)| taken);
         let first = taken.next();
@@ -164,7 +164,7 @@ impl AllTaken {
         })
     }
 
-    /// What was taken, inputs in the order in which they came, shards of one input together.
+    /// The rows counted: inputs in the order of arrival, shards of one input merged.
     pub(crate) fn into_taken(self) -> Vec<Taken> {
         let mut all: Vec<Taken> = Vec::new();
         for (_, taken) in self.taken {

@@ -1,4 +1,4 @@
-//! A dataset as a split sees it, and the rows that can take part.
+//! A dataset as a split sees it, and its usable rows.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::grouping::{Grouping, SplitFields};
 use crate::note::Note;
 use crate::recordings::is_fitted_on;
 
-/// What a table of samples says beside channels, in its order.
+/// Columns of a table of samples besides channels, in order.
 pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
     Field::Point,
     Field::UnitId,
@@ -28,14 +28,14 @@ pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
     Field::Intensity,
 ];
 
-/// The part of a dataset that is looked at.
+/// A part of a dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataPart {
-    /// What a model was fitted on.
+    /// The samples a model was fitted on.
     Train,
-    /// What its settings were chosen on.
+    /// The samples its settings were chosen on.
     Validation,
-    /// What it has not seen.
+    /// The samples it has not seen.
     Test,
     /// Every sample.
     All,
@@ -53,30 +53,30 @@ impl DataPart {
     }
 }
 
-/// A dataset divided into parts, and how it was divided.
+/// A dataset divided into parts, with the method of division.
 #[derive(Clone, Debug)]
 pub struct Divided {
-    /// How.
+    /// The method.
     pub spec: SplitSpec,
     /// The seed.
     pub seed: u64,
-    /// Which rows went where.
+    /// The part of each row.
     pub split: Split,
     /// The note on neighbouring samples.
     pub neighbours: Option<Note>,
-    /// The group of every row of the dataset, where intervals are by groups; empty of a row in none.
+    /// The group of every row of the dataset, if intervals are by groups; the empty text for a row in none.
     pub groups: Option<Vec<String>>,
-    /// True if no sample repeats a contact point, and neighbours do not resemble each other, so that each is a point of its own.
+    /// True if no sample repeats a contact point and neighbours do not resemble each other, so that each sample is a point of its own.
     pub are_independent: bool,
 }
 
 impl Divided {
-    /// How `dataset` is divided for `model`, which was fitted on it, or on what it was before rows were added; `None` if it was fitted on another.
-    /// Whatever `model` has seen is in the training and validation parts.
+    /// The division of `dataset` for `model`, which was fitted on it, or on it before rows were added. All samples that `model` has seen
+    /// are in the training and validation parts. `None` if it was fitted on another dataset.
     ///
     /// # Errors
-    /// [`EvaluateError::Split`] as of [`Divided::new`]; [`EvaluateError::Request`] if a plan divided it that is not beside it, or if some of the
-    /// recordings are among those that `model` was fitted on and others are not.
+    /// [`EvaluateError::Split`] as of [`Divided::new`]; [`EvaluateError::Request`] if the plan that divided it is missing, or if `model`
+    /// was fitted on only some of the recordings.
     pub fn by_model(dataset: &Dataset, model: &Model) -> Result<Option<Divided>, EvaluateError> {
         let provenance = &model.card().provenance;
         let is_own = is_fitted_on(model, dataset)?;
@@ -98,18 +98,18 @@ impl Divided {
         divided.map(Some)
     }
 
-    /// Divides `dataset` as `text` says, or by point where points have repeats; else by groups or blocks of time where neighbours resemble each
-    /// other, else at random. Of joined recordings each is divided as it would
-    /// be alone, and rows that were added later change the part of none before.
+    /// Divides `dataset` as `text` says. The default is by point where points have repeats, else by groups or blocks of time where
+    /// neighbours resemble each other, else at random. Each of several joined recordings is divided as it would be alone, and added rows do
+    /// not change the part of earlier rows.
     ///
     /// # Errors
-    /// [`EvaluateError::Split`] if the text means no split, or the table lacks what it needs.
+    /// [`EvaluateError::Split`] if the text is not a split, or the table lacks a column that the split needs.
     pub fn new(dataset: &Dataset, text: Option<&str>, seed: u64) -> Result<Divided, EvaluateError> {
         Divided::within(dataset, &dataset.all_rows(), text, seed)
     }
 
-    /// Divides `dataset` as `text` says; a recording of a run as its plan does, which divides the presses that teach a model, by the seed of
-    /// its scene where nobody says how.
+    /// Divides `dataset` as `text` says. By default a recording of a run is divided as its plan says: the presses for the fit, with the
+    /// seed of its scene.
     ///
     /// # Errors
     /// As [`new`](Divided::new), and [`EvaluateError::RunFolder`] if the plan of the run cannot be read.
@@ -127,7 +127,7 @@ impl Divided {
         Ok(divided)
     }
 
-    /// Divides `rows` of `dataset`, which ascend; all others are in no part.
+    /// Divides the ascending `rows` of `dataset`; all others are in no part.
     ///
     /// # Errors
     /// As [`new`](Divided::new).
@@ -147,7 +147,7 @@ impl Divided {
         Divided::by_spec(dataset, rows, spec, seed)
     }
 
-    /// Divides `rows` of `dataset` as [`within`](Divided::within) does where nothing is said, into parts of these sizes.
+    /// Divides `rows` of `dataset` as [`within`](Divided::within) does by default, into parts of these sizes.
     ///
     /// # Errors
     /// As [`new`](Divided::new).
@@ -210,10 +210,10 @@ impl Divided {
         }
     }
 
-    /// Refuses a division that keeps nothing to test on.
+    /// Rejects a division without test samples.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`], saying what can be scored instead.
+    /// [`EvaluateError::Request`], which names the alternatives.
     pub fn require_test(&self) -> Result<(), EvaluateError> {
         if self.spec.kind != SplitKind::All {
             return Ok(());
@@ -227,7 +227,7 @@ impl Divided {
     /// The parts by the names of their samples.
     ///
     /// # Errors
-    /// [`EvaluateError::Split`] if `table` is not the one that was divided.
+    /// [`EvaluateError::Split`] if `table` is not the divided one.
     pub fn manifest(&self, table: &Table) -> Result<SplitManifest, EvaluateError> {
         Ok(SplitManifest::new(
             &self.spec,
@@ -237,7 +237,7 @@ impl Divided {
         )?)
     }
 
-    /// Samples a part, for provenance.
+    /// Number of samples by part, for provenance.
     pub fn counts(&self) -> BTreeMap<String, usize> {
         let parts = [DataPart::Train, DataPart::Validation, DataPart::Test]
             .map(|part| (part.name().to_owned(), self.rows(part).len()));
@@ -247,7 +247,7 @@ impl Divided {
     }
 }
 
-/// Refuses a dataset without a sample.
+/// Rejects a dataset without samples.
 ///
 /// # Errors
 /// [`EvaluateError::NoSamples`].
@@ -260,7 +260,7 @@ pub fn require_samples(dataset: &Dataset) -> Result<(), EvaluateError> {
     }
 }
 
-/// Of `channels`, those that a sample with a frame carries; all of them where there is none.
+/// The channels among `channels` that a sample with a frame has; all of them if no sample does.
 pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels {
     let table = dataset.table();
     let is_seen = |channel: &&Channel| {
@@ -278,10 +278,10 @@ pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels 
     Channels::new(seen).expect("some of distinct channels are distinct")
 }
 
-/// The channels called `names`, or all of the dataset.
+/// The channels called `names`, or all channels of the dataset.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] for a name that the dataset has not, or if there is no channel at all.
+/// [`EvaluateError::Request`] for a name that the dataset lacks, or if there is no channel at all.
 pub(crate) fn chosen_channels(
     dataset: &Dataset,
     names: &[String],
@@ -311,7 +311,7 @@ pub(crate) fn chosen_channels(
     Ok(chosen)
 }
 
-/// Of `rows`, those that have a frame where one is needed, and a value of each of `channels` where `labelled`.
+/// The rows among `rows` that meet `need`.
 pub fn usable(dataset: &Dataset, rows: &[usize], need: Need<'_>) -> Vec<usize> {
     let table = dataset.table();
     let positions: Vec<usize> = need
@@ -330,10 +330,10 @@ pub fn usable(dataset: &Dataset, rows: &[usize], need: Need<'_>) -> Vec<usize> {
     rows.iter().copied().filter(is_usable).collect()
 }
 
-/// What a row must have.
+/// Requirements on a row.
 pub struct Need<'a> {
     /// A frame.
     pub frame: bool,
-    /// A label of each of these.
+    /// Channels that must each have a label.
     pub labels: Option<&'a Channels>,
 }

@@ -34,7 +34,7 @@ pub fn of(dataset: &Dataset, rows: &[usize]) -> Result<Samples, EvaluateError> {
     Ok(samples)
 }
 
-/// The parts of the protocol that each of `rows` was pressed for: `calibration light-sweep`.
+/// The phases of the protocol that each of `rows` was pressed for: `calibration light-sweep`.
 pub fn protocol(rows: &[usize], parts: &BTreeMap<&'static str, Vec<usize>>) -> Vec<Option<String>> {
     let words = rows.iter().map(|row| {
         let of_row = parts
@@ -45,9 +45,9 @@ pub fn protocol(rows: &[usize], parts: &BTreeMap<&'static str, Vec<usize>>) -> V
     words.collect()
 }
 
-/// Adds predictions of `of_rows`, which are some of `rows`, to the samples of `rows`.
+/// Adds predictions of `of_rows`, a subset of `rows`, to the samples of `rows`.
 ///
-/// Where one was brought back to the bounds of the model, a second column has what the model gives: some metrics read that.
+/// If a prediction was clipped to the bounds of the model, a second column has the unclipped value, which some metrics read.
 pub fn add_predictions(
     samples: &mut Samples,
     rows: &[usize],

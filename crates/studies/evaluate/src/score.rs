@@ -1,4 +1,4 @@
-//! Someone else's predictions against the truth: two tables, no pictures, no model.
+//! Scores of predictions made elsewhere: two tables, no pictures, no model.
 
 mod agreement;
 mod fields;
@@ -53,11 +53,11 @@ pub use shard_scores::ScoreTables;
 pub struct Scored {
     /// The scores and where they come from.
     pub report: EvaluationReport,
-    /// What was kept, to be joined with that of other tables.
+    /// The state, to be merged with that of other tables.
     pub state: StateFile,
 }
 
-/// The two tables with what was understood of them.
+/// The two tables, parsed.
 #[derive(Debug)]
 pub struct Scoring {
     request: ScoreRequest,
@@ -75,7 +75,7 @@ struct ScorePlan {
     metrics: MetricPlan,
     /// The columns of fields.
     places: Vec<Place>,
-    /// What is known of the sensor.
+    /// The facts of the sensor.
     sensor: SensorFile,
     /// Columns that name rows.
     keys: RowKeys,
@@ -110,7 +110,7 @@ impl Scoring {
         })
     }
 
-    /// What [`run`](Scoring::run) would do.
+    /// The steps of [`run`](Scoring::run).
     pub fn plan(&self) -> Plan {
         let mut plan = Plan {
             skipped: self.plan.metrics.skipped().to_vec(),
@@ -141,7 +141,7 @@ impl Scoring {
         plan
     }
 
-    /// Scores.
+    /// Computes the scores.
     ///
     /// # Errors
     /// [`EvaluateError`] at the first cell that is no finite number, unless they are allowed.
@@ -152,7 +152,7 @@ impl Scoring {
         scored
     }
 
-    /// The pairs of truth and prediction one by one, called by the key of the truth or by their number; scoring never holds them all.
+    /// The pairs of truth and prediction one by one, named by the key of the truth or by their number; scoring never holds them all.
     ///
     /// # Errors
     /// As [`run`](Scoring::run).
@@ -248,15 +248,15 @@ fn planned(
 
 /// Notes on scored tables.
 struct Said {
-    /// True if the caller takes samples as independent.
+    /// True if the caller treats samples as independent.
     is_independent: bool,
-    /// The pairing of rows, which the state says too.
+    /// The pairing of rows, which the state records too.
     paired: PairedBy,
-    /// The shard, which the report alone says.
+    /// The shard, which only the report states.
     shard: Option<Note>,
 }
 
-/// The scores and the state of what `evaluator` has seen of the tables with these digests.
+/// The scores and the state of `evaluator` after the tables with these digests.
 fn finished(
     evaluator: Evaluator,
     sensor: &SensorFile,

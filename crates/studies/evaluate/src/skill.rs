@@ -1,8 +1,8 @@
-//! The skill of a model, which is asked for wherever predictions are scored: without it no score of theirs takes part in a verdict.
+//! The skill of a model, added wherever predictions are scored: without it no score takes part in a verdict.
 
 use taceva_metrics::{Metric, catalogue};
 
-/// `wanted`, and the skill score where one of them is formed from predictions.
+/// `wanted`, with the skill score added if one of the metrics uses predictions.
 pub fn with_skill(mut wanted: Vec<&'static Metric>) -> Vec<&'static Metric> {
     if wanted.iter().any(|metric| metric.reads_predictions()) {
         wanted.push(skill());

@@ -1,4 +1,4 @@
-//! What a shard has kept, as a file: written by one lab, merged by another, with the scores of one unsharded run.
+//! The state of a shard as a file: written by one lab, merged by another, with the scores of one unsharded run.
 
 mod plan;
 
@@ -21,7 +21,7 @@ use taceva_results::{Provenance, Subject};
 /// The schema of a state file.
 pub const STATE_SCHEMA: &str = "taceva.state/1.0";
 
-/// The largest state file that is read: far above what 64 clusters of every family take.
+/// Size limit of a state file that is read, bytes: far above what 64 clusters of every family take.
 const LARGEST: u64 = 1 << 30;
 
 /// The accumulators of a plan after some samples, with all that is needed to continue.
@@ -32,13 +32,13 @@ pub struct StateFile {
     pub(crate) subject: Subject,
     pub(crate) plan: WrittenPlan,
     pub(crate) provenance: Provenance,
-    /// Predictions beyond the bounds of their model, where there are any bounds.
+    /// Predictions beyond the bounds of their model, if there are bounds.
     #[serde(default, skip_serializing_if = "Bounded::is_empty")]
     pub(crate) bounded: Bounded,
-    /// Whether the model was fitted on some of the samples.
+    /// True if the model was fitted on some of the samples.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) seen: bool,
-    /// True if tested samples have neighbours in the training part that resemble them.
+    /// True if the training part has neighbours of tested samples that resemble them.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) neighbours: bool,
     pub(crate) states: Vec<State>,
@@ -50,7 +50,7 @@ pub struct StateFile {
     seal: Option<serde_json::Value>,
 }
 
-/// A state that was read, and the digest of what it says.
+/// A parsed state, and the digest of its content.
 pub(crate) struct ReadState {
     pub(crate) file: StateFile,
     pub(crate) digest: String,
@@ -60,7 +60,7 @@ impl StateFile {
     /// The state of `evaluator`.
     ///
     /// # Errors
-    /// [`EvaluateError::Scores`] for samples still collected that it cannot take.
+    /// [`EvaluateError::Scores`] for collected samples that it rejects.
     pub(crate) fn of(
         evaluator: &mut Evaluator,
         subject: &Subject,
@@ -82,11 +82,11 @@ impl StateFile {
         })
     }
 
-    /// The scores of `evaluator`, which has seen what is kept here: with the share of predictions beyond bounds, and whether the
-    /// model was fitted on the samples.
+    /// The scores of `evaluator` after the samples of this state, with the share of predictions beyond bounds, and marked if the model was
+    /// fitted on the samples.
     ///
     /// # Errors
-    /// [`EvaluateError::Scores`] for samples still collected that it cannot take.
+    /// [`EvaluateError::Scores`] for collected samples that it rejects.
     pub(crate) fn finish(&self, evaluator: Evaluator) -> Result<Evaluation, EvaluateError> {
         let evaluation = evaluator.finish()?;
         let evaluation = evaluation.with_bounded_shares(&self.bounded.shares());
@@ -100,12 +100,12 @@ impl StateFile {
         })
     }
 
-    /// The same, having taken these rows.
+    /// The same state with these rows counted.
     pub(crate) fn with_taken(self, taken: Vec<Taken>) -> StateFile {
         StateFile { taken, ..self }
     }
 
-    /// The same; if `is_seen`, of a model that was fitted on some of the samples.
+    /// The same state; `is_seen` marks a model that was fitted on some of the samples.
     pub(crate) fn with_seen(self, is_seen: bool) -> StateFile {
         StateFile {
             seen: self.seen || is_seen,
@@ -113,7 +113,7 @@ impl StateFile {
         }
     }
 
-    /// The same; if `are_learnt`, of samples whose neighbours, which resemble them, the model was fitted on.
+    /// The same state; `are_learnt` marks a model that was fitted on neighbours that resemble the samples.
     pub(crate) fn with_neighbours(self, are_learnt: bool) -> StateFile {
         StateFile {
             neighbours: self.neighbours || are_learnt,
@@ -121,7 +121,7 @@ impl StateFile {
         }
     }
 
-    /// Whether it took all rows of its inputs, and not some shards of them.
+    /// True if it counts all rows of its inputs, not only some shards.
     pub fn is_whole(&self) -> bool {
         !self.taken.iter().any(Taken::is_of_shard)
     }
@@ -129,7 +129,7 @@ impl StateFile {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// [`EvaluateError::State`] for what is no state file, one of a newer schema, or one that was changed after it was sealed.
+    /// [`EvaluateError::State`] for a file that is no state file, has a newer schema, or was changed after it was sealed.
     pub fn read(path: &Path) -> Result<StateFile, EvaluateError> {
         StateFile::read_whole(path).map(|read| read.file)
     }

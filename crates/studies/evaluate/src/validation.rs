@@ -1,4 +1,4 @@
-//! Fit that is validated: a model of every sample, with the scores of models that were fitted alike without some of them.
+//! Cross-validated fit: a model of every sample, with the scores of models fitted the same way without some of them.
 
 use taceva_dataset::Dataset;
 use taceva_models::{Checkpoints, ValidationCard, ValidationScore};
@@ -13,8 +13,8 @@ use crate::work::Work;
 /// Metrics that the card of a model states.
 const METRICS: [&str; 2] = ["mae", "r2"];
 
-/// Fits as [`fit`] does; where the split of `request` is a cross-validation, its models say how well samples are predicted that were not seen, and
-/// the final model is fitted on every sample and states that. Features are made once for all of them.
+/// Fits as [`fit`] does. If the split of `request` is a cross-validation, the models of the folds give scores on unseen samples. The final
+/// model is fitted on every sample and states those scores. Features are computed once for all of them.
 ///
 /// # Errors
 /// As of [`fit`] and [`evaluate`](crate::evaluate).
@@ -47,7 +47,7 @@ pub fn fit_validated(
     let fitted = fit(dataset, &of_all, checkpoints, work)?;
     Ok(Fitted {
         model: fitted.model.with_validation(card(&report)),
-        // Of the features that folds were fitted on, none is made anew.
+        // Features that folds were fitted on are not computed again.
         frames_decoded: fitted.frames_decoded.max(report.provenance.frames_decoded),
         ..fitted
     })

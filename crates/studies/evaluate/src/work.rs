@@ -13,6 +13,6 @@ pub struct Work<'a> {
     pub jobs: NonZeroUsize,
     /// Receives progress, and may cancel.
     pub progress: &'a dyn Progress,
-    /// Where features of frames are found and kept; nowhere if absent.
+    /// Cache for features of frames; `None` for no cache.
     pub cache: Option<&'a Cache>,
 }

@@ -1,4 +1,4 @@
-//! Run time against error: what `taceva bench` measures, as data.
+//! Run time against error: the measurements of `taceva bench`, as data.
 
 mod front;
 mod kernels;

@@ -16,7 +16,6 @@ pub(crate) enum SpacingClassifier {
     Spectrum,
     /// A model of the radial spectrum that predicts one of its training labels.
     Model(Box<ModelClassifier>),
-    /// A network.
     Network(Box<NetworkClassifier>),
 }
 
@@ -31,16 +30,16 @@ pub(crate) struct ModelClassifier {
 #[derive(Debug)]
 pub(crate) struct NetworkClassifier {
     pub(crate) estimator: NetworkEstimator,
-    /// Its features of a picture.
+    /// The features of a picture.
     pub(crate) features: FeatureSpec,
     pub(crate) output: SpacingOutput,
 }
 
 impl SpacingClassifier {
-    /// The classifier that `spec` asks for.
+    /// The classifier of `spec`.
     ///
     /// # Errors
-    /// [`EvaluateError`] for a setting that it does not take, or a model that is not among `models`.
+    /// [`EvaluateError`] for an unknown setting, or a model that is not among `models`.
     pub(crate) fn of(spec: &Gratings, models: &Models) -> Result<SpacingClassifier, EvaluateError> {
         let settings = settings_of(&spec.set.value)?;
         let output = match spec.classified_by.value {
@@ -70,7 +69,7 @@ impl SpacingClassifier {
         })))
     }
 
-    /// The cells of a frame that it looks at, along x and y, where it looks at some and not at the whole.
+    /// The cells of a frame that it reads, along x and y; `None` if it reads the whole frame.
     pub(crate) fn cells(&self) -> Option<[u32; 2]> {
         match self {
             SpacingClassifier::Network(network) => {
@@ -80,7 +79,7 @@ impl SpacingClassifier {
         }
     }
 
-    /// How spacings are predicted, for readers of the report.
+    /// Method of predicting spacings, for readers of the report.
     pub(crate) const fn note(&self) -> &'static str {
         match self {
             SpacingClassifier::Spectrum => {

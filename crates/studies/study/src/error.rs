@@ -1,4 +1,4 @@
-//! Why a study cannot be run.
+//! Errors of studies.
 
 use std::path::PathBuf;
 
@@ -6,28 +6,28 @@ use taceva_acquire::AcquireError;
 use taceva_core::ErrorKind;
 use taceva_evaluate::EvaluateError;
 
-/// Why a study cannot be run.
+/// Errors of studies.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// Nothing is acquired, or no more.
+    /// An error of acquisition.
     #[error(transparent)]
     Acquire(#[from] AcquireError),
-    /// Nothing is evaluated.
+    /// An error of evaluation.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
-    /// A folder of a run that cannot be made, read or gone on with.
+    /// A folder of a run that cannot be created, read or resumed.
     #[error("{}: {problem}", taceva_core::shown(path))]
     RunFolder {
         /// The folder or a file in it.
         path: PathBuf,
-        /// What is wrong, and what was expected.
+        /// The fault, and what was expected.
         problem: String,
     },
 }
 
 impl StudyError {
-    /// The kind of failure, by the closed list that every part shares.
+    /// The kind of the error, from the closed list that all crates share.
     pub fn kind(&self) -> ErrorKind {
         match self {
             StudyError::Acquire(error) => error.kind(),
@@ -36,12 +36,12 @@ impl StudyError {
         }
     }
 
-    /// Whether a device failed, rather than what was typed, read or written.
+    /// True if a device failed, rather than the user's input, a read or a write.
     pub fn is_of_device(&self) -> bool {
         matches!(self, StudyError::Acquire(error) if error.is_of_device())
     }
 
-    /// Whether the command line is at fault, rather than a file.
+    /// True if the command line is at fault, rather than a file.
     pub fn is_usage(&self) -> bool {
         match self {
             StudyError::Acquire(error) => error.is_usage(),

@@ -1,4 +1,4 @@
-//! The models that a scene asks for: those of its studies, and the classifier of gratings.
+//! The models of a scene: those of its studies, and the classifier of gratings.
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_evaluate::{EvaluateError, FitRequest, Recipe};
@@ -9,9 +9,9 @@ use crate::classifier::SpacingClassifier;
 use crate::error::StudyError;
 use crate::settings::settings_of;
 
-/// Refuses a model that is to be fitted and that this program does not have, or a setting that it does not take.
+/// Rejects a model to be fitted that this program lacks, or a setting that it does not accept.
 ///
-/// Apart from [`new`](PlannedScene::new), because a plan can be read where it cannot be run.
+/// Separate from [`new`](PlannedScene::new), because a plan can be read where it cannot be run.
 ///
 /// # Errors
 /// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line.
@@ -57,7 +57,7 @@ pub fn check_models(scene: &PlannedScene, models: &Models) -> Result<(), StudyEr
     Ok(())
 }
 
-/// Refuses frames that are kept smaller than what a model looks at, which would be found out after the last press.
+/// Rejects stored frames below the resolution that a model reads, before the first press rather than after the last.
 fn check_kept(
     scene: &PlannedScene,
     planned: &PlannedStudy,
@@ -87,7 +87,7 @@ fn check_kept(
 /// The classifier of the spacings of gratings.
 ///
 /// # Errors
-/// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line of settings that it does not take, or of a model that is not there.
+/// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line of an unknown setting or model.
 pub(crate) fn classifier(
     scene: &PlannedScene,
     models: &Models,
@@ -99,9 +99,9 @@ pub(crate) fn classifier(
     })
 }
 
-/// The fit that the scene asks for, if it asks for one; contact points are kept whole.
+/// The fit of the scene, if it has one; contact points are kept whole.
 ///
-/// `seed` is that of the scene, by which samples are divided; what a model draws it draws from a setting of its own.
+/// `seed` is that of the scene, for the division of samples. A model draws from a seed in its own settings.
 pub(crate) fn fit_request(
     planned: &PlannedStudy,
     seed: u64,

@@ -1,4 +1,4 @@
-//! A whole scene, end to end: acquire every study, then fit, predict and score it.
+//! A whole scene: acquire every study, then fit, predict and score it.
 
 mod folder;
 mod layout;
@@ -19,26 +19,26 @@ use crate::models::check_models;
 use crate::stage::{RunContext, assess};
 pub use folder::{Existing, RunFolder};
 
-/// The means of a run: the workshop that presses, models, a cache and threads.
+/// Resources of a run: the workshop that presses, models, a cache and threads.
 #[derive(Clone, Copy)]
 pub struct RunSetup<'a> {
-    /// The devices, and who looks on.
+    /// The devices, and the observers.
     pub workshop: Workshop<'a>,
     /// The models of the program.
     pub models: &'a Models,
-    /// The place where finished stages are found and kept, if anywhere.
+    /// The cache of finished stages, if any.
     pub cache: Option<&'a Cache>,
     /// Threads.
     pub jobs: NonZeroUsize,
 }
 
-/// The reports of the studies of `scene`, in order; what is acquired is recorded in `folder`, several studies at a time.
+/// The reports of the studies of `scene`, in order. Presses are recorded in `folder`, several studies at a time.
 ///
-/// Reports do not depend on `jobs`, nor on how often the run was interrupted and gone on with, nor on what was found in a cache.
+/// Reports depend neither on `jobs`, nor on interruptions and resumptions of the run, nor on the content of a cache.
 ///
 /// # Errors
-/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or somebody wished to stop: the same call with the same folder
-/// goes on. [`AcquireError::Scene`] for a model that this program does not have; others as [`evaluate`](taceva_evaluate::evaluate).
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or the run was cancelled: the same call with the same folder
+/// resumes it. [`AcquireError::Scene`] for a model that this program lacks; others as [`evaluate`](taceva_evaluate::evaluate).
 pub fn run_scene(
     scene: &PlannedScene,
     folder: &RunFolder,
@@ -49,7 +49,7 @@ pub fn run_scene(
     let work = Work {
         jobs: setup.jobs,
         progress: setup.workshop.progress,
-        // Beside models and predictions, so that another setting of the model decodes no frame again.
+        // Besides models and predictions, so that another setting of the model decodes no frame again.
         cache: setup.cache,
     };
     let studies = scene.studies.iter().zip(&datasets);
@@ -65,13 +65,12 @@ pub fn run_scene(
     assessed.collect()
 }
 
-/// The recordings of all studies of `scene` in `folder`, in order: acquired, gone on with or found there, as [`run_scene`] does before it fits and
-/// scores anything. Each worker takes the next study that nobody has taken; devices that are not simulated are there once, so that studies
-/// take turns on them.
+/// The recordings of all studies of `scene` in `folder`, in order: acquired, resumed or found there, as [`run_scene`] does before it fits
+/// and scores. Each worker takes the next free study. Real devices exist once, so that studies take turns on them.
 ///
 /// # Errors
-/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] as [`run_scene`]; [`AcquireError::Request`] for a scene that needs hands where nobody can
-/// be asked; [`AcquireError::Dataset`] if it cannot be recorded.
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] as [`run_scene`]; [`AcquireError::Request`] for a scene that needs an operator
+/// where none is present; [`AcquireError::Dataset`] if it cannot be recorded.
 pub fn acquire_scene(
     scene: &PlannedScene,
     folder: &RunFolder,
@@ -103,7 +102,7 @@ pub fn acquire_scene(
                     };
                     let dataset = obtain(study, number, folder, setup, &cancel);
                     if dataset.is_err() {
-                        // The others stop at their next motion: nobody waits hours to read of a failure.
+                        // The others stop at their next motion, so that a failure is reported at once.
                         cancel.cancel();
                     }
                     done.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(dataset);
@@ -115,12 +114,12 @@ pub fn acquire_scene(
     let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     let done: Vec<Result<Dataset, StudyError>> = done.into_iter().flatten().collect();
     let (datasets, mut errors): (Vec<_>, Vec<_>) = done.into_iter().partition(Result::is_ok);
-    // Studies that were cancelled come after the one that failed.
+    // Cancelled studies come after the one that failed.
     errors.sort_by_key(|result| matches!(result, Err(error) if is_cancelled(error)));
     errors.into_iter().chain(datasets).collect()
 }
 
-/// The recording of one study: pressed now, or there already.
+/// The recording of one study, acquired now or found.
 fn obtain(
     study: &PlannedStudy,
     number: usize,
@@ -139,7 +138,7 @@ fn obtain(
             .fold(key, |key, (name, part)| key.part(name, part));
         Some(key.finish())
     });
-    // A real rig is never replayed, and has no key.
+    // A real rig is never replayed, so it has no key.
     let Some(key) = key else {
         return press();
     };
@@ -153,7 +152,7 @@ fn obtain(
 }
 
 impl<'a> RunSetup<'a> {
-    /// The cache as study `number`, counted from 0, uses it.
+    /// The cache for study `number`, counted from 0.
     fn cache_of(self, study: &'a PlannedStudy, number: usize) -> StudyCache<'a> {
         StudyCache {
             cache: self.cache,

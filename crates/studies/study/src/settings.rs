@@ -1,13 +1,13 @@
-//! Settings of models as a scene writes them.
+//! Model settings of a scene.
 
 use std::collections::BTreeMap;
 
 use taceva_models::{ModelSettings, SettingError};
 
-/// Settings as a scene writes them, by name.
+/// Model settings of a scene, by name.
 ///
 /// # Errors
-/// [`SettingError`] for a name that is none.
+/// [`SettingError`] for an invalid name.
 pub(crate) fn settings_of(
     set: &BTreeMap<String, toml::Value>,
 ) -> Result<ModelSettings, SettingError> {

@@ -1,4 +1,4 @@
-//! From the recording of a study to its report: fit, predict and score, each on the presses that the plan assigns to it.
+//! Recording of a study to its report: fit, predict and score, each on the presses that the plan assigns to it.
 
 mod context;
 mod gratings;
@@ -150,7 +150,7 @@ struct Learnt {
 }
 
 impl Learnt {
-    /// Fits or opens the model that the plan needs, with a seed of its own if one is given; `None` where no metric reads a prediction.
+    /// Fits or opens the model that the plan needs, with its own seed if one is given; `None` if no metric reads a prediction.
     fn new(
         scene: &PlannedScene,
         study: &PlannedStudy,
@@ -186,7 +186,7 @@ impl Learnt {
         let recipe = Recipe::of(&request)?;
         let divided = phase_rows.divided(&request)?;
         let mut plan = FitPlan::on(dataset, &request, recipe, divided.clone())?;
-        // One training at a time has a checkpoint: of several seeds those that are finished are in the cache.
+        // Only one training has a checkpoint: finished ones of other seeds are in the cache.
         if seed == scene.seeds.first().copied() {
             plan.keep_checkpoints(Checkpoints::at(context.checkpoint.to_owned()));
         }

@@ -1,4 +1,4 @@
-//! The tasks of a sweep with what came of each, and those that differ in their seed alone side by side.
+//! The tasks of a sweep with their results, and groups of tasks that differ only in their seed.
 
 use std::collections::BTreeMap;
 
@@ -9,14 +9,14 @@ use crate::result::TaskResult;
 use crate::task::Task;
 use crate::task_list::TaskList;
 
-/// A task with what came of it.
+/// A task with its result.
 #[derive(Clone, Debug)]
 pub(crate) struct Loaded<'a> {
     pub(crate) task: &'a Task,
     pub(crate) found: Found,
 }
 
-/// What came of a task.
+/// The state of a task: its result, the reason of its failure, or neither.
 #[derive(Clone, Debug)]
 pub(crate) enum Found {
     Result(Box<TaskResult>),
@@ -33,7 +33,7 @@ impl Loaded<'_> {
     }
 }
 
-/// Reads what came of every task of `list`.
+/// Reads the results of all tasks of `list`.
 pub(crate) fn load<'a>(
     folder: &SweepFolder,
     list: &'a TaskList,
@@ -49,20 +49,20 @@ pub(crate) fn load<'a>(
     list.tasks.iter().map(load).collect()
 }
 
-/// Tasks that differ in their seed alone.
+/// Tasks that differ only in their seed.
 #[derive(Clone, Debug)]
 pub(crate) struct Group<'a> {
     pub(crate) dataset: &'a str,
     pub(crate) split: Option<&'a str>,
     pub(crate) configuration: String,
-    /// The results, in the order of seeds, each with its seed.
+    /// The results in the order of the tasks, each with its seed.
     pub(crate) results: Vec<(u64, &'a TaskResult)>,
-    /// Whether every seed has a result.
+    /// True if every seed has a result.
     pub(crate) is_whole: bool,
 }
 
 impl Group<'_> {
-    /// The mean over seeds of the error that settings are chosen by, with its unit.
+    /// The mean over seeds of the validation error of `channel`, with its unit.
     pub(crate) fn validation(&self, channel: &str) -> Option<(f64, &str)> {
         let mut sum = 0.0;
         let mut unit = None;
@@ -83,7 +83,7 @@ impl Group<'_> {
         scores.collect()
     }
 
-    /// Where it is of, and what it is.
+    /// The recording and the split of the group.
     pub(crate) fn place(&self) -> (&str, Option<&str>) {
         (self.dataset, self.split)
     }
@@ -119,7 +119,7 @@ pub(crate) fn groups<'a>(loaded: &'a [Loaded<'a>]) -> Vec<Group<'a>> {
     groups
 }
 
-/// The channels that errors are known of, in the order of the first result.
+/// The channels with known errors, in the order of the first result.
 pub(crate) fn channels(loaded: &[Loaded<'_>]) -> Vec<String> {
     let mut channels: Vec<String> = Vec::new();
     for result in loaded.iter().filter_map(Loaded::result) {

@@ -1,4 +1,4 @@
-//! The best configuration for each question: chosen on validation parts, scored on test parts.
+//! The best configuration for each channel: chosen on validation parts, scored on test parts.
 
 mod table;
 
@@ -8,18 +8,18 @@ use crate::analysis::Group;
 
 pub(crate) use table::table;
 
-/// The configuration that is chosen for a channel of a recording.
+/// The configuration chosen for a channel of a recording.
 #[derive(Clone, Debug)]
 pub(crate) struct Choice {
     pub(crate) channel: String,
-    /// Positions among the groups: the chosen one, and those it was chosen among.
+    /// Positions among the groups: the chosen one, and all candidates.
     pub(crate) chosen: usize,
     pub(crate) others: Vec<usize>,
     rmse: f64,
     unit: String,
 }
 
-/// The choice for each recording, split and channel. Configurations without a result for every seed take no part.
+/// The choice for each recording, split and channel. Configurations without a result for every seed are skipped.
 pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> {
     let mut places: Vec<(&str, Option<&str>)> = Vec::new();
     for group in groups {
@@ -38,7 +38,7 @@ pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> 
                     Some((at, rmse, unit))
                 })
                 .collect();
-            // Of equals the first of the file.
+            // The first of the file among equals.
             let best = known
                 .iter()
                 .min_by(|left, right| left.1.total_cmp(&right.1));
@@ -57,7 +57,7 @@ pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> 
     choices
 }
 
-/// A number with three digits or so.
+/// A number with about three significant digits.
 pub(crate) fn number(value: f64) -> Cell {
     Cell::Number(FormattedValue::number(value, None).value)
 }

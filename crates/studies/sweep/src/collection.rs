@@ -1,4 +1,4 @@
-//! What is made of all results: the table, its digest, and the pages.
+//! Output of a sweep from all results: the table, its digest, and the pages.
 
 use std::fs;
 
@@ -17,10 +17,10 @@ use crate::task_list::TaskList;
 use crate::times;
 use crate::units;
 
-/// Makes the table and the pages of all results in `folder`; what is there already and made of the same results stays, unless `anew`.
+/// Writes the table and the pages of all results in `folder`. Existing output of the same results stays, unless `anew`.
 ///
 /// # Errors
-/// [`SweepError`] for a result that is not what was written, or of another version, and if the folder cannot be written.
+/// [`SweepError`] for a result that was changed or is of another version, and if the folder cannot be written.
 pub fn collect(folder: &SweepFolder, list: &TaskList, anew: bool) -> Result<Collected, SweepError> {
     if let Some(tables) = &list.tables {
         return shard_scores::join(folder, list, tables);
@@ -51,7 +51,7 @@ pub fn collect(folder: &SweepFolder, list: &TaskList, anew: bool) -> Result<Coll
     Ok(collected)
 }
 
-/// Refuses an evaluation that is not what its task wrote. One that somebody removed to save room is missed by nothing in the table.
+/// Rejects an evaluation that differs from what its task wrote. A missing evaluation is fine, because the table does not need it.
 fn check_evaluation(folder: &SweepFolder, result: &TaskResult) -> Result<(), SweepError> {
     match folder.evaluation(&result.key).exists() {
         true => result.read_evaluation(folder).map(drop),
@@ -88,11 +88,11 @@ fn write_all(
         let table = units::table(&collected.units);
         folder.write(&at("units.csv"), table.csv().as_bytes())?;
     }
-    // The last, so that it speaks of files that are there.
+    // Written last, so that it describes existing files.
     collected.write(folder)
 }
 
-/// The digest of the list of tasks, the limits, and which of the tasks have a result or failed, and why.
+/// The digest of the list of tasks, the limits, and the state of each task: result, reason of its failure, or neither.
 fn made_of(folder: &SweepFolder, list: &TaskList) -> Result<String, SweepError> {
     let (results, failures) = (folder.results()?, folder.failures()?);
     let mut text = serde_json::to_string(list).unwrap_or_default();

@@ -12,7 +12,7 @@ use crate::task::Task;
 
 use term::Term;
 
-/// Which tasks are meant: those of one key, or those of which all terms of one alternative hold.
+/// Selection of tasks: by key, or by alternatives whose terms must all hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Condition {
     text: String,
@@ -20,11 +20,11 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// What can be asked beside the settings of tasks.
+    /// Names that a condition may use besides the settings of tasks.
     pub const NAMES: [&'static str; 5] = ["key", "dataset", "model", "split", "seed"];
 
-    /// The condition that `text` states: terms `NAME = VALUE` or `NAME != VALUE` with ` and ` and ` or ` between them, of which ` and ` binds
-    /// closer, or the key of a task or how it begins. A value with one of these words or signs in it stands in quotes.
+    /// Parses a condition: terms `NAME = VALUE` or `NAME != VALUE`, joined by ` and ` and ` or `, of which ` and ` binds closer.
+    /// Alternatively `text` is the key of a task or a prefix of it. A value that contains these words or signs is quoted.
     ///
     /// ```
     /// use taceva_sweep::Condition;
@@ -34,7 +34,7 @@ impl Condition {
     /// ```
     ///
     /// # Errors
-    /// [`SweepError::Condition`] with the term that cannot be meant.
+    /// [`SweepError::Condition`] with the term that is not valid.
     pub fn parse(text: &str) -> Result<Condition, SweepError> {
         let trimmed = text.trim();
         let is_digits = trimmed.bytes().all(|byte| byte.is_ascii_hexdigit());
@@ -58,7 +58,7 @@ impl Condition {
         &self.text
     }
 
-    /// Refuses a name that no task of the sweep has.
+    /// Rejects a name that no task of the sweep has.
     ///
     /// # Errors
     /// [`SweepError::Condition`] with the nearest name.
@@ -79,7 +79,7 @@ impl Condition {
         Ok(())
     }
 
-    /// Whether it holds of `task`.
+    /// True if the condition holds for `task`.
     pub fn holds(&self, task: &Task) -> bool {
         let mut alternatives = self.alternatives.iter();
         alternatives.any(|terms| terms.iter().all(|term| term.holds(task)))

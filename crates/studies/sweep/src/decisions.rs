@@ -1,4 +1,4 @@
-//! Whether what was chosen is better than the others: one family of tests, which is the sweep.
+//! Tests of each choice against the other configurations; the family of tests is the sweep.
 
 mod reach;
 
@@ -14,7 +14,7 @@ use crate::analysis::Group;
 use crate::choices::Choice;
 use reach::{flips_of, out_of_reach};
 
-/// Each chosen configuration against each other of the same recording, split and channel.
+/// Compares each chosen configuration with each other of the same recording, split and channel.
 pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
     let columns = ["recording", "split", "channel", "chosen", "other", "answer"];
     let mut table = Table::new("Chosen against every other", columns.map(Column::new));
@@ -78,7 +78,7 @@ fn unit_of(group: &Group<'_>, channel: &str) -> &'static str {
     score.map_or("", |score| score.unit.symbol())
 }
 
-/// The errors of every seed by contact point, all seeds together: a press counts as one, however often it was in a test part.
+/// The errors of all seeds by contact point: a press counts once, however often it was in a test part.
 fn pooled(group: &Group<'_>, channel: &str) -> ClusterSums {
     let mut all: BTreeMap<u64, ClusterSums> = BTreeMap::new();
     for (seed, result) in &group.results {

@@ -1,4 +1,4 @@
-//! What each setting changes, paired within everything else.
+//! Effect of each setting, paired within everything else.
 
 mod dimension;
 
@@ -13,10 +13,10 @@ use crate::choices::{ends, number};
 use crate::task_list::TaskList;
 use dimension::{Dimension, dimensions};
 
-/// Pairs that an interval needs.
+/// Minimum pairs for an interval.
 const LEAST: usize = 2;
 
-/// A row a setting, value and channel: the mean difference of test errors to the first value, over all pairs of tasks that are alike in all else.
+/// One row for each setting, value and channel: the mean difference of test errors to the first value, over otherwise equal tasks.
 pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String]) -> Table {
     let columns = [
         "setting",
@@ -52,7 +52,7 @@ fn row(
     channel: &str,
 ) -> Option<Vec<Cell>> {
     let mut pairs: BTreeMap<String, [Option<f64>; 2]> = BTreeMap::new();
-    // Errors in several units have no mean; a row is of the unit that the channel has everywhere.
+    // Errors in several units have no mean; a row needs one unit of the channel throughout.
     let mut units: Vec<Unit> = Vec::new();
     for one in loaded {
         let word = dimension.word(one.task);

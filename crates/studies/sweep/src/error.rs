@@ -1,4 +1,4 @@
-//! Why a sweep cannot be planned, carried out or collected.
+//! Errors of planning, running and collecting a sweep.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,75 +8,75 @@ use taceva_dataset::DatasetError;
 use taceva_evaluate::EvaluateError;
 use taceva_tables::TableError;
 
-/// Why a sweep cannot be planned, carried out or collected.
+/// Errors of planning, running and collecting a sweep.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// The file of the sweep, or a recording, that cannot be read as it should.
+    /// A sweep file or a recording that cannot be read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
     /// A model, a setting or a metric that does not exist.
     #[error(transparent)]
     Study(#[from] EvaluateError),
-    /// A file of a sweep that parses and cannot be meant.
+    /// A sweep file that parses but is not valid.
     #[error("{}{}: {problem}", shown(path), line.map_or_else(String::new, |line| format!(", line {line}")))]
     Meaning {
         /// The file.
         path: PathBuf,
-        /// The line, where one can be named.
+        /// The line, if known.
         line: Option<usize>,
-        /// What is wrong, and what would be accepted.
+        /// The fault, and the accepted form.
         problem: String,
     },
-    /// A condition, of `--only` or of a file, that cannot be meant.
+    /// An invalid condition, of `--only` or of a file.
     #[error("`{}`: {problem}", shown(text))]
     Condition {
         /// As typed.
         text: String,
-        /// What is wrong, and what would be accepted.
+        /// The fault, and the accepted form.
         problem: String,
     },
-    /// A file in the folder of a sweep that is not what this program wrote there.
+    /// A file in the folder of a sweep that was not written by this program, or was changed.
     #[error("{}: {problem}", shown(path))]
     Kept {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and what to do.
+        /// The fault, and the remedy.
         problem: String,
     },
-    /// A recording, a table, the sensor file or a plugin that is another one than when the sweep was planned.
+    /// A recording, a table, the sensor file or a plugin that changed after the sweep was planned.
     #[error("{}: {problem}; start the sweep again", shown(path))]
     Changed {
         /// The file, the folder, or the name of the model.
         path: PathBuf,
-        /// What is another one.
+        /// The change.
         problem: String,
     },
-    /// The operating system refused.
+    /// An input or output error.
     #[error("cannot {doing} {}: {source}", shown(path))]
     Io {
-        /// What was being done.
+        /// The operation that failed.
         doing: &'static str,
-        /// On which file or folder.
+        /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// The Parquet table that cannot be written.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// A command of the scheduler that is absent, or that refused: its words.
+    /// A command of the scheduler that is missing or failed, with its message.
     #[error("{command}: {words}")]
     Scheduler {
         /// The command: `sbatch`.
         command: &'static str,
-        /// What it said, or why it could not be started.
+        /// The message of the command, or why it could not be started.
         words: String,
     },
 }
 
 impl SweepError {
-    /// What makes an error of the system one of this crate.
+    /// Converts an error of the system into one of this crate.
     pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> SweepError {
         let path = path.to_owned();
         move |source| SweepError::Io {
@@ -86,7 +86,7 @@ impl SweepError {
         }
     }
 
-    /// Whether the file or the arguments are wrong, and no data was looked at.
+    /// True if the file or the arguments are wrong; no data was read.
     pub fn is_usage(&self) -> bool {
         match self {
             SweepError::Condition { .. } => true,

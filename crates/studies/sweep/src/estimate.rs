@@ -1,4 +1,4 @@
-//! What a sweep would take, from what was measured so far.
+//! Estimate of the cost of a sweep, from the tasks measured so far.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -8,24 +8,24 @@ use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
 use crate::times::TaskTime;
 
-/// What a sweep has, and what the rest would take.
+/// State of a sweep, and the estimated cost of the remaining tasks.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
-    /// Tasks that are wanted.
+    /// Wanted tasks.
     pub tasks: usize,
-    /// Results that are there.
+    /// Results found.
     pub found: usize,
     /// Tasks that failed before.
     pub failed: usize,
-    /// The time that the others take on one worker; `None` where nothing was measured yet.
+    /// Time of the remaining tasks on one worker; `None` if nothing was measured yet.
     pub time: Option<Duration>,
-    /// Bytes that they write; `None` where nothing was measured yet.
+    /// Bytes that they write; `None` if nothing was measured yet.
     pub bytes: Option<u64>,
 }
 
 impl Estimate {
-    /// Of the tasks at `wanted`: times of the same configuration where there are some, else the mean of all that were measured.
+    /// Estimates the tasks at `wanted`, by the times of the same configuration, or by the mean of all measured tasks.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.

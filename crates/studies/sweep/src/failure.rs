@@ -1,4 +1,4 @@
-//! Why a task has no scores.
+//! Failures of tasks, with their reasons.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use crate::error::SweepError;
 use crate::folder::SweepFolder;
 use crate::key::TaskKey;
 
-/// Why a task has no scores.
+/// Failure of a task, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Failure {
     pub(crate) key: TaskKey,
@@ -25,7 +25,7 @@ impl Failure {
         folder.write(&path, text.as_bytes())
     }
 
-    /// Why `key` failed; `None` if it did not.
+    /// Reads the failure of `key`; `None` if it did not fail.
     pub(crate) fn read(folder: &SweepFolder, key: &TaskKey) -> Result<Option<Failure>, SweepError> {
         let path = folder.failure(key);
         match fs::read_to_string(&path) {
@@ -40,7 +40,7 @@ impl Failure {
         }
     }
 
-    /// Takes the failure of `key` away, if there is one.
+    /// Removes the record of the failure of `key`, if there is one.
     pub(crate) fn forget(folder: &SweepFolder, key: &TaskKey) -> Result<(), SweepError> {
         let path = folder.failure(key);
         match fs::remove_file(&path) {

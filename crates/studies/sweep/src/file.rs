@@ -1,4 +1,4 @@
-//! The file of a sweep: what varies, and what stays.
+//! The sweep file: settings that vary, and settings that stay.
 
 mod model_entry;
 mod place;
@@ -20,41 +20,41 @@ use place::FilePlace;
 pub use model_entry::ModelEntry;
 pub use tables::TablesEntry;
 
-/// The file of a sweep, read and checked; nothing of the recordings was looked at.
+/// The sweep file, parsed and checked; no recording was read.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SweepFile {
-    /// Where it is.
+    /// Path of the file.
     pub path: PathBuf,
     /// The digest of its text.
     pub digest: Digest,
-    /// What it is called.
+    /// Name of the sweep.
     pub name: String,
     /// Folders of recordings, and patterns of such, relative to the folder of the file.
     pub datasets: Vec<String>,
     /// The view of recordings whose samples have several pictures, or several side by side: `left+right`.
     pub view: Option<String>,
-    /// Scenes whose recordings are acquired first: files, relative to the folder of the file, or names of those that are built in.
+    /// Scenes whose recordings are acquired first: files, relative to the folder of the file, or names of built-in scenes.
     pub scenes: Vec<String>,
-    /// The models, each with settings of its own.
+    /// The models, each with its own settings.
     pub models: Vec<ModelEntry>,
     /// The seeds.
     pub seeds: Vec<u64>,
-    /// The splits; that of each recording where the file names none.
+    /// The splits; a single `None` for the default split of each recording.
     pub splits: Vec<Option<String>>,
     /// Metrics and groups by name.
     pub metrics: Vec<String>,
-    /// The file that says what is known of the sensor.
+    /// The file of sensor facts.
     pub sensor: Option<PathBuf>,
-    /// The file of limits that each unit is held to.
+    /// The file of limits for each unit.
     pub limits: Option<PathBuf>,
-    /// Settings, each with the values that it takes in turn.
+    /// Settings that vary, each with its values.
     pub vary: BTreeMap<String, Vec<String>>,
-    /// Combinations that make no sense.
+    /// Combinations to skip.
     pub skip: Vec<Condition>,
-    /// Tables that are scored in shards, in the place of recordings and models.
+    /// Tables that are scored in shards, instead of recordings and models.
     pub tables: Option<TablesEntry>,
-    /// How jobs are asked for.
+    /// Resources that jobs request.
     pub slurm: SlurmSpec,
 }
 
@@ -64,7 +64,7 @@ impl SweepFile {
         folder_of(&self.path)
     }
 
-    /// What is wrong with what stands below `key`, with its line.
+    /// The error for a value below `key`, with its line.
     pub fn wrong(&self, key: &str, problem: String) -> SweepError {
         let text = fs::read_to_string(&self.path).unwrap_or_default();
         FilePlace {

@@ -1,4 +1,4 @@
-//! The folder of a sweep: results by key, and what is written beside.
+//! The folder of a sweep: results by key, and other files.
 //!
 //! ```text
 //! FOLDER/results/KEY.json       scores of a task: absent or whole
@@ -34,37 +34,37 @@ impl SweepFolder {
         SweepFolder { path }
     }
 
-    /// The folder beside the file of a sweep that takes its results unless another is named: `which.sweep` of `which.toml`.
+    /// The default folder for results, beside the sweep file: `which.sweep` of `which.toml`.
     pub fn beside(file: &Path) -> SweepFolder {
         SweepFolder::new(file.with_extension("sweep"))
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Where tasks find what they have in common.
+    /// The cache that tasks share.
     pub fn cache(&self) -> PathBuf {
         self.path.join("cache")
     }
 
-    /// Where the runs of scenes are, each under the name of its scene.
+    /// The folder of the runs of scenes, each under the name of its scene.
     pub fn scenes(&self) -> PathBuf {
         self.path.join("scenes")
     }
 
-    /// The claim of whoever acquires the scene called `name`.
+    /// The claim for acquiring the scene `name`.
     pub fn scene_claim(&self, name: &str) -> PathBuf {
         self.path.join(format!("claims/scene-{name}"))
     }
 
-    /// How long scenes took.
+    /// The folder of the times of scenes.
     pub(crate) fn scene_times(&self) -> PathBuf {
         self.path.join("times/scenes")
     }
 
-    /// Makes the folder and those in it.
+    /// Creates the folder and its subfolders.
     ///
     /// # Errors
     /// [`SweepError::Io`].
@@ -95,7 +95,7 @@ impl SweepFolder {
         self.path.join(format!("failed/{key}.json"))
     }
 
-    /// What a task did, stage by stage.
+    /// The log of a task, stage by stage.
     pub fn log(&self, key: &TaskKey) -> PathBuf {
         self.path.join(format!("logs/{key}.log"))
     }
@@ -113,7 +113,7 @@ impl SweepFolder {
         self.path.join("slurm")
     }
 
-    /// Writes a file that is absent or whole at any moment; two that write one file write the same.
+    /// Writes a file atomically: it is absent or complete at any moment. Two processes that write one file write the same.
     ///
     /// # Errors
     /// [`SweepError::Io`].
@@ -126,7 +126,7 @@ impl SweepFolder {
         .map_err(SweepError::io("write", path))
     }
 
-    /// Writes a file that is whole at any moment and may be gone after a loss of power: for what no result misses.
+    /// Writes a file atomically but without durability: it may be lost in a power cut. For files that no result needs.
     pub(crate) fn write_lightly(&self, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
         let beside = beside(path);
         fs::write(&beside, bytes)?;

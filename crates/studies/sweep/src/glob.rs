@@ -3,14 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Whether `text` is a pattern and not one path.
+/// True if `text` is a pattern and not one path.
 pub(crate) fn is_pattern(text: &str) -> bool {
     text.contains(['*', '?'])
 }
 
-/// The folders below `base` that `pattern` names, in the order of their names, as paths relative to `base`.
+/// The folders below `base` that match `pattern`, sorted by name, as paths relative to `base`.
 ///
-/// `*` stands for any letters but `/`, `?` for one. Names that begin with a dot are met only by a pattern that does.
+/// `*` matches any letters but `/`, `?` matches one. Names that begin with a dot match only a pattern that does.
 pub(crate) fn folders(base: &Path, pattern: &str) -> std::io::Result<Vec<String>> {
     let (root, rest) = match pattern.strip_prefix('/') {
         Some(rest) => (PathBuf::from("/"), rest),
@@ -52,11 +52,11 @@ fn joined(before: &str, name: &str) -> String {
     }
 }
 
-/// Whether `name` is one that `pattern` stands for.
+/// True if `name` matches `pattern`.
 fn matches(pattern: &str, name: &str) -> bool {
     let pattern: Vec<char> = pattern.chars().collect();
     let name: Vec<char> = name.chars().collect();
-    // Where the last `*` stood, and how much it has taken so far.
+    // Position of the last `*`, and the number of letters it has matched.
     let (mut at, mut of, mut star) = (0, 0, None);
     while of < name.len() {
         match pattern.get(at) {

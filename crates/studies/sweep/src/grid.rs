@@ -1,4 +1,4 @@
-//! Every combination of what varies, as tasks.
+//! Every combination of the varying settings, as tasks.
 
 mod builds;
 mod checks;
@@ -26,16 +26,16 @@ pub(crate) use shards::PlannedTables;
 pub struct Grid {
     /// The tasks.
     pub tasks: Vec<Task>,
-    /// Combinations that `[skip]` leaves out.
+    /// Number of combinations that `[skip]` leaves out.
     pub skipped: usize,
-    /// The tables that tasks are shards of.
+    /// The tables whose shards are the tasks.
     pub(crate) tables: Option<PlannedTables>,
 }
 
 impl Grid {
-    /// The tasks that `file` asks for, of `scenes` too: what its scenes acquire. Opens each recording once, for its digest, and reads no frame; looks
-    /// through tables once. Of a recording that is not acquired yet tasks have keys that no result has: they can be counted and checked, and are
-    /// planned anew once it is there.
+    /// The tasks of `file`, including those on recordings that `scenes` acquire. Each recording is opened once, for its digest, and no
+    /// frame is read; tables are scanned once. Tasks on a recording that is not acquired yet have keys without results. They can be counted
+    /// and checked, and are planned again once the recording exists.
     ///
     /// # Errors
     /// [`SweepError`] for a grid that is empty or larger than [`MOST_TASKS`](crate::MOST_TASKS), a model, a setting or a metric that does not
@@ -77,7 +77,7 @@ impl Grid {
     }
 }
 
-/// The digest of the file that says what is known of the sensor, if there is one.
+/// The digest of the file of sensor facts, if there is one.
 pub(crate) fn sensor_digest(file: &SweepFile) -> Result<Option<Digest>, SweepError> {
     let Some(path) = &file.sensor else {
         return Ok(None);

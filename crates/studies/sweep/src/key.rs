@@ -1,4 +1,4 @@
-//! The name of a task's result: the digest of everything that decides it.
+//! The key of a task's result: the digest of all its inputs.
 
 mod shard;
 
@@ -10,17 +10,17 @@ use taceva_dataset::Digest;
 
 pub(crate) use shard::ShardParts;
 
-/// Counted on when the result of the same parts becomes another one within a version of this program.
+/// Version of the result; incremented when the same inputs give another result within a version of this program.
 const VERSION: &str = "2";
 /// Hexadecimal digits of a key, 128 bits.
 const DIGITS: usize = 32;
 
-/// The name of a task's result.
+/// The key of a task's result.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct TaskKey(String);
 
-/// What decides the result of a task.
+/// Inputs that decide the result of a task.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct KeyParts<'a> {
     pub(crate) dataset: Digest,
@@ -29,13 +29,13 @@ pub(crate) struct KeyParts<'a> {
     pub(crate) split: Option<&'a str>,
     pub(crate) seed: u64,
     pub(crate) metrics: &'a [String],
-    /// The digest of the file that says what is known of the sensor.
+    /// The digest of the file of sensor facts.
     pub(crate) sensor: Option<Digest>,
-    /// The build of the plugin that offers the model.
+    /// The build of the plugin with the model.
     pub(crate) plugin: Option<&'a str>,
 }
 
-/// Parts of a key, each with its length, so that no two sequences of parts run together.
+/// Parts of a key, each with its length, so that different sequences of parts give different bytes.
 struct KeyBytes(Vec<u8>);
 
 impl KeyBytes {
@@ -77,12 +77,12 @@ impl TaskKey {
         bytes.finish()
     }
 
-    /// Its digits.
+    /// The digits.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// Whether `text` has the form of a key, so that it may name a file.
+    /// True if `text` has the form of a key, so that it may be a file name.
     pub(crate) fn is_one(text: &str) -> bool {
         let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
         text.len() == DIGITS && text.bytes().all(is_digit)

@@ -1,4 +1,4 @@
-//! What is too much.
+//! Upper limits.
 
-/// The largest grid that is carried out.
+/// Maximum number of tasks in a grid.
 pub const MOST_TASKS: u64 = 1_000_000;

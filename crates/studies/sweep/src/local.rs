@@ -1,4 +1,4 @@
-//! Tasks carried out by workers of this process.
+//! Workers of this process that run tasks.
 
 mod log;
 mod worker;
@@ -16,41 +16,41 @@ use crate::failure::Failure;
 use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
 
-/// Carries tasks out.
+/// Runs tasks.
 #[derive(Clone, Copy)]
 pub struct Runner<'a> {
     /// The sweep.
     pub list: &'a TaskList,
-    /// Where results are found and kept.
+    /// Folder of the results.
     pub folder: &'a SweepFolder,
-    /// The models that there are.
+    /// The available models.
     pub models: &'a Models,
-    /// Where tasks find what they have in common.
+    /// Cache that tasks share.
     pub cache: Option<&'a Cache>,
-    /// Tasks at once.
+    /// Number of tasks at once.
     pub jobs: NonZeroUsize,
-    /// Whether tasks that failed before are tried again.
+    /// True if tasks that failed before are tried again.
     pub retry_failed: bool,
     /// Receives progress, and may cancel.
     pub progress: &'a dyn Progress,
 }
 
-/// What came of the tasks.
+/// Outcome of the tasks.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Ran {
-    /// Results that were there before.
+    /// Results that existed before.
     pub found: usize,
-    /// Tasks that were scored now, here or by others in the meantime.
+    /// Tasks scored now, by this or by another process.
     pub scored: usize,
-    /// Tasks without a result: the position in the list, and why.
+    /// Tasks without a result: the position in the list, and the reason.
     pub failed: Vec<(usize, String)>,
-    /// Whether it was asked to stop, with tasks left.
+    /// True if the run was cancelled with tasks left.
     pub is_stopped: bool,
 }
 
 impl Runner<'_> {
-    /// Carries out those of the tasks at `wanted` that have no result yet. A task that fails leaves its reason, and the others go on.
+    /// Runs those of the tasks at `wanted` that have no result yet. A failed task leaves its reason, and the others continue.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be used.
@@ -105,7 +105,7 @@ impl Runner<'_> {
     }
 }
 
-/// What workers share.
+/// State that workers share.
 struct Shared {
     left: Mutex<VecDeque<usize>>,
     ran: Mutex<Ran>,

@@ -1,4 +1,4 @@
-//! Carrying one task out.
+//! Execution of one task.
 
 mod errors;
 mod shard;
@@ -18,18 +18,18 @@ use crate::task::Task;
 use crate::task_list::TaskList;
 use errors::errors;
 
-/// What came of a task.
+/// Outcome of a task.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Its result is there.
+    /// The result is in the folder.
     Scored,
-    /// It cannot be carried out, for this reason.
+    /// The task cannot be carried out, for this reason.
     Failed(String),
-    /// It was asked to stop, and left nothing.
+    /// The task was cancelled and left nothing.
     Stopped,
 }
 
-/// What tasks of a sweep have in common.
+/// State that tasks of a sweep share.
 #[derive(Clone, Copy)]
 pub(crate) struct Common<'a> {
     pub(crate) folder: &'a SweepFolder,
@@ -88,13 +88,13 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
     result = result.with_scores(&evaluated.report);
     result.errors = errors(&evaluated.report);
     result.evaluation = Digest::of(text.as_bytes()).to_string();
-    // The evaluation first: where the result is, everything is.
+    // The evaluation first, so that a result implies an evaluation.
     let folder = common.folder;
     folder.write(&folder.evaluation(&task.key), text.as_bytes())?;
     folder.write(&folder.result(&task.key), result.text()?.as_bytes())
 }
 
-/// Whether the work was asked to stop.
+/// True if the error is a cancellation.
 pub(crate) fn is_stop(error: &SweepError) -> bool {
     let kind = match error {
         SweepError::Study(error) => error.kind(),
@@ -112,7 +112,7 @@ pub(crate) fn sealed(report: &EvaluationReport) -> Result<String, SweepError> {
     })
 }
 
-/// What settings were chosen by, and the error of each channel there.
+/// The samples that settings were chosen by, and the error of each channel on them.
 fn validation(model: &Model) -> (String, Vec<ValidationError>) {
     let card = model.card();
     let by = match card.choice.by {

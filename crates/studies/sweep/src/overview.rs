@@ -1,4 +1,4 @@
-//! Results of a sweep in rows of a text: means by whatever varies.
+//! Results of a sweep as a table of text: means by any of the varying words.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -61,11 +61,11 @@ pub fn show(
     Ok(table(&loaded, by, metric))
 }
 
-/// What a mean is of.
+/// Values to be averaged.
 #[derive(Default)]
 struct Averaged {
     values: Vec<f64>,
-    /// Where the samples come from: `recorded`, `simulated`, `synthetic`.
+    /// Origins of the samples: `recorded`, `simulated`, `synthetic`.
     sources: BTreeSet<String>,
 }
 

@@ -1,4 +1,4 @@
-//! The pages of a sweep: results, and apart from them what they took.
+//! The pages of a sweep: results, and separately their run times.
 
 mod times;
 
@@ -80,7 +80,7 @@ fn title(list: &TaskList) -> String {
     }
 }
 
-/// That nothing, or not everything, was measured.
+/// The badge of a page whose samples are all or partly simulated or synthetic.
 fn badge(loaded: &[Loaded<'_>]) -> Option<String> {
     let results = loaded.iter().filter_map(Loaded::result);
     let drawn = results.map(|result| matches!(result.source.as_str(), "simulated" | "synthetic"));

@@ -1,4 +1,4 @@
-//! What tells one recording from another.
+//! Identity of a recording.
 
 use std::path::Path;
 
@@ -6,10 +6,10 @@ use taceva_dataset::{Dataset, Digest};
 
 use crate::error::SweepError;
 
-/// The recording at `path`, seen by `view` where samples have several pictures, and the digest of all that it says.
+/// The recording at `path`, seen by `view` if samples have several pictures, and the digest of its whole content.
 ///
-/// These are samples, frames and signals, and every byte of its header: the sensor, its serial number, its footprint, and whether anything was
-/// measured.
+/// The digest covers samples, frames, signals and every byte of the header: the sensor, its serial number, its footprint, and whether
+/// anything was measured.
 ///
 /// # Errors
 /// [`SweepError`] if it cannot be opened, or has no such view.

@@ -1,4 +1,4 @@
-//! What a task found: its scores and the errors behind them, in a sealed file.
+//! Result of a task: its scores and the errors behind them, in a sealed file.
 
 mod file;
 
@@ -11,30 +11,27 @@ use taceva_results::{EvaluationReport, Score, Value, by_metric};
 
 use crate::key::TaskKey;
 
-/// The schema of a result.
 const SCHEMA: &str = "taceva.sweep-result/1.0";
 
-/// Of each channel: contact point, samples of it, and the sum of their absolute errors.
+/// By channel: contact point, number of its samples, and the sum of their absolute errors.
 pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
 
-/// What a task found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct TaskResult {
     pub(crate) schema: String,
-    /// The task.
     pub(crate) key: TaskKey,
     /// The version of TacEva.
     pub(crate) taceva: String,
-    /// Where the samples come from: `recorded`, `simulated`, `synthetic`.
+    /// Origin of the samples: `recorded`, `simulated`, `synthetic`.
     pub(crate) source: String,
     /// The sensor model, and the serial number of the unit.
     pub(crate) sensor: String,
     pub(crate) serial: String,
     /// The digest of the fitted model.
     pub(crate) model_digest: String,
-    /// What settings were chosen by: `validation`, …; never the test part.
+    /// The samples that settings were chosen by: `validation`, …; never the test part.
     pub(crate) chosen_by: String,
-    /// The root mean square error of each channel there.
+    /// The root mean square error of each channel on those samples.
     pub(crate) validation: Vec<ValidationError>,
     /// The scores on the test part.
     #[serde(rename = "metrics", with = "by_metric")]
@@ -45,7 +42,7 @@ pub(crate) struct TaskResult {
     pub(crate) evaluation: String,
 }
 
-/// The error of a channel on the part that settings were chosen on.
+/// The error of a channel on the samples that settings were chosen by.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ValidationError {
     pub(crate) channel: String,
@@ -72,7 +69,7 @@ impl TaskResult {
         }
     }
 
-    /// The result with the scores of `report` that are one number or none; maps and curves stand in the evaluation alone.
+    /// The result with those scores of `report` that are at most one number; maps and curves are in the evaluation only.
     pub(crate) fn with_scores(mut self, report: &EvaluationReport) -> TaskResult {
         self.source.clone_from(&report.subject.source);
         self.sensor.clone_from(&report.subject.sensor);
@@ -87,7 +84,6 @@ impl TaskResult {
         self
     }
 
-    /// The score of a metric and channel.
     pub(crate) fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == metric && score.channel == channel)
@@ -98,7 +94,7 @@ impl TaskResult {
         let mut sums = ClusterSums::default();
         for (point, n, sum) in self.errors.get(channel)? {
             sums.try_add(point, *sum).ok()?;
-            // The sum of a point counts for all of its samples.
+            // The sum of a point counts once for each of its samples.
             for _ in 1..*n {
                 sums.try_add(point, 0.0).ok()?;
             }

@@ -1,23 +1,23 @@
-//! A recording that a scene of a sweep makes.
+//! A recording that a scene of a sweep acquires.
 
 use std::path::PathBuf;
 
 use taceva_dataset::Digest;
 
-/// A recording that a scene of a sweep makes, known before it is there.
+/// A recording that a scene of a sweep acquires, known before it exists.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SceneRecording {
-    /// What tasks call it: the scene and its study.
+    /// Name in tasks: the scene and its study.
     pub name: String,
-    /// Where it is, or will be.
+    /// Path, also before the recording exists.
     pub path: PathBuf,
-    /// Stands in the place of its digest until it is there.
+    /// Placeholder for its digest until it exists.
     pub(crate) planned: Digest,
 }
 
 impl SceneRecording {
-    /// That of `study` of `scene`, which is acquired to `path`.
+    /// The recording of `study` of `scene`, acquired to `path`.
     ///
     /// ```
     /// use taceva_sweep::SceneRecording;
@@ -27,7 +27,7 @@ impl SceneRecording {
     pub fn new(scene: &str, study: &str, path: PathBuf) -> SceneRecording {
         let name = format!("{scene}/{study}");
         SceneRecording {
-            // No recording has it: that of one that is there is over two digests.
+            // No recording has this digest: that of an existing one is over two digests.
             planned: Digest::of(format!("to be acquired: {name}").as_bytes()),
             name,
             path,

@@ -1,4 +1,4 @@
-//! How long scenes took to be acquired: beside everything that results depend on.
+//! Times that scenes took to acquire, stored apart from the inputs of results.
 
 use std::fs;
 use std::time::Duration;
@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::folder::SweepFolder;
 
-/// How long the presses of a scene took.
+/// Time that the presses of a scene took.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SceneTime {
-    /// Presses that were made.
+    /// Number of presses.
     pub presses: u64,
-    /// What they took.
+    /// Duration of the presses, s.
     pub seconds: f64,
 }
 
@@ -26,7 +26,7 @@ impl SceneTime {
         }
     }
 
-    /// Keeps it as the time of the scene called `name`. What cannot be kept is missed by no result.
+    /// Stores this as the time of the scene `name`. A failed write is ignored, because no result needs it.
     pub fn keep(self, folder: &SweepFolder, name: &str) {
         let times = folder.scene_times();
         let made = fs::create_dir_all(&times).ok();
@@ -35,7 +35,7 @@ impl SceneTime {
         }
     }
 
-    /// What `presses` would take by those of all scenes that were acquired into `folder`; `None` where none was timed.
+    /// Estimates the time of `presses` by all scenes that were acquired into `folder`; `None` if none was timed.
     pub fn estimate(folder: &SweepFolder, presses: u64) -> Option<Duration> {
         let mut all = SceneTime::new(0, Duration::ZERO);
         for entry in fs::read_dir(folder.scene_times()).ok()?.flatten() {

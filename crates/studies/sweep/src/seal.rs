@@ -1,4 +1,4 @@
-//! Values as JSON with a seal, by which a file that was changed since it was written is known.
+//! Values as JSON with a seal, which detects later changes of a file.
 
 use std::fs;
 use std::path::Path;
@@ -17,13 +17,13 @@ pub(crate) fn read(path: &Path) -> Result<Option<String>, SweepError> {
     }
 }
 
-/// `value` as JSON with its seal; why not, where it has no such form.
+/// `value` as JSON with its seal; the error is a message if it has no JSON form.
 pub(crate) fn text(value: &impl Serialize) -> Result<String, String> {
     let text = serde_json::to_string(value).map_err(|error| error.to_string())?;
     taceva_files::seal::json::seal(&text).map_err(|error| error.to_string())
 }
 
-/// What `text` says, if it is what was sealed; what is wrong with it otherwise.
+/// Parses sealed `text`; the error is a message if it is not valid or was changed.
 pub(crate) fn value<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     taceva_files::seal::json::check(text).map_err(|error| error.to_string())?;
     serde_json::from_str(text).map_err(|error| error.to_string())

@@ -1,12 +1,12 @@
-//! Seeds as the file of a sweep writes them: a list, or the first and the last.
+//! Seeds in a sweep file: a list, or the first and the last.
 
 use crate::limits::MOST_TASKS;
 
-/// The greatest seed: tables count no further.
+/// The greatest seed: tables store signed 64-bit numbers.
 const GREATEST: u64 = i64::MAX.unsigned_abs();
 const EXPECTED: &str = "expected a list such as [1, 2, 3], or the first and the last as in \"1-5\"";
 
-/// The seeds, or what is wrong with the words.
+/// Parses seeds; the error is a message.
 pub(crate) fn seeds(written: &toml::Value) -> Result<Vec<u64>, String> {
     match written {
         toml::Value::Array(list) => list.iter().map(one).collect(),
@@ -36,7 +36,7 @@ fn range(text: &str) -> Result<Vec<u64>, String> {
             "`seeds = \"{text}\"`: expected whole numbers from 0 to {GREATEST}"
         ));
     }
-    // Counted before they are made: too many are refused, not allocated.
+    // Counted first, so that too many are rejected before allocation.
     match last - first {
         span if span < MOST_TASKS => Ok((first..=last).collect()),
         span => Err(format!(

@@ -1,4 +1,4 @@
-//! What is made of the shards of two tables: the scores of all rows, as one pass has them.
+//! Scores of all rows from the shards of two tables, equal to those of one pass.
 
 use std::fs;
 use std::path::PathBuf;
@@ -17,10 +17,10 @@ use crate::times;
 /// The file of the scores, with the bytes that `taceva score --format json` writes.
 const RESULT: &str = "score.json";
 
-/// Joins the shards in `folder` to the scores, where none is missing; there is no file of scores otherwise.
+/// Merges the shards in `folder` to the scores if none is missing; else there is no file of scores.
 ///
 /// # Errors
-/// [`SweepError`] for a state that is not what was written, or of other tables, and if the folder cannot be written.
+/// [`SweepError`] for a state that was changed or is of other tables, and if the folder cannot be written.
 pub(crate) fn join(
     folder: &SweepFolder,
     list: &TaskList,
@@ -40,7 +40,7 @@ pub(crate) fn join(
         &times::csv(folder, &list.tasks)?,
     )?;
     if !collected.is_whole() {
-        // What was joined of other tasks is not the result of these.
+        // Scores merged from other tasks are not the result of these.
         return match fs::remove_file(&path) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
                 Err(SweepError::io("remove", &path)(error))

@@ -1,7 +1,7 @@
-//! Tasks as jobs of Slurm: scripts that can be read and kept, arrays, and one job that collects.
+//! Tasks as Slurm jobs: scripts to read and keep, arrays, and one job that collects.
 //!
-//! Nothing of ours runs beside: jobs find their tasks in the shared folder, results say what is done, and the scheduler says what runs. A job
-//! that runs twice, as jobs of a controller that was started anew do, finds the results of the first.
+//! No daemon is needed: jobs find their tasks in the shared folder, results show what is done, and the scheduler knows what runs. A job
+//! that runs twice, as after a restart of the controller, finds the results of its first run.
 
 mod command;
 mod queue;
@@ -23,7 +23,7 @@ pub use queue::{JobState, queue_of};
 pub use record::Submitted;
 pub use submission::submit;
 
-/// What is submitted.
+/// Scripts to submit.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Submission {
@@ -31,20 +31,20 @@ pub struct Submission {
     pub arrays: Vec<PathBuf>,
     /// The script that collects.
     pub collect: PathBuf,
-    /// Tasks in all.
+    /// Number of tasks.
     pub tasks: usize,
-    /// Jobs in all, but for the one that collects.
+    /// Number of jobs, without the one that collects.
     pub jobs: usize,
 }
 
-/// Tasks of one array, which ask for the same.
+/// Tasks of one array, which request the same resources.
 struct Array<'a> {
     name: &'static str,
     tasks: Vec<usize>,
     gres: Option<&'a str>,
 }
 
-/// Writes the scripts that carry out the tasks at `wanted`.
+/// Writes the scripts that run the tasks at `wanted`.
 ///
 /// # Errors
 /// [`SweepError::Io`].
@@ -101,7 +101,7 @@ pub fn scripts(
         let blocks: Vec<&[usize]> = array.tasks.chunks(a_job).collect();
         for (number, blocks) in blocks.chunks(most as usize).enumerate() {
             let name = format!("{}-{}", array.name, number + 1);
-            // A line a job: the positions of its tasks.
+            // One line for each job: the positions of its tasks.
             let lines = blocks.iter().map(|block| {
                 let positions = block.iter().map(usize::to_string);
                 positions.collect::<Vec<_>>().join(",")

@@ -1,26 +1,26 @@
-//! What a site is asked for.
+//! Resources that jobs request from a site.
 
 use serde::{Deserialize, Serialize};
 
-/// How jobs are asked for from Slurm; what is absent is left to the site.
+/// Resources that Slurm jobs request; absent values are left to the defaults of the site.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SlurmSpec {
     /// The partition.
     pub partition: Option<String>,
-    /// The most time that a job may take, as Slurm writes it: `00:30:00`.
+    /// Time limit of a job, in the format of Slurm: `00:30:00`.
     pub time: Option<String>,
     /// The memory of a job: `4G`.
     pub memory: Option<String>,
-    /// Processors of a job, and tasks that it carries out at once.
+    /// Processors of a job, and the number of tasks it runs at once.
     pub cpus: Option<u16>,
-    /// Devices of a job whose tasks ask for one, as Slurm writes them: `gpu:1`.
+    /// Devices of a job whose tasks need one, in the format of Slurm: `gpu:1`.
     pub gres: Option<String>,
-    /// Tasks a job carries out, one after the other or as many at once as it has processors.
+    /// Tasks for each job, run in turn or as many at once as it has processors.
     pub tasks_a_job: Option<u32>,
-    /// Jobs that may run at once.
+    /// Maximum jobs that run at once.
     pub most_jobs: Option<u32>,
-    /// Lines of the shell before the program is started.
+    /// Shell lines to run before the program.
     pub setup: Vec<String>,
     /// The program [default: the one that submits].
     pub program: Option<String>,

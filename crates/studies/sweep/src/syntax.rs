@@ -1,4 +1,4 @@
-//! The file of a sweep as it is written, key by key.
+//! The sweep file as written, key by key.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::slurm_spec::SlurmSpec;
 
-/// The file of a sweep as it is written.
+/// The sweep file as written.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenSweep {
@@ -57,7 +57,7 @@ impl Default for Words {
 }
 
 impl Words {
-    /// Whether there is none.
+    /// True if there is no word.
     pub(crate) fn is_empty(&self) -> bool {
         matches!(self, Words::Several(words) if words.is_empty())
     }
@@ -83,7 +83,7 @@ pub(crate) struct WrittenScore {
     pub(crate) allow_invalid: bool,
 }
 
-/// What makes no sense.
+/// Combinations to skip.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenSkip {

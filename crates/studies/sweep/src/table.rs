@@ -1,4 +1,4 @@
-//! The table of a sweep: a row a task, metric and channel.
+//! The table of a sweep: one row for each task, metric and channel.
 
 mod rows;
 
@@ -19,7 +19,7 @@ pub(crate) struct TidyTable {
 }
 
 impl TidyTable {
-    /// Of all tasks, in their order.
+    /// The table of all tasks, in their order.
     pub(crate) fn of(loaded: &[Loaded<'_>]) -> TidyTable {
         let settings: BTreeSet<&str> = loaded
             .iter()
@@ -37,7 +37,7 @@ impl TidyTable {
         ]
         .map(text)
         .into();
-        // So that a setting called like a column is none.
+        // The prefix keeps a setting apart from a column of the same name.
         columns.extend(settings.iter().map(|name| text(&format!("set.{name}"))));
         columns.push(text("split"));
         columns.push(("seed".to_owned(), WrittenKind::Integer));
@@ -121,7 +121,7 @@ impl TidyTable {
     }
 }
 
-/// Words of a cell, quoted where they must be, and such that no spreadsheet takes them for a formula.
+/// A cell as CSV, quoted if necessary, and escaped so that no spreadsheet reads it as a formula.
 fn field(text: &str) -> String {
     let text = escape_csv(text);
     match text.contains([',', '"', '\n', '\r']) {

@@ -13,32 +13,32 @@ use crate::key::TaskKey;
 /// One evaluation of a sweep: a model with its settings, fitted on and scored on one recording, divided by one split and seed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Task {
-    /// The name of its result.
+    /// The key of its result.
     pub key: TaskKey,
-    /// The recording as the file of the sweep names it.
+    /// The recording as named in the sweep file.
     pub dataset: String,
-    /// Where the recording is.
+    /// Path of the recording.
     pub path: PathBuf,
-    /// The digest of all that the recording said when the sweep was planned, its header included.
+    /// The digest of the whole recording, including its header, when the sweep was planned.
     pub digest: String,
     /// The model.
     pub model: String,
-    /// Every setting that the file of the sweep gives it.
+    /// All settings from the sweep file.
     pub settings: BTreeMap<String, String>,
-    /// The split; that of the recording if it is absent.
+    /// The split; `None` for the default of the recording.
     pub split: Option<String>,
-    /// The seed of the division and of whatever the model draws.
+    /// The seed of the division and of the model's random draws.
     pub seed: u64,
-    /// The build of the plugin that offers the model, when the sweep was planned.
+    /// The build of the plugin with the model, when the sweep was planned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<String>,
 }
 
-/// The word that says which shard of its tables a task is: `2/7`.
+/// The name of the setting that holds the shard of a task: `2/7`.
 pub(crate) const SHARD: &str = "shard";
 
 impl Task {
-    /// What `name` is of this task: a setting, or `dataset`, `model`, `split`, `seed`.
+    /// Value of `name` for this task: of a setting, or of `dataset`, `model`, `split` or `seed`.
     pub fn word(&self, name: &str) -> Option<String> {
         match name {
             "dataset" => Some(self.dataset.clone()),
@@ -56,8 +56,8 @@ impl Task {
         format!("{}{}", self.model, settings.collect::<String>())
     }
 
-    /// `reason` without the folders in which it came to be: with the name that the file gives the recording, and relative to the folder of the
-    /// sweep. So it is the same wherever the task runs.
+    /// `reason` without the folders of this machine: with the recording's name in the file, and paths relative to the folder of the sweep.
+    /// The text is the same wherever the task runs.
     pub(crate) fn without_folders(&self, reason: &str, folder: &SweepFolder) -> String {
         let mut reason = reason.to_owned();
         let own = folder.path();
@@ -74,13 +74,13 @@ impl Task {
         reason
     }
 
-    /// Whether it asks for a device other than the processor.
+    /// True if the task needs a device other than the processor.
     pub fn asks_for_device(&self) -> bool {
         let device = self.settings.get("device");
         device.is_some_and(|device| device != "cpu")
     }
 
-    /// What is to be fitted.
+    /// The request of the fit.
     ///
     /// # Errors
     /// [`EvaluateError`] for a model that does not exist or a setting that it does not have.
@@ -89,7 +89,7 @@ impl Task {
         let model = models.find(&self.model)?;
         let settings = self.settings.iter();
         let settings = settings.map(|(key, value)| format!("{key}={value}"));
-        // A model that draws nothing has no such setting.
+        // A model without random draws has no such setting.
         let draws = model.setting_keys().contains(&SEED) && !self.settings.contains_key(SEED);
         let seed = draws.then(|| format!("{SEED}={}", self.seed));
         let words: Vec<String> = settings.chain(seed).collect();

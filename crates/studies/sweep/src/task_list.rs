@@ -1,4 +1,4 @@
-//! The tasks of a sweep as a file, so that a job elsewhere carries out what was planned here.
+//! The tasks of a sweep as a file, so that a job elsewhere runs what was planned here.
 
 mod file;
 mod selection;
@@ -18,7 +18,7 @@ pub use selection::Counts;
 /// The schema of the list.
 const SCHEMA: &str = "taceva.sweep-tasks/1.1";
 
-/// The tasks of a sweep, with all that is needed to carry them out and to collect them.
+/// The tasks of a sweep, with everything needed to run and collect them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct TaskList {
@@ -26,25 +26,25 @@ pub struct TaskList {
     taceva: String,
     /// The digest of the file that the list was made from.
     file: Digest,
-    /// What the sweep is called.
+    /// Name of the sweep.
     pub name: String,
     /// The view of recordings whose samples have several pictures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
     /// Metrics and groups by name.
     pub metrics: Vec<String>,
-    /// The file that says what is known of the sensor.
+    /// The file of sensor facts.
     pub sensor: Option<PathBuf>,
     /// The digest of that file when the sweep was planned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) sensor_digest: Option<Digest>,
-    /// The file of limits that each unit is held to.
+    /// The file of limits for each unit.
     pub limits: Option<PathBuf>,
-    /// Settings that vary, each with its values in their order.
+    /// Settings that vary, each with its values in order.
     pub vary: Vec<(String, Vec<String>)>,
     /// The tasks, in the order of the table.
     pub tasks: Vec<Task>,
-    /// The tables that tasks are shards of.
+    /// The tables whose shards are the tasks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) tables: Option<PlannedTables>,
 }
@@ -53,7 +53,7 @@ impl TaskList {
     /// The tasks of `grid`.
     ///
     /// # Errors
-    /// [`SweepError::Io`] where the working folder is not known.
+    /// [`SweepError::Io`] if the working folder is unknown.
     pub fn new(file: &SweepFile, grid: Grid) -> Result<TaskList, SweepError> {
         let absolute =
             |path: &PathBuf| std::path::absolute(path).map_err(SweepError::io("find", path));
@@ -73,12 +73,12 @@ impl TaskList {
         })
     }
 
-    /// Whether the file at `path` says what it said when the list was made from it; so, too, where it cannot be read.
+    /// True if the file at `path` is unchanged since the list was made from it, or cannot be read.
     pub fn is_of(&self, path: &Path) -> bool {
         std::fs::read(path).map_or(true, |text| Digest::of(&text) == self.file)
     }
 
-    /// Whether tasks are shards of two tables.
+    /// True if tasks are shards of two tables.
     pub fn is_of_tables(&self) -> bool {
         self.tables.is_some()
     }

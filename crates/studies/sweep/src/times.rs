@@ -1,4 +1,4 @@
-//! How long tasks took, and where: outside the table, since no two runs agree on it.
+//! Run times and hosts of tasks, stored outside the table because no two runs agree on them.
 
 use std::fs;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -10,16 +10,16 @@ use crate::folder::SweepFolder;
 use crate::key::TaskKey;
 use crate::task::Task;
 
-/// How long a task took, and where.
+/// Run time and host of a task.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct TaskTime {
     pub(crate) seconds: f64,
     /// Bytes of its result and its evaluation.
     pub(crate) bytes: u64,
     pub(crate) host: String,
-    /// When it began, in seconds since 1970 by the clock of that host.
+    /// Start time, seconds since 1970 by the clock of that host.
     pub(crate) began: u64,
-    /// The job of a scheduler, where there is one.
+    /// The job of a scheduler, if there is one.
     pub(crate) job: Option<String>,
 }
 
@@ -38,7 +38,7 @@ impl Timer {
         }
     }
 
-    /// Keeps the time of `key`. What cannot be kept is not missed by any result.
+    /// Stores the time of `key`. A failed write is ignored, because no result needs it.
     pub(crate) fn keep(&self, folder: &SweepFolder, key: &TaskKey) {
         let size = |path: &std::path::Path| fs::metadata(path).map_or(0, |facts| facts.len());
         let time = TaskTime {
@@ -77,7 +77,7 @@ fn job() -> Option<String> {
         .or_else(|| of("SLURM_JOB_ID"))
 }
 
-/// `times.csv`: a row a task that was timed.
+/// `times.csv`: one row for each timed task.
 pub(crate) fn csv(folder: &SweepFolder, tasks: &[Task]) -> Result<Vec<u8>, SweepError> {
     let path = folder.path().join("times.csv");
     let failed = |error: csv::Error| SweepError::io("write", &path)(std::io::Error::other(error));

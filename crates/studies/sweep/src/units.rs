@@ -1,4 +1,4 @@
-//! Units held to limits: one line a unit.
+//! Units checked against limits: one line for each unit.
 
 use std::fs;
 
@@ -11,7 +11,7 @@ use crate::error::SweepError;
 use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
 
-/// A unit that was held to limits.
+/// A unit checked against limits.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Unit {
@@ -21,13 +21,13 @@ pub struct Unit {
     pub serial: String,
     /// The model with its settings, the split and the seed.
     pub task: String,
-    /// Whether every limit is kept.
+    /// True if every limit is met.
     pub is_passed: bool,
-    /// The limits that are not kept, each with what was found; or why there is no result.
+    /// The limits that are not met, each with the value found; or why there is no result.
     pub broken: Vec<String>,
 }
 
-/// Every task held to the limits of the sweep; none where there are no limits.
+/// Checks every task against the limits of the sweep; empty if there are no limits.
 pub(crate) fn units(
     folder: &SweepFolder,
     list: &TaskList,
@@ -98,7 +98,7 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
     Ok(unit)
 }
 
-/// A row a unit.
+/// One row for each unit.
 pub(crate) fn table(units: &[Unit]) -> Table {
     let columns = ["recording", "serial", "model", "verdict", "limits not kept"];
     let mut table = Table::new("Units", columns.map(Column::new));

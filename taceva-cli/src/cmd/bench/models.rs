@@ -16,7 +16,7 @@ use super::pressed::Pressed;
 use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 
-/// Models that run only where they are named: they take minutes to hours, or are no model of their own.
+/// Models that run only if named: they take minutes to hours, or are no separate model.
 const NAMED_ONLY: [&str; 7] = [
     "cnn-ensemble",
     "resnet10",
@@ -40,7 +40,7 @@ pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
     }
     let known = context.models()?;
     let requests = requests(args, &known)?;
-    // Before the bench presses anything.
+    // Before any press of the bench.
     requests.iter().try_for_each(FitRequest::check)?;
     let entered = ModelRace {
         requests: &requests,
@@ -63,7 +63,7 @@ pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// A fit each, in the order of `--model`, or of the registry.
+/// One fit for each model, in the order of `--model`, or of the registry.
 fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest>> {
     let quick = |name: &str| {
         let known = QUICK.iter().find(|(of, _)| args.quick && *of == name);
@@ -88,7 +88,7 @@ fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest
     words.iter().map(request).collect()
 }
 
-/// The fit that `word` asks for: a model, its settings after a colon.
+/// The fit of `word`: a model, then its settings after a colon.
 pub(super) fn request(word: &str, split: &SplitArgs, known: &Models) -> anyhow::Result<FitRequest> {
     let (name, settings) = word.split_once(':').unwrap_or((word, ""));
     let settings = settings.split(',').filter(|setting| !setting.is_empty());
@@ -122,7 +122,7 @@ fn race(
     Ok(bench)
 }
 
-/// The machine that this runs on.
+/// This machine.
 pub(super) fn machine(context: &Context) -> BenchMachine {
     let isa = Isa::available()
         .into_iter()
@@ -137,7 +137,7 @@ pub(super) fn machine(context: &Context) -> BenchMachine {
     }
 }
 
-/// What `dataset` is, and how it was divided: how that is written, and the samples learnt from and scored.
+/// Description of `dataset` and its division: the split in text form, and the numbers of training and test samples.
 pub(super) fn recording(
     dataset: &Dataset,
     name: &str,

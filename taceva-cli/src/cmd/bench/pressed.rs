@@ -1,4 +1,4 @@
-//! A recording of the simulated bench, made for a benchmark and removed after it.
+//! A recording of the simulated bench for a benchmark, removed afterwards.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use taceva_study::{Existing, RunFolder, RunSetup, run_scene};
 use super::super::Context;
 use super::super::run::bench::surroundings;
 
-/// The scene: one sensor, its whole surface. Its study fits the baseline only.
+/// The scene: one sensor, its whole surface. Its study fits only the baseline.
 const SCENE: &str = r#"scene_version = 1
 name = "ViTacTip"
 seed = 0
@@ -46,7 +46,7 @@ pub(super) struct Pressed {
     _folder: Folder,
 }
 
-/// A folder of this process among temporary files.
+/// A temporary folder of this process.
 struct Folder(PathBuf);
 
 impl Drop for Folder {

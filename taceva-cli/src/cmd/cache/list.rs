@@ -15,10 +15,10 @@ use crate::args::CacheList;
 use crate::cmd::results;
 use crate::{exit, output};
 
-/// The folder of numbered runs, and the file of a run that lists the stages it used.
+/// The folder of numbered runs, and the file of a run that lists its stages.
 const RUNS: &str = "runs";
 const STAGES: &str = "stages.json";
-/// How many digits of a key are shown.
+/// Number of digits of a key that are shown.
 const SHORT: usize = 12;
 
 pub(super) fn run(args: &CacheList) -> anyhow::Result<u8> {
@@ -40,7 +40,7 @@ pub(super) fn run(args: &CacheList) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Which runs used an entry, by the digits of its key.
+/// Runs that used an entry, by the digits of its key.
 type Used = BTreeMap<String, Vec<String>>;
 
 fn runs_of(named: &[PathBuf]) -> anyhow::Result<Used> {
@@ -56,7 +56,7 @@ fn runs_of(named: &[PathBuf]) -> anyhow::Result<Used> {
         note(&text, folder, &mut used).with_context(|| taceva_core::shown(&stages).to_string())?;
     }
     for entry in fs::read_dir(RUNS).into_iter().flatten().flatten() {
-        // A folder that is no run names nothing.
+        // A folder that is no run has no stages.
         if let Ok(text) = fs::read_to_string(entry.path().join(STAGES)) {
             drop(note(&text, &entry.path(), &mut used));
         }

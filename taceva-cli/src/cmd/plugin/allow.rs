@@ -1,4 +1,4 @@
-//! `taceva plugin allow` and `taceva plugin deny`: what plugins may reach, in the user's settings.
+//! `taceva plugin allow` and `taceva plugin deny`: access of plugins, in the user's settings.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -53,7 +53,7 @@ pub(super) fn deny(args: &PluginDeny) -> anyhow::Result<u8> {
     })
 }
 
-/// Changes what the plugin `id` may reach, and says what that is now.
+/// Changes the access of the plugin `id`, and prints the new one.
 fn change(
     id: &PluginId,
     change: impl FnOnce(&mut BTreeSet<Need>) -> anyhow::Result<()>,
@@ -88,7 +88,7 @@ fn reach(allowed: &BTreeSet<Need>) -> String {
     }
 }
 
-/// Writes the settings: whole or as they were. A link stays one, and the file keeps who may read it.
+/// Writes the settings atomically. A link stays one, and the file keeps its permissions.
 fn write(path: &Path, text: &str) -> io::Result<()> {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let folder = taceva_files::parent_of(&path);

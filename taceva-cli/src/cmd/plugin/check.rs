@@ -34,7 +34,7 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
         moves: args.moves,
         limit: Duration::from_secs(args.limit),
     };
-    // On standard output each check is printed when it is done; JSON and files are written at the end.
+    // On standard output each check is printed when it is finished; JSON and files are written at the end.
     let is_watched = to.format == ListFormat::Text && to.path.is_none();
     let mut results = Vec::new();
     taceva_conformance::check(&host, plugin, &request, &mut |result| {

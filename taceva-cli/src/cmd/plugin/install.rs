@@ -1,4 +1,4 @@
-//! `taceva plugin install`: a plugin that was built or unpacked, copied to where every later command finds it.
+//! `taceva plugin install`: copies a built or unpacked plugin to the search path of later commands.
 
 use std::fs;
 use std::io;
@@ -14,7 +14,7 @@ use crate::args::PluginInstall;
 use crate::cmd::Context;
 use crate::{exit, output, report};
 
-/// The checks that a library must pass before it is installed: it loads, and is what its manifest says.
+/// The checks that a library must pass before it is installed: it loads, and matches its manifest.
 const CHECKS: &str = "library/";
 
 pub(super) fn run(args: &PluginInstall, context: &Context) -> anyhow::Result<u8> {
@@ -56,7 +56,7 @@ pub(super) fn run(args: &PluginInstall, context: &Context) -> anyhow::Result<u8>
     Ok(exit::DONE)
 }
 
-/// Where plugins of this user are installed.
+/// The folder for plugins of this user.
 pub(super) fn folder_of_user() -> anyhow::Result<PathBuf> {
     let search = SearchPath::of_process();
     let user = search.folders().find(|(place, _)| *place == Place::User);
@@ -64,7 +64,7 @@ pub(super) fn folder_of_user() -> anyhow::Result<PathBuf> {
     Ok(user.to_owned())
 }
 
-/// The plugin in `folder`, whose library was loaded in a confined process and is what its manifest says.
+/// The plugin in `folder`, after its library was loaded in a confined process and matched its manifest.
 pub(super) fn checked(
     folder: &Path,
     context: &Context,
@@ -91,7 +91,7 @@ pub(super) fn checked(
     Ok((host, plugin))
 }
 
-/// What was unpacked beside the plugins of the user, under a name that no search looks at; removed when it is dropped.
+/// A package unpacked beside the plugins of the user, under a name that is not searched; removed on drop.
 struct Unpacked {
     folder: PathBuf,
 }
@@ -99,7 +99,7 @@ struct Unpacked {
 impl Unpacked {
     fn of(file: &Path, user: &Path) -> anyhow::Result<Unpacked> {
         let named = || shown(file).to_string();
-        // Asked before opening: opening a pipe would wait for whoever writes into it.
+        // Checked before opening, because opening a pipe would block.
         if !fs::metadata(file).with_context(named)?.is_file() {
             bail!(
                 "{}: expected a folder, or a file that `taceva plugin pack` wrote",
@@ -118,7 +118,7 @@ impl Unpacked {
 
 impl Drop for Unpacked {
     fn drop(&mut self) {
-        // What is left is of no use to anybody, and no search looks at it.
+        // Remains are harmless, because they are not searched.
         drop(fs::remove_dir_all(&self.folder));
     }
 }
@@ -152,12 +152,12 @@ fn replace(plugin: &Plugin, target: &Path) -> io::Result<()> {
         }
         fs::rename(&partial, target).inspect_err(|_| {
             if was_there {
-                // The error that counts is the one that is returned.
+                // The first error is returned.
                 drop(fs::rename(&former, target));
             }
         })
     });
-    // What is left of either is of no use to anybody.
+    // Remains of either are not needed.
     drop(fs::remove_dir_all(&partial));
     drop(fs::remove_dir_all(&former));
     copied?;

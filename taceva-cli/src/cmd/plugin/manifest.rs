@@ -1,4 +1,4 @@
-//! `taceva plugin manifest`: `plugin.toml` from what a library says of itself.
+//! `taceva plugin manifest`: `plugin.toml` from the data in a library.
 
 use std::fs;
 use std::io;
@@ -62,7 +62,7 @@ pub(super) fn run(args: &PluginManifest) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Where the library lies, relative to the folder: as it was given, or as the manifest says.
+/// Path of the library relative to the folder: from the argument, or from the manifest.
 fn library(args: &PluginManifest, text: &str, manifest: &Path) -> anyhow::Result<String> {
     if let Some(given) = &args.library {
         let below = given.strip_prefix(&args.folder).unwrap_or(given);

@@ -12,7 +12,7 @@ use crate::args::{Language, PluginHeaders, PluginNew};
 use crate::cmd::Context;
 use crate::exit;
 
-/// The folder of headers where none is named.
+/// The default folder of headers.
 const INCLUDE: &str = "include";
 
 pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8> {
@@ -55,7 +55,7 @@ pub(super) fn headers(args: &PluginHeaders, context: &Context) -> anyhow::Result
     Ok(exit::DONE)
 }
 
-/// Writes `files`, whose paths begin with `above`, to `folder`: beside its place first, so that it is absent or whole.
+/// Writes `files`, whose paths begin with `above`, to `folder`: under a temporary name first, so that it is absent or complete.
 fn write_folder(folder: &Path, above: &str, files: &[File]) -> anyhow::Result<()> {
     if folder.symlink_metadata().is_ok() {
         bail!("{} exists already", shown(folder));
@@ -67,7 +67,7 @@ fn write_folder(folder: &Path, above: &str, files: &[File]) -> anyhow::Result<()
     let beside = folder.with_file_name(partial);
     let written = write_files(&beside, above, files).and_then(|()| fs::rename(&beside, folder));
     if written.is_err() {
-        // The error that counts is the one reported below.
+        // The first error is reported.
         drop(fs::remove_dir_all(&beside));
     }
     written.with_context(|| format!("cannot write {}", shown(folder)))

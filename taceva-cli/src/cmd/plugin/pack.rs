@@ -1,4 +1,4 @@
-//! `taceva plugin pack`: a plugin as one file, which `taceva plugin install` takes.
+//! `taceva plugin pack`: a plugin as one file for `taceva plugin install`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ pub(super) fn run(args: &PluginPack, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Why a file was not written: the disk, or a plugin that cannot be packed.
+/// Error of packing: of the disk, or of a plugin that cannot be packed.
 struct Failed(anyhow::Error);
 
 impl From<std::io::Error> for Failed {

@@ -1,4 +1,4 @@
-//! `taceva plugin uninstall`: what `taceva plugin install` copied is removed.
+//! `taceva plugin uninstall`: removes the files that `taceva plugin install` copied.
 
 use std::fs;
 use std::io;
@@ -23,7 +23,7 @@ pub(super) fn run(args: &PluginUninstall) -> anyhow::Result<u8> {
         );
     }
     remove(&target).with_context(|| format!("cannot remove {}", shown(&target)))?;
-    // Settings that cannot be read allow nothing.
+    // Settings that cannot be read grant no access.
     let settings = user_config_file().map(|path| PluginConfig::read(&path));
     let is_allowed = settings.is_some_and(|settings| {
         settings.is_ok_and(|config| config.allow.get(id).is_some_and(|needs| !needs.is_empty()))
@@ -41,7 +41,7 @@ pub(super) fn run(args: &PluginUninstall) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Removes a plugin at once for whoever searches: it is renamed first to what no search looks at.
+/// Removes a plugin atomically for other processes: renames it first to a name that is not searched.
 fn remove(target: &Path) -> io::Result<()> {
     let above = taceva_files::parent_of(target);
     let name = target.file_name().unwrap_or_default().display();

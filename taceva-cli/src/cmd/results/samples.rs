@@ -1,4 +1,4 @@
-//! The samples behind results, in the places where `evaluate`, `score` and `run` write them.
+//! Samples of results, where `evaluate`, `score` and `run` write them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -67,7 +67,7 @@ fn of_run(reports: &Path, number: u32) -> anyhow::Result<Option<PathBuf>> {
     Ok(names.first().map(|name| reports.join(name)))
 }
 
-/// The table of samples at `path`, which must be the one that was written with the results of `study`.
+/// Reads the table of samples at `path`, which must have the digest in the results of `study`.
 fn read(path: &Path, study: &Study) -> anyhow::Result<Samples> {
     let table = fs::read_to_string(path).with_context(|| format!("cannot read {}", shown(path)))?;
     let mut provenance = study.provenance.iter();

@@ -1,4 +1,4 @@
-//! What the simulated bench has beside its devices: a clock that runs as fast as it is computed, and changes of specimens.
+//! Parts of the simulated bench besides its devices: a clock that runs as fast as it is computed, and changes of specimens.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,7 +9,7 @@ use taceva_drivers::Selector;
 use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
 use taceva_sim::{MODEL_VERSION, Model};
 
-/// The surroundings of the rig whose simulated robot was opened by `robot`; `None` where its bench is not known.
+/// The surroundings of the rig whose simulated robot was opened by `robot`; `None` if its bench is unknown.
 pub(in crate::cmd) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundings> {
     let bench = rig.bench(&robot.bench()?)?;
     let gel = bench.provenance();
@@ -27,7 +27,7 @@ pub(in crate::cmd) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Su
     })
 }
 
-/// Ignores that the bench is gone: the next call of one of its devices fails with the same error and reports it.
+/// Ignores that the bench has ended: the next call of one of its devices reports the same error.
 fn unless_gone(done: Result<(), DriverError>) {
     drop(done);
 }

@@ -1,4 +1,4 @@
-//! The stages of a run: which were reused from the cache.
+//! The stages of a run, with those reused from the cache.
 
 use serde::Serialize;
 use taceva_evaluate::{Cache, StageRecord};

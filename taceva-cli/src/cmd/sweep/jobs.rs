@@ -118,7 +118,7 @@ pub(super) fn cancel(named: &Path, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// The absolute form of a path that a job is given.
+/// The absolute form of a path for a job.
 fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

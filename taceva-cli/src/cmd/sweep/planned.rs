@@ -1,4 +1,4 @@
-//! What a sweep would do and take, without doing it.
+//! Plan and cost of a sweep.
 
 use taceva_sweep::{Estimate, SweepFolder};
 
@@ -8,7 +8,7 @@ use crate::amount::bytes;
 use crate::progress::spoken;
 use crate::{exit, output};
 
-/// Prints how many tasks there are, what the rest would take, and what is acquired before any of them.
+/// Prints the number of tasks, the cost of the rest, and the scenes to acquire before them.
 pub(super) fn print(
     estimate: &Estimate,
     skipped: usize,

@@ -1,4 +1,4 @@
-//! A sweep from its file: planned, and its tasks carried out here or handed to others.
+//! A sweep from its file: planned, and its tasks run here or elsewhere.
 
 use std::path::Path;
 
@@ -41,7 +41,7 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
         cache: &args.cache,
     };
     if scenes::acquire(&scenes, &acquisition, context)? {
-        // By what was recorded: a key is of a recording that is there.
+        // Keys need the digests of the acquired recordings.
         list = TaskList::new(&file, Grid::of(&file, &recordings, &models)?)?;
         wanted = list.matching(only.as_ref())?;
     }
@@ -66,7 +66,7 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
     Ok(ended(&ran, &folder, &list, all_pass(&collected), context))
 }
 
-/// Prints how the tasks at `left` are carried out by an engine that is none of ours.
+/// Prints the commands of the tasks at `left` for an external engine.
 fn listed(left: &[usize], list: &Path, folder: &SweepFolder) -> anyhow::Result<u8> {
     let [list, folder] = [list, folder.path()].map(|path| shell_word(&path.to_string_lossy()));
     output::write(None, |out| {

@@ -15,21 +15,20 @@ use crate::progress::spoken;
 
 pub(super) use acquire::{Acquisition, acquire};
 
-/// A scene of a sweep.
 pub(super) struct SweepScene {
-    /// As the file of the sweep names it.
+    /// The name in the sweep file.
     named: String,
     planned: PlannedScene,
     drivers: Drivers,
     run: RunFolder,
-    /// Whether its recordings are there, to their end.
+    /// True if its recordings are complete.
     is_acquired: bool,
 }
 
-/// The scenes of `file`, with what there is of them in `folder`. No device is opened and nothing is changed.
+/// The scenes of `file`, with their state in `folder`. Opens no device and changes nothing.
 ///
 /// # Errors
-/// For a scene that is not there, cannot be meant, is not simulated alone, or shares its folder with another.
+/// For a scene that does not exist, is not valid, is not fully simulated, or shares its folder with another.
 pub(super) fn planned(
     file: &SweepFile,
     folder: &SweepFolder,
@@ -55,7 +54,7 @@ pub(super) fn planned(
     Ok(scenes)
 }
 
-/// The recordings of all of `scenes`, there already or not.
+/// The recordings of all of `scenes`, acquired or not.
 pub(super) fn recordings(scenes: &[SweepScene]) -> Vec<SceneRecording> {
     scenes.iter().flat_map(SweepScene::recordings).collect()
 }
@@ -107,13 +106,13 @@ impl SweepScene {
         })
     }
 
-    /// Presses of all its studies.
+    /// Number of presses of all its studies.
     fn presses(&self) -> u64 {
         let studies = self.planned.studies.iter();
         studies.map(|study| study.plan.cost.presses).sum()
     }
 
-    /// What would be done for it, and how long that takes by what was timed in `folder`.
+    /// The work for the scene and its duration, estimated from the times in `folder`.
     pub(super) fn words(&self, folder: &SweepFolder) -> String {
         let name = shown(&self.planned.scene.name);
         let count = self.planned.studies.len();
@@ -140,7 +139,7 @@ impl SweepScene {
     }
 }
 
-/// What a name that is no scene may have been meant to be.
+/// The error for a name that is no scene, with a suggestion.
 fn unknown(named: &str, file: &SweepFile) -> String {
     let builtin = BuiltinScene::ALL.map(BuiltinScene::name);
     let suggestion = match Suggestion::of(named, builtin).nearest() {

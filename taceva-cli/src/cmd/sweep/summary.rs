@@ -1,4 +1,4 @@
-//! What a sweep has found, in a few lines.
+//! Summary of the results of a sweep.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use taceva_sweep::{Collected, SweepFolder, TaskList};
 use super::super::Context;
 use crate::output;
 
-/// The folder of results: the one that is named, or the one beside the file that is named.
+/// The folder of results: the named one, or the one beside the named file.
 pub(super) fn folder_of(named: &Path) -> SweepFolder {
     match named.is_dir() {
         true => SweepFolder::new(named.to_owned()),
@@ -16,7 +16,7 @@ pub(super) fn folder_of(named: &Path) -> SweepFolder {
     }
 }
 
-/// The tasks of the last call. Where the file that is named says something else by now, that is said too.
+/// The tasks of the last call. Prints a message if the named file has changed since.
 pub(super) fn latest(
     named: &Path,
     folder: &SweepFolder,
@@ -32,12 +32,12 @@ pub(super) fn latest(
     Ok(list)
 }
 
-/// Whether every unit keeps to its limits, where there are limits.
+/// True if every unit meets its limits, or there are none.
 pub(super) fn all_pass(collected: &Collected) -> bool {
     collected.units.iter().all(|unit| unit.is_passed)
 }
 
-/// What there is now, and where.
+/// Prints the counts and the paths of the results.
 pub(super) fn print(folder: &SweepFolder, collected: &Collected) -> anyhow::Result<()> {
     let path = taceva_core::shown(folder.path()).to_string();
     output::write(None, |out| {

@@ -1,4 +1,4 @@
-//! Tasks carried out in this process.
+//! Tasks that run in this process.
 
 use taceva_core::shown;
 use taceva_evaluate::Cache;
@@ -9,13 +9,13 @@ use super::super::{Context, Usage, cache};
 use crate::args::{CacheArgs, SweepTask};
 use crate::exit;
 
-/// How tasks are to be carried out.
+/// Options of running tasks.
 pub(super) struct Asked<'a> {
     pub(super) cache: &'a CacheArgs,
     pub(super) retry_failed: bool,
 }
 
-/// Carries out the tasks at `wanted` in this process.
+/// Runs the tasks at `wanted` in this process.
 pub(super) fn carried_out(
     folder: &SweepFolder,
     list: &TaskList,
@@ -58,7 +58,7 @@ pub(super) fn run(args: &SweepTask, context: &Context) -> anyhow::Result<u8> {
     Ok(ended(&ran, &folder, &list, true, context))
 }
 
-/// Names what failed; the exit code.
+/// Prints the failed tasks; returns the exit code.
 pub(super) fn ended(
     ran: &Ran,
     folder: &SweepFolder,
@@ -90,7 +90,7 @@ pub(super) fn ended(
     }
 }
 
-/// What tasks have in common, in the folder of the sweep unless another is named.
+/// The cache that tasks share: in the folder of the sweep unless another is named.
 fn cache_of(args: &CacheArgs, folder: &SweepFolder) -> Option<Cache> {
     let named = CacheArgs {
         cache: Some(args.cache.clone().unwrap_or_else(|| folder.cache())),

@@ -1,11 +1,11 @@
-//! Chunks of Blosc 1: blocks, each in one stream or in one for every byte of an element, packed by another codec and shuffled.
+//! Chunks of Blosc 1: blocks of one stream, or of one stream for every byte of an element, compressed by another codec and shuffled.
 
 use super::shuffle::{unshuffled_bits, unshuffled_bytes};
 use super::{lz4, zlib, zstd};
 use crate::error::Problem;
 
 const HEADER_BYTES: usize = 16;
-/// Elements of more bytes are not split into streams, nor are blocks of fewer elements.
+/// Maximum number of streams: elements of more bytes, and blocks of fewer elements, are not split.
 const MOST_STREAMS: usize = 16;
 const LEAST_ELEMENTS: usize = 128;
 
@@ -14,7 +14,7 @@ const IS_STORED: u8 = 2;
 const IS_BIT_SHUFFLED: u8 = 4;
 const IS_ONE_STREAM: u8 = 16;
 
-/// Unpacks a chunk of Blosc.
+/// Unpacks a Blosc chunk.
 pub(crate) fn blosc(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     let damaged =
         |at: usize, found: String, expected: &str| Problem::damaged(at as u64, found, expected);

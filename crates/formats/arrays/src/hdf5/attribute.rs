@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use hdf5_pure::{AttrValue, File};
 
-/// The attribute `name` of `owner`, if there is one of a kind that has a text.
+/// The attribute `name` of `owner` as text; `None` if it is missing or has no text form.
 pub(crate) fn read(file: &File, owner: &str, name: &str) -> Option<String> {
     text(all(file, owner)?.remove(name)?)
 }

@@ -1,5 +1,5 @@
-//! Index of the chunks of a dataset, held against its grid and its extent. The library passes over a chunk whose key is damaged, and its elements
-//! become the fill value without a word.
+//! Index of the chunks of a dataset, checked against its grid and its extent. The library skips a chunk whose key is damaged, and its
+//! elements silently become the fill value.
 
 use std::collections::BTreeSet;
 
@@ -12,17 +12,17 @@ use crate::store::chunks_of;
 /// Content of an index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ChunkIndex {
-    /// Chunks that were written.
+    /// Number of written chunks.
     pub(super) written: u64,
-    /// Chunks that were not, of those that the extent asks for.
+    /// Number of missing chunks within the extent.
     pub(super) absent: u64,
 }
 
 impl ChunkIndex {
-    /// The index of `dataset`, whose chunks have the lengths `chunk`; none of the one kind of index that is not read here.
+    /// The index of `dataset` with chunks of the lengths `chunk`; `None` for the one kind of index that is not supported.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] of a chunk off the grid, outside the extent or at the place of another; [`Problem::Structure`] if it does not read.
+    /// [`Problem::Damaged`] for a chunk off the grid, outside the extent or duplicate; [`Problem::Structure`] for an invalid index.
     pub(super) fn read(
         dataset: &Dataset,
         shape: &[u64],

@@ -1,6 +1,6 @@
-//! Data frames that pandas stores in its fixed form: blocks of columns of one type, shown here as a column each.
+//! Data frames that pandas stores in its fixed format: blocks of columns of one type, exposed as one array for each column.
 //!
-//! `/run` with `block0_items`, `block0_values` and `axis1` becomes `/run/Fz`, `/run/obj` and `/run/index`. Texts are one pickled array a block.
+//! `/run` with `block0_items`, `block0_values` and `axis1` becomes `/run/Fz`, `/run/obj` and `/run/index`. A block of texts is pickled.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::pickle::Pickle;
 use crate::store::{Arrays, Store};
 use crate::values::{ArrayData, ArrayValues};
 
-/// A file with data frames in the fixed form of pandas.
+/// A file with data frames in the fixed format of pandas.
 #[derive(Debug)]
 pub(crate) struct DataFrames {
     hdf5: Hdf5,
@@ -20,7 +20,7 @@ pub(crate) struct DataFrames {
     refused: Vec<(String, Problem)>,
 }
 
-/// An array as it is shown.
+/// An exposed array.
 #[derive(Debug)]
 struct Shown {
     name: String,
@@ -28,7 +28,7 @@ struct Shown {
     content: Content,
 }
 
-/// Place of an array's elements; arrays of the file by their number there.
+/// Location of an array's elements; arrays of the file by their index there.
 #[derive(Debug)]
 enum Content {
     /// A whole array of the file.
@@ -39,20 +39,19 @@ enum Content {
     Texts(BlockColumn),
 }
 
-/// A column of a block of several.
 #[derive(Clone, Copy, Debug)]
 struct BlockColumn {
     array: usize,
     column: usize,
-    /// Columns of the block.
+    /// Number of columns of the block.
     width: usize,
 }
 
-/// Way out of every form of a data frame that is not read.
+/// Remedy for every data frame that is not supported.
 const REMEDY: &str =
     "write it with `df.to_parquet(path)`, or with `df.to_hdf(path, key=\"run\", format=\"table\")`";
 
-/// The store of a file: with its data frames as columns where it has some.
+/// The store of a file, with its data frames as columns if it has any.
 pub(crate) fn store(hdf5: Hdf5) -> Box<dyn Store> {
     let arrays = hdf5.arrays();
     let is_of_frame = |name: &String| {
@@ -207,7 +206,7 @@ fn texts(values: ArrayValues) -> Vec<String> {
 }
 
 impl DataFrames {
-    /// Rows of a column of texts; the block is unpickled as a whole.
+    /// Rows of a column of texts; unpickles the whole block.
     fn texts(&self, own: BlockColumn, rows: Range<u64>) -> Result<ArrayValues, Problem> {
         let block = self.hdf5.read(own.array, 0..1)?.values;
         let ArrayValues::Bytes(mut block) = block else {
@@ -293,7 +292,7 @@ impl Store for DataFrames {
 }
 
 impl DataFrames {
-    /// The name that the array `owner` has in the file.
+    /// The stored name of the array `owner`.
     fn stored(&self, owner: &str) -> String {
         let own = self.shown.iter().find(|shown| shown.name == owner);
         let stored = own.and_then(|own| {

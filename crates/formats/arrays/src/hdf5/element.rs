@@ -1,4 +1,4 @@
-//! Types of HDF5 as they lie in a file.
+//! Stored types of HDF5.
 
 use hdf5_pure::{Datatype, DatatypeByteOrder, FloatingPointLayout, StringPadding};
 
@@ -7,7 +7,7 @@ use crate::fields::{Field, Item};
 use crate::limits;
 use crate::scalar::{Filler, Kind, Scalar, shown};
 
-/// An element of a dataset; `reference_bytes` are those of a reference to a variable-length value.
+/// The layout of an element of a dataset; `reference_bytes` is the size of a reference to a variable-length value.
 pub(crate) fn item(datatype: &Datatype, reference_bytes: usize) -> Result<Item, Problem> {
     let mut item = Item {
         bytes: size(datatype, reference_bytes)?,
@@ -38,7 +38,7 @@ pub(crate) fn item(datatype: &Datatype, reference_bytes: usize) -> Result<Item, 
     }
 }
 
-/// Where a type stands within the element.
+/// Position of a type within the element.
 #[derive(Clone, Debug, Default)]
 struct Place {
     name: String,

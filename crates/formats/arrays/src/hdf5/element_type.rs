@@ -1,6 +1,6 @@
-//! The types of the elements that are written.
+//! Types of written elements.
 
-/// What the elements of a written array are, little endian.
+/// Type of the elements of a written array, little-endian.
 ///
 /// ```
 /// use taceva_arrays::WrittenElement;
@@ -17,11 +17,11 @@ pub enum WrittenElement {
     I64,
     /// Numbers of single precision.
     F32,
-    /// Numbers of double precision; NaN where there is none.
+    /// Numbers of double precision; NaN for a missing value.
     F64,
-    /// Texts in UTF-8 of at most so many bytes, zeros behind shorter ones.
+    /// UTF-8 texts of at most this many bytes, padded with zeros.
     Text {
-        /// How many, at least 1.
+        /// Size, bytes, at least 1.
         bytes: u32,
     },
 }
@@ -38,13 +38,13 @@ impl WrittenElement {
         }
     }
 
-    /// The message of the type.
+    /// The datatype message.
     pub(super) fn message(self) -> Vec<u8> {
         let size = self.bytes();
         let bits = u16::try_from(size.saturating_mul(8)).unwrap_or(u16::MAX);
         let mut message = Vec::new();
         let mut put = |class: u8, of_class: [u8; 3], rest: &[u8]| {
-            // The version of the message, 1, stands above the class.
+            // The version of the message, 1, is in the bits above the class.
             message.push(0x10 | class);
             message.extend(of_class);
             message.extend(size.to_le_bytes());
@@ -52,7 +52,7 @@ impl WrittenElement {
         };
         let [low, high] = bits.to_le_bytes();
         let whole = [0, 0, low, high];
-        // Bit offset and precision, place and width of exponent and mantissa, and the bias of the exponent.
+        // Bit offset and precision, position and width of exponent and mantissa, and the bias of the exponent.
         let single = [0, 0, low, high, 23, 8, 0, 23, 127, 0, 0, 0];
         let double = [0, 0, low, high, 52, 11, 0, 52, 0xff, 0x03, 0, 0];
         match self {

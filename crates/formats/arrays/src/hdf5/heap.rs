@@ -1,4 +1,4 @@
-//! Texts and bytes of any length, which lie in the collections of the global heap.
+//! Variable-length texts and bytes, stored in the collections of the global heap.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -14,18 +14,18 @@ use crate::values::ArrayValues;
 #[derive(Debug)]
 pub(crate) struct GlobalHeap {
     file: Arc<FileBytes>,
-    /// Where address 0 lies.
+    /// Offset of address 0 in the file, bytes.
     base: u64,
     offset_bytes: usize,
     length_bytes: usize,
     collections: Mutex<Cache<u64, Collection>>,
 }
 
-/// Objects that were written together.
+/// A collection of objects.
 #[derive(Debug)]
 struct Collection {
     bytes: Vec<u8>,
-    /// Where each object lies, by its number.
+    /// Range of each object, by its number.
     objects: BTreeMap<u32, Range<usize>>,
 }
 
@@ -45,7 +45,7 @@ impl GlobalHeap {
         }
     }
 
-    /// The values behind references: length (4 bytes), address of the collection, number of the object (4 bytes).
+    /// Resolves references: length (4 bytes), address of the collection, number of the object (4 bytes).
     pub(crate) fn values(&self, references: &[u8], is_text: bool) -> Result<ArrayValues, Problem> {
         let mut all = Vec::with_capacity(references.len() / (8 + self.offset_bytes));
         let mut held = 0_u64;
@@ -62,7 +62,7 @@ impl GlobalHeap {
                     limits::READ_BYTES,
                 ));
             }
-            // Nothing was ever written there.
+            // Never written.
             all.push(if length == 0 {
                 Vec::new()
             } else {
@@ -134,7 +134,7 @@ impl GlobalHeap {
         Ok(collection)
     }
 
-    /// Number (2 bytes), references to it (2), filler (4), length, then the object itself up to a multiple of 8. Number 0 is free space.
+    /// Parses objects: number (2 bytes), reference count (2), padding (4), length, then data padded to 8 bytes. Number 0 is free space.
     fn objects(&self, collection: &[u8]) -> BTreeMap<u32, Range<usize>> {
         let mut objects = BTreeMap::new();
         let mut at = 8 + self.length_bytes;

@@ -1,22 +1,22 @@
 //! Data layout version 5, which HDF5 2.0 writes for filtered chunks and `hdf5-pure` does not know: read as version 4.
 //!
-//! Both versions have the same message. They differ in the width of the sizes of chunks in an index, which the header of the index states.
+//! Both versions have the same message. They differ in the width of chunk sizes in an index, which the header of the index states.
 
 use super::lookup3::lookup3;
 
-/// The number of the message that says where the elements of a dataset lie.
+/// The type of the data layout message.
 const DATA_LAYOUT: u8 = 8;
-/// The greatest number of a message in the format specification of HDF5 4.0.
+/// The greatest message type in the format specification of HDF5 4.0.
 const LAST_MESSAGE: u8 = 0x18;
 /// Flags of an object header: order of creation, attribute thresholds, times.
 const ORDERED: u8 = 4;
 const THRESHOLDS: u8 = 16;
 const TIMES: u8 = 32;
-/// Bytes of the checksum at the end of a block.
+/// Size of the checksum at the end of a block, bytes.
 const CHECKSUM: usize = 4;
 
-/// Rewrites the layout messages of one whole block of an object header, and its checksum. Other bytes, and a block whose checksum is wrong,
-/// stay as they are.
+/// Rewrites the layout messages of one complete block of an object header, and its checksum. Other bytes, and a block with a wrong
+/// checksum, stay as they are.
 pub(super) fn lower(block: &mut [u8]) {
     let places = layouts(block);
     let Some(end) = block
@@ -36,7 +36,7 @@ pub(super) fn lower(block: &mut [u8]) {
     block[end..].copy_from_slice(&sum.to_le_bytes());
 }
 
-/// Places of the version bytes of layout messages of version 5.
+/// Offsets of the version bytes of layout messages of version 5.
 fn layouts(block: &[u8]) -> Vec<usize> {
     match block {
         [b'O', b'H', b'D', b'R', 2, flags, ..] => {
@@ -44,7 +44,7 @@ fn layouts(block: &[u8]) -> Vec<usize> {
             let start = 6 + optional(TIMES, 16) + optional(THRESHOLDS, 4) + (1 << (flags & 3));
             walk(block, start, 4 + optional(ORDERED, 2)).unwrap_or_default()
         }
-        // A continuation does not repeat the flags.
+        // A continuation block does not repeat the flags.
         [b'O', b'C', b'H', b'K', ..] => walk(block, 4, 4)
             .or_else(|| walk(block, 4, 6))
             .unwrap_or_default(),
@@ -52,7 +52,7 @@ fn layouts(block: &[u8]) -> Vec<usize> {
     }
 }
 
-/// The same of messages that begin at `start` behind heads of `head` bytes; `None` if they do not fill the block.
+/// The same for messages that begin at `start`, each after a head of `head` bytes; `None` if they do not fill the block.
 fn walk(block: &[u8], start: usize, head: usize) -> Option<Vec<usize>> {
     let end = block.len().checked_sub(CHECKSUM)?;
     let (mut at, mut places) = (start, Vec::new());
@@ -75,7 +75,7 @@ mod tests {
     use super::super::structures::header;
     use super::*;
 
-    /// A continuation of these messages, whose heads have `head` bytes.
+    /// A continuation block of these messages, with heads of `head` bytes.
     fn continuation(messages: &[(u8, Vec<u8>)], head: usize) -> Vec<u8> {
         let mut block = b"OCHK".to_vec();
         for (number, body) in messages {

@@ -1,21 +1,21 @@
-//! What an error says of a name that is a link: to another file, or elsewhere in this one.
+//! Error messages for names that are links: to another file, or elsewhere in this one.
 //!
-//! Groups in the newer form have their links as messages (format specification of HDF5 3.0, IV.A.2.g), which `hdf5-pure` passes over. They are
-//! looked for by their bytes, and only once a name was not found.
+//! Groups in the newer format store their links as messages (format specification of HDF5 3.0, IV.A.2.g), which `hdf5-pure` skips. They are
+//! found by a search for their bytes, and only after a name was not found.
 
 use crate::error::Problem;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 
-/// The kinds of links that lead elsewhere.
+/// Types of links that lead elsewhere.
 const SOFT: u8 = 1;
 const EXTERNAL: u8 = 64;
-/// How far into a file is looked, and how much of it at once, bytes.
+/// Search limit in a file, and search block, bytes.
 const FURTHEST: u64 = 64 << 20;
 const BLOCK: u64 = 1 << 20;
-/// The longest message that is understood, bytes.
+/// Maximum length of a supported message, bytes.
 const MESSAGE: u64 = 2 << 10;
 
-/// Why the last part of `name` is not among the arrays, if it is a link.
+/// The problem of `name` if its last part is a link; else `None`.
 pub(super) fn of(file: &FileBytes, name: &str) -> Option<Problem> {
     let leaf = name.rsplit('/').next().filter(|leaf| !leaf.is_empty())?;
     let length = u8::try_from(leaf.len()).ok()?;
@@ -36,9 +36,9 @@ pub(super) fn of(file: &FileBytes, name: &str) -> Option<Problem> {
     None
 }
 
-/// The kind and the value of the link message whose name begins with its length at `place`.
+/// The type and the value of the link message whose name begins with its length at `place`.
 fn message(bytes: &[u8], place: usize, length: usize) -> Option<(u8, Vec<u8>)> {
-    // In front: version 1, flags, the kind, and by the flags the order of creation and the letters of the name.
+    // Before the name: version 1, flags, the type, and depending on the flags the creation order and the character set.
     let is_head = |before: usize| {
         let at = place.checked_sub(before)?;
         let flags = bytes[at + 1];

@@ -1,4 +1,4 @@
-//! The bytes of a file as the crate reads them: soft links made hard, layouts lowered to the version that it knows.
+//! The bytes of a file with patches for the crate: soft links become hard links, and layouts get the version that it supports.
 
 use std::sync::Arc;
 
@@ -8,7 +8,6 @@ use super::layout_version;
 use super::soft_links::{LONGEST_PATCH, Patches};
 use crate::source::{ByteSource, FileBytes};
 
-/// The file as the crate reads it.
 pub(super) struct PatchedFile {
     pub(super) bytes: Arc<FileBytes>,
     pub(super) patches: Patches,

@@ -1,7 +1,7 @@
-//! Soft links of groups as files have them by default (symbol tables), which `hdf5-pure` takes for damage: they become hard ones to what they
-//! lead to, in what is read of the file and not in the file.
+//! Soft links of groups in symbol tables, the default of HDF5. `hdf5-pure` takes them for damage, so they become hard links to their
+//! targets in the bytes read, not in the file.
 //!
-//! Structures as in the format specification of HDF5 3.0, III.A, C and D: a B-tree of symbol nodes and a local heap with their names a group.
+//! Format specification of HDF5 3.0, III.A, C and D: a group has a B-tree of symbol nodes and a local heap with their names.
 
 use std::collections::BTreeMap;
 
@@ -9,33 +9,33 @@ use crate::error::Problem;
 use crate::limits;
 use crate::source::{FileBytes, bytes_of};
 
-/// Groups within groups, and links that lead to links.
+/// Maximum nesting of groups, and of links to links.
 const DEPTH: usize = 16;
-/// What an entry of a symbol node says that it is: a group whose tree and heap it names, a soft link whose target it names.
+/// Cache type of an entry of a symbol node: a group with its tree and heap, or a soft link with its target.
 const GROUP: u32 = 1;
 const SOFT_LINK: u32 = 2;
-/// Bytes of an entry: where its name is, where its header is, what it is, and 16 bytes for that.
+/// Size of an entry, bytes: offset of its name, address of its header, cache type, and 16 bytes of scratch space.
 const ENTRY: usize = 40;
 
-/// The longest of the texts that are read in the place of those of a file, bytes.
+/// Maximum size of a patch, bytes.
 pub(super) const LONGEST_PATCH: u64 = ENTRY as u64;
 
-/// Bytes that are read in the place of those of the file, by their place in it.
+/// Replacement bytes, by their offset in the file.
 pub(super) type Patches = BTreeMap<u64, Vec<u8>>;
 
-/// What becomes of the soft links of a file.
+/// Result of resolving the soft links of a file.
 #[derive(Default)]
 pub(super) struct Followed {
-    /// The links as hard ones, and those that lead nowhere taken out.
+    /// The links as hard links; dead links are removed.
     pub(super) patches: Patches,
-    /// The links that lead nowhere, or in a circle, with the words for whoever reads them.
+    /// Dead and circular links, with the error for readers.
     pub(super) nowhere: Vec<(String, Problem)>,
 }
 
-/// What the soft links of a file would be as hard ones; none where it has no symbol tables, or no such links.
+/// Resolves the soft links of a file to hard links; empty if it has no symbol tables, or no such links.
 ///
 /// # Errors
-/// [`Problem`] naming what does not read.
+/// [`Problem`] for an unreadable structure.
 pub(super) fn followed(file: &FileBytes) -> Result<Followed, Problem> {
     let mut found = Found {
         file,
@@ -45,7 +45,7 @@ pub(super) fn followed(file: &FileBytes) -> Result<Followed, Problem> {
         entries: 0,
     };
     let start = bytes_of(file, 0, 96)?;
-    // Behind a user block, and of other widths of addresses than 8 bytes, such links stay what they are.
+    // After a user block, or with addresses of other widths than 8 bytes, such links are left unchanged.
     let is_known =
         start.starts_with(b"\x89HDF\r\n\x1a\n") && start[8] < 2 && start[13..15] == [8, 8];
     if !is_known {
@@ -60,21 +60,21 @@ pub(super) fn followed(file: &FileBytes) -> Result<Followed, Problem> {
 struct Found<'f> {
     file: &'f FileBytes,
     base: u64,
-    /// Of each object that a hard link leads to, the address of its header.
+    /// Address of the header of each object with a hard link, by path.
     headers: BTreeMap<String, u64>,
-    /// Of each soft link, by its path, where its entry is and what it leads to.
+    /// Each soft link by its path, with the location of its entry and its target.
     links: BTreeMap<String, SoftLink>,
     entries: u64,
 }
 
 struct SoftLink {
     node: Node,
-    /// Which entry of the node it is.
+    /// Index of the entry in the node.
     position: usize,
     target: String,
 }
 
-/// A symbol node: entries of a group, one behind the other.
+/// A symbol node: consecutive entries of a group.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Node {
     address: u64,
@@ -86,7 +86,7 @@ impl Found<'_> {
         bytes_of(self.file, self.base.saturating_add(address), length)
     }
 
-    /// The group that `entry` leads to, if it says where its tree and its heap are.
+    /// Visits the group of `entry`, if it states its tree and its heap.
     fn group(&mut self, entry: &[u8], path: &str, depth: usize) -> Result<(), Problem> {
         if number32(&entry[16..]) != GROUP || depth == DEPTH {
             return Ok(());
@@ -155,7 +155,7 @@ impl Found<'_> {
 
     fn followed(&self) -> Result<Followed, Problem> {
         let mut followed = Followed::default();
-        // Of each node the headers that its links lead to: a node has several paths where a group has.
+        // For each node, the headers of its links: a node has several paths if its group has.
         let mut nodes: BTreeMap<Node, BTreeMap<usize, Option<u64>>> = BTreeMap::new();
         for (path, link) in &self.links {
             let header = self.header(&absolute(path, &link.target), 0);
@@ -174,7 +174,7 @@ impl Found<'_> {
         Ok(followed)
     }
 
-    /// The entries of a node with its links as hard ones. Behind one that leads nowhere, which is left out, the others move up.
+    /// The entries of a node with its links as hard links. A dead link is removed, and later entries move up.
     fn patch(
         &self,
         node: Node,
@@ -206,7 +206,7 @@ impl Found<'_> {
         Ok(())
     }
 
-    /// The header of the object at `path`, through other links too.
+    /// The header of the object at `path`, also through other links.
     fn header(&self, path: &str, hops: usize) -> Option<u64> {
         if let Some(header) = self.headers.get(path) {
             return Some(*header);
@@ -222,7 +222,7 @@ impl Found<'_> {
     }
 }
 
-/// What is said of a link to whoever reads it.
+/// The error for readers of a dead link.
 fn leads_nowhere(path: &str, target: &str) -> Problem {
     let name = path.trim_start_matches('/');
     Problem::unsupported(
@@ -233,7 +233,7 @@ fn leads_nowhere(path: &str, target: &str) -> Problem {
     )
 }
 
-/// The full path of what a link at `path` leads to.
+/// The full path of the target of a link at `path`.
 fn absolute(path: &str, target: &str) -> String {
     let parent = path.rsplit_once('/').map_or("", |(parent, _)| parent);
     let begin = if target.starts_with('/') { "" } else { parent };
@@ -242,7 +242,7 @@ fn absolute(path: &str, target: &str) -> String {
     format!("/{}", parts.join("/"))
 }
 
-/// The text at a place of a heap, which ends with a zero.
+/// The zero-terminated text at an offset of a heap.
 fn text(heap: &[u8], at: u64) -> Option<String> {
     let rest = heap.get(usize::try_from(at).ok()?..)?;
     let end = rest.iter().position(|byte| *byte == 0)?;

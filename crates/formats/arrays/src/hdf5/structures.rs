@@ -1,20 +1,20 @@
-//! The structures of a written file of HDF5, as bytes: superblock 2, object headers 2, and the messages in them.
+//! Structures of a written HDF5 file, as bytes: superblock 2, object headers 2, and their messages.
 
 use super::element_type::WrittenElement;
 use super::lookup3::lookup3;
 
-/// Bytes of the superblock, behind which the first array begins.
+/// Size of the superblock, bytes; the first array follows it.
 pub(super) const SUPERBLOCK_BYTES: usize = 48;
-/// An address that nothing has.
+/// The undefined address.
 pub(super) const NOWHERE: u64 = u64::MAX;
 
-/// The message of where the elements of an array lie: in one piece of `bytes` bytes at `at`.
+/// The layout message of contiguous elements: `bytes` bytes at `at`.
 pub(super) fn contiguous(at: u64, bytes: u64) -> Vec<u8> {
     let at = if bytes == 0 { NOWHERE } else { at };
     [&[3, 1][..], &at.to_le_bytes(), &bytes.to_le_bytes()].concat()
 }
 
-/// The message of a shape, which never changes; that of no axis is one element.
+/// The dataspace message of a fixed shape; no axes mean one element.
 pub(super) fn dataspace(shape: &[u64]) -> Vec<u8> {
     let rank = u8::try_from(shape.len()).unwrap_or(u8::MAX);
     let mut message = vec![2, rank, 0, u8::from(rank > 0)];
@@ -22,24 +22,24 @@ pub(super) fn dataspace(shape: &[u64]) -> Vec<u8> {
     message
 }
 
-/// Texts of attributes, which lie in a collection of the global heap: so they come out of every library as texts, and not as bytes.
+/// Texts of attributes in a collection of the global heap, so that every library reads them as texts, not as bytes.
 #[derive(Debug, Default)]
 pub(super) struct Heap {
     objects: Vec<u8>,
     pub(super) count: u16,
 }
 
-/// Bytes of the header of a collection, and of that of an object in it.
+/// Size of the header of a collection, and of the header of an object in it, bytes.
 const HEAP_HEADER: usize = 16;
-/// The least size of a collection, bytes.
+/// Minimum size of a collection, bytes.
 const HEAP_LEAST: usize = 4096;
 
 impl Heap {
-    /// Keeps a text; returns the number of its object, from 1.
+    /// Adds a text; returns the number of its object, from 1.
     pub(super) fn add(&mut self, text: &str) -> u16 {
         self.count += 1;
         self.objects.extend(self.count.to_le_bytes());
-        // Referred to once.
+        // Reference count 1.
         self.objects.extend([1, 0, 0, 0, 0, 0]);
         self.objects.extend((text.len() as u64).to_le_bytes());
         self.objects.extend(text.as_bytes());
@@ -48,7 +48,7 @@ impl Heap {
         self.count
     }
 
-    /// The collection, whose rest is an object without a number.
+    /// The collection; the rest of it is an object without a number.
     pub(super) fn collection(mut self) -> Vec<u8> {
         let used = HEAP_HEADER + self.objects.len();
         let size = (used + HEAP_HEADER).max(HEAP_LEAST);
@@ -62,9 +62,9 @@ impl Heap {
     }
 }
 
-/// The message of an attribute that is a text of `bytes` bytes, the object of that number in the heap at `heap`.
+/// The attribute message of a text of `bytes` bytes: object `object` in the heap at `heap`.
 pub(super) fn attribute(key: &str, bytes: usize, heap: u64, object: u16) -> (u8, Vec<u8>) {
-    // A text of any length in UTF-8: a length, and where it lies; of bytes.
+    // Variable-length UTF-8 text: a length, and a reference; base type bytes.
     let mut kind = vec![0x19, 0x01, 0x01, 0, 16, 0, 0, 0];
     kind.extend(WrittenElement::U8.message());
     let space = dataspace(&[]);
@@ -85,7 +85,7 @@ pub(super) fn attribute(key: &str, bytes: usize, heap: u64, object: u16) -> (u8,
     (0x0c, message)
 }
 
-/// The message of a link to the object header at `at`, its name in UTF-8.
+/// The link message to the object header at `at`, with its name in UTF-8.
 pub(super) fn link(name: &str, at: u64) -> Vec<u8> {
     let length = u8::try_from(name.len()).unwrap_or(u8::MAX);
     let mut message = vec![1, 0x10, 1, length];
@@ -94,7 +94,7 @@ pub(super) fn link(name: &str, at: u64) -> Vec<u8> {
     message
 }
 
-/// An object header of these messages, each with its number.
+/// An object header of these messages, each with its type.
 pub(super) fn header(messages: &[(u8, Vec<u8>)]) -> Vec<u8> {
     let mut body = Vec::new();
     for (number, message) in messages {

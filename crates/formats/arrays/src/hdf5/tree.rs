@@ -1,5 +1,5 @@
-//! Which groups and datasets a file holds. Hard links are followed, soft and external ones are not; links that lead back to a group
-//! above end at a depth of 16.
+//! Groups and datasets of a file. Hard links are followed, soft and external ones are not. Links back to a parent group end at a depth of
+//! 16.
 
 use hdf5_pure::{Dataset, File, Group};
 
@@ -8,17 +8,17 @@ use super::{Listed, problem, product};
 use crate::error::Problem;
 use crate::limits;
 
-/// Groups within groups.
+/// Maximum nesting of groups.
 const DEPTH: usize = 16;
 
-/// What was found.
+/// Groups and datasets found.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
-    /// Bytes of a reference to a value of variable length.
+    /// Size of a reference to a variable-length value, bytes.
     reference_bytes: usize,
     pub(crate) groups: Vec<String>,
     pub(crate) datasets: Vec<Listed>,
-    /// Datasets that are there and cannot be read, with the reason.
+    /// Datasets that cannot be read, with the reason.
     pub(crate) refused: Vec<(String, Problem)>,
 }
 
@@ -67,7 +67,7 @@ impl Found {
     }
 }
 
-/// Shape and type of a dataset, if it is one that can be read.
+/// Shape and type of a dataset, or the reason why it cannot be read.
 fn listed(path: String, dataset: &Dataset, reference_bytes: usize) -> Result<Listed, Problem> {
     let shape = dataset.shape().map_err(problem)?;
     let datatype = dataset.datatype().map_err(problem)?;

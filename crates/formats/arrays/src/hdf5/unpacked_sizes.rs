@@ -1,4 +1,4 @@
-//! Bytes that the datasets of a file become, held against those that the file has.
+//! Unpacked sizes of the datasets of a file, checked against its stored size.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -6,15 +6,15 @@ use std::sync::{Mutex, PoisonError};
 use crate::error::Problem;
 use crate::limits;
 
-/// Bytes that the datasets become which were opened so far, each once.
+/// Unpacked sizes of the datasets opened so far, bytes, each once.
 #[derive(Debug, Default)]
 pub(super) struct UnpackedSizes(Mutex<BTreeMap<usize, u64>>);
 
 impl UnpackedSizes {
-    /// Counts the dataset `index` of `bytes` once unpacked, in a file of `stored`.
+    /// Counts the dataset `index` with its unpacked size `bytes`, in a file of `stored` bytes.
     ///
     /// # Errors
-    /// [`Problem::TooLarge`] of a file that is made to fill a memory or to cost hours; nothing was unpacked for it.
+    /// [`Problem::TooLarge`] for a file made to exhaust memory or time; nothing was unpacked for it.
     pub(super) fn take(&self, index: usize, bytes: u64, stored: u64) -> Result<(), Problem> {
         let mut each = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         each.insert(index, bytes);

@@ -1,8 +1,8 @@
-//! Files of HDF5 written an array after another, each in one piece: rows go to the disk as they come, what describes them stands at the end.
+//! Writer of HDF5 files, array after array, each contiguous: rows go to the disk as they arrive, and the metadata follows at the end.
 //!
-//! `hdf5-pure` reads here and does not write: an array of several axes it takes from memory alone, and a recording of pictures is larger. Written is the
-//! least that the format asks: superblock 2, object headers 2 with their checksums, links in the header of the root group (HDF5 File Format
-//! Specification, version 3). Every library since 1.8 reads it.
+//! `hdf5-pure` reads here and does not write: it takes an array of several axes only from memory, and a recording of pictures is larger.
+//! The output is the minimum of the format: superblock 2, object headers 2 with their checksums, links in the header of the root group
+//! (HDF5 File Format Specification, version 3). Every library since 1.8 reads it.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -14,10 +14,10 @@ use super::structures::{
 };
 use crate::error::{ArrayError, Problem};
 
-/// The longest text of an attribute, bytes.
+/// Maximum text of an attribute, bytes.
 const TEXT_BYTES: usize = 1 << 20;
 
-/// A file of HDF5 while it is written.
+/// An HDF5 file that is being written.
 ///
 /// ```
 /// use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues, Hdf5Writer, WrittenElement};
@@ -41,7 +41,7 @@ pub struct Hdf5Writer {
     path: PathBuf,
     file: BufWriter<File>,
     at: u64,
-    /// The arrays that are written, the last one perhaps in part.
+    /// The written arrays; the last one may be incomplete.
     arrays: Vec<Written>,
 }
 
@@ -57,14 +57,14 @@ struct Written {
 }
 
 impl Hdf5Writer {
-    /// Begins the new file at `path`.
+    /// Creates the file at `path`.
     ///
     /// # Errors
-    /// [`Problem::Io`] if it is there already, or cannot be made.
+    /// [`Problem::Io`] if it exists already, or cannot be created.
     pub fn create(path: &Path) -> Result<Hdf5Writer, ArrayError> {
         let begun = File::create_new(path).and_then(|file| {
             let mut file = BufWriter::new(file);
-            // What a kill leaves has no signature, and nobody takes it for a whole file.
+            // A file left by a killed process has no signature, and is not taken for a complete file.
             file.write_all(&[0; SUPERBLOCK_BYTES])?;
             Ok(file)
         });
@@ -77,11 +77,11 @@ impl Hdf5Writer {
         })
     }
 
-    /// Begins the array called `name`, with texts as its attributes; the one before has ended.
+    /// Begins the array `name`, with texts as its attributes; the previous array must be complete.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if the array before has not all of its bytes; [`Problem::Unsupported`] of a name that is empty, taken or has `/`, of a
-    /// shape beyond 64 bits, and of an attribute above 1 MiB; [`Problem::Io`].
+    /// [`Problem::Damaged`] if the previous array is incomplete; [`Problem::Unsupported`] for a name that is empty, taken or contains `/`,
+    /// for a shape above 64 bits, and for an attribute above 1 MiB; [`Problem::Io`].
     pub fn begin(
         &mut self,
         name: &str,
@@ -116,7 +116,7 @@ impl Hdf5Writer {
                 "write an array of texts",
             ));
         }
-        // Elements lie where their size divides the place.
+        // Elements are aligned to their size.
         let padded = self.pad();
         padded.map_err(|source| failed(&self.path, Some(name), Problem::io("write")(source)))?;
         self.arrays.push(Written {
@@ -130,10 +130,10 @@ impl Hdf5Writer {
         Ok(())
     }
 
-    /// Writes the next elements of the array that was begun last, little endian and the last axis fastest.
+    /// Writes the next elements of the current array, little-endian and in C order.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if they are more than its shape says; [`Problem::Io`].
+    /// [`Problem::Damaged`] if they exceed its shape; [`Problem::Io`].
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), ArrayError> {
         let left = self.left();
         if bytes.len() as u64 > left {
@@ -145,10 +145,10 @@ impl Hdf5Writer {
         Ok(())
     }
 
-    /// Ends the file, with texts as attributes of its root, and waits until its bytes are on the disk; its name is not.
+    /// Ends the file, with texts as attributes of its root, and waits until its bytes are on the disk. The directory entry is not synced.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if the last array has not all of its bytes; [`Problem::Io`].
+    /// [`Problem::Damaged`] if the last array is incomplete; [`Problem::Io`].
     pub fn finish(mut self, attributes: &[(&str, &str)]) -> Result<(), ArrayError> {
         self.check_whole()?;
         let path = self.path.clone();
@@ -175,7 +175,7 @@ impl Hdf5Writer {
             self.put(&heap.collection())?;
         }
         let mut root = vec![
-            // Link info: links are here and in no heap. Group info: nothing unusual.
+            // Link info: links are here and in no heap. Group info: defaults.
             (
                 0x02,
                 [&[0, 0][..], &NOWHERE.to_le_bytes(), &NOWHERE.to_le_bytes()].concat(),
@@ -201,14 +201,14 @@ impl Hdf5Writer {
         let superblock = superblock(self.at, at);
         self.file.flush()?;
         let file = self.file.get_mut();
-        // All but the beginning is on the disk before the beginning says that there is a file.
+        // The signature is written only after all other bytes are on the disk.
         file.sync_all()?;
         file.seek(SeekFrom::Start(0))?;
         file.write_all(&superblock)?;
         file.sync_all()
     }
 
-    /// Goes on where eight divides the place.
+    /// Pads to a multiple of eight bytes.
     fn pad(&mut self) -> io::Result<()> {
         let padding = usize::try_from(self.at.next_multiple_of(8) - self.at).unwrap_or(0);
         self.put(&[0; 8][..padding])
@@ -220,7 +220,7 @@ impl Hdf5Writer {
         Ok(())
     }
 
-    /// Bytes that the last array does not have yet.
+    /// Bytes missing from the last array.
     fn left(&self) -> u64 {
         self.arrays
             .last()
@@ -234,7 +234,7 @@ impl Hdf5Writer {
         }
     }
 
-    /// That the last array has so many bytes too few, or too many.
+    /// The error for a last array with missing or excess bytes.
     fn not_all(&self, missing: i128) -> ArrayError {
         let array = self.arrays.last();
         let whole = array.map_or(0, |array| array.bytes);

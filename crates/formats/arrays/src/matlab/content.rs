@@ -1,4 +1,4 @@
-//! The content of a matrix: numbers, or letters.
+//! Content of a matrix: numbers, or letters.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::source::ByteSource;
 const IS_COMPLEX: u32 = 0x800;
 const IS_LOGICAL: u32 = 0x200;
 
-/// The numbers of a matrix stay where they are.
+/// A matrix of numbers, which are not read yet.
 pub(crate) fn numbers(source: &Arc<dyn ByteSource>, matrix: Matrix) -> Result<Variable, Problem> {
     let element = match matrix.class {
         _ if matrix.flags & IS_COMPLEX != 0 => {
@@ -49,7 +49,7 @@ pub(crate) fn numbers(source: &Arc<dyn ByteSource>, matrix: Matrix) -> Result<Va
         }
     };
     let real = if product(&matrix.shape) == Some(0) {
-        // An empty matrix may have no content at all.
+        // An empty matrix may have no content element.
         Tag {
             kind: 9,
             data_at: matrix.content.at.min(source.length()),
@@ -84,7 +84,7 @@ pub(crate) fn numbers(source: &Arc<dyn ByteSource>, matrix: Matrix) -> Result<Va
     Ok(Variable::Numbers { element, block })
 }
 
-/// Letters, column by column; each line is a text.
+/// Letters, stored column by column; each line is a text.
 pub(crate) fn text(source: &dyn ByteSource, matrix: &Matrix) -> Result<Variable, Problem> {
     let lines_count = matrix.shape.first().copied().unwrap_or(0);
     let width = product(matrix.shape.get(1..).unwrap_or(&[])).unwrap_or(u64::MAX);

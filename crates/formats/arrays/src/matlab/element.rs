@@ -1,4 +1,4 @@
-//! Elements of a MATLAB file: a tag that says type and length, and the bytes behind it, up to a multiple of 8.
+//! Elements of a MATLAB file: a tag with type and length, then the bytes, padded to a multiple of 8.
 
 use crate::error::Problem;
 use crate::scalar::{Kind, Scalar};
@@ -9,7 +9,7 @@ pub(crate) const TYPE_UTF_16: u32 = 17;
 pub(crate) const TYPE_MATRIX: u32 = 14;
 pub(crate) const TYPE_COMPRESSED: u32 = 15;
 
-/// Where an element begins, in a file of which order of bytes.
+/// Offset of an element, with the byte order of its file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub(crate) at: u64,
@@ -21,9 +21,9 @@ pub(crate) struct Place {
 pub(crate) struct Tag {
     pub(crate) kind: u32,
     pub(crate) data_at: u64,
-    /// Behind the last byte of it, before what fills it up.
+    /// Offset after the last byte, before the padding.
     pub(crate) end: u64,
-    /// Where the next element begins.
+    /// Offset of the next element.
     pub(crate) next: u64,
 }
 
@@ -38,12 +38,12 @@ pub(crate) fn words(bytes: [u8; 8], is_big_endian: bool) -> (u32, u32) {
     (word([a, b, c, d]), word([e, f, g, h]))
 }
 
-/// Reads the tag at `place`; the element lies within the source.
+/// Reads the tag at `place`; rejects an element beyond the end of the source.
 pub(crate) fn tag(source: &dyn ByteSource, place: Place) -> Result<Tag, Problem> {
     let bytes = bytes_of(source, place.at, 8)?;
     let first = bytes.first_chunk::<8>().copied().unwrap_or_default();
     let (kind, length) = words(first, place.is_big_endian);
-    // Up to 4 bytes stand in the tag itself, their length above the type.
+    // Up to 4 bytes are in the tag itself, with their length above the type.
     let (kind, data_at, length, next) = if kind >> 16 != 0 {
         (
             kind & 0xffff,
@@ -81,7 +81,7 @@ pub(crate) fn content(source: &dyn ByteSource, tag: &Tag) -> Result<Vec<u8>, Pro
     bytes_of(source, tag.data_at, tag.end - tag.data_at)
 }
 
-/// The numbers of a type, if it is one of numbers.
+/// The type of numbers with this MATLAB type code; `None` for other codes.
 pub(crate) fn scalar(kind: u32, is_big_endian: bool) -> Option<Scalar> {
     let (kind, bytes) = match kind {
         1 => (Kind::Signed, 1),

@@ -13,13 +13,13 @@ pub(crate) struct Matrix {
     pub(crate) flags: u32,
     pub(crate) shape: Vec<u64>,
     pub(crate) name: String,
-    /// Where its content begins, and where it ends.
+    /// Offsets of the begin and the end of its content.
     pub(crate) content: Place,
     pub(crate) end: u64,
     pub(crate) next: u64,
 }
 
-/// Flags, lengths and name of the matrix at `place`.
+/// Parses flags, lengths and name of the matrix at `place`.
 pub(crate) fn matrix(source: &dyn ByteSource, place: Place) -> Result<Matrix, Problem> {
     let big = place.is_big_endian;
     let whole = tag(source, place)?;
@@ -108,14 +108,14 @@ pub(crate) fn matrix(source: &dyn ByteSource, place: Place) -> Result<Matrix, Pr
     })
 }
 
-/// Elements of such lengths, if they fit 64 bits.
+/// Number of elements of a shape; `None` above 64 bits.
 pub(crate) fn product(sides: &[u64]) -> Option<u64> {
     sides
         .iter()
         .try_fold(1_u64, |product, side| product.checked_mul(*side))
 }
 
-/// A number of 4 bytes that is not below zero.
+/// A signed number of 4 bytes; `None` if it is negative.
 pub(crate) fn number(bytes: &[u8], is_big_endian: bool) -> Option<u64> {
     let bytes = *bytes.first_chunk::<4>()?;
     let number = if is_big_endian {
@@ -126,7 +126,7 @@ pub(crate) fn number(bytes: &[u8], is_big_endian: bool) -> Option<u64> {
     u64::try_from(number).ok()
 }
 
-/// A name, up to the zeros that fill it.
+/// A name, up to its zero padding.
 pub(crate) fn text_of(bytes: &[u8]) -> String {
     let end = bytes
         .iter()

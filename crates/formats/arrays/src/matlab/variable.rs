@@ -1,4 +1,4 @@
-//! Variables of a MATLAB file of version 5, as they are read: matrices of numbers, texts, cells.
+//! Readable variables of a MATLAB file of version 5: matrices of numbers, texts, cells.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::values::{ArrayData, ArrayValues};
 /// A variable that can be read.
 #[derive(Debug)]
 pub(crate) enum Variable {
-    /// Numbers; MATLAB stores them in the narrowest type that holds them.
+    /// Numbers; MATLAB stores them in the narrowest type that fits.
     Numbers { element: Element, block: Block },
     /// The lines of a matrix of letters.
     Text { shape: Vec<u64>, lines: Vec<String> },
@@ -74,8 +74,8 @@ impl Variable {
     }
 }
 
-/// Cells of one shape and type as one array: the lengths of the cells behind those of the matrix of cells, but for cells of one number
-/// or one line.
+/// Cells of one shape and type as one array: the axes of the cells follow those of the cell matrix, except for cells of one number or one
+/// line.
 pub(crate) fn cells_of(shape: &[u64], cells: Vec<Variable>) -> Result<Variable, Problem> {
     let Some(first) = cells.first() else {
         return Err(Problem::unsupported(
@@ -107,7 +107,7 @@ pub(crate) fn cells_of(shape: &[u64], cells: Vec<Variable>) -> Result<Variable, 
     } else {
         [shape, &inner].concat()
     };
-    // Cells lie column by column.
+    // Cells are stored column by column.
     let mut placed: Vec<Option<Variable>> = cells.iter().map(|_| None).collect();
     for (cell, place) in cells.into_iter().zip(c_places(shape)) {
         placed[place] = Some(cell);

@@ -1,4 +1,4 @@
-//! The variables of a MATLAB file of version 5, with those within structures and cells.
+//! Variables of a MATLAB file of version 5, including those within structures and cells.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ const CLASS_TEXT: u32 = 4;
 pub(crate) struct Found {
     pub(crate) variables: Vec<(String, Variable)>,
     pub(crate) refused: Vec<(String, Problem)>,
-    /// Matrices within cells and structures.
+    /// Number of matrices within cells and structures.
     inner: u64,
 }
 
@@ -28,7 +28,7 @@ impl Found {
         (self.variables.len() + self.refused.len()) as u64
     }
 
-    /// Adds the matrix at `place`; `within` is the name of the structure that it is a field of.
+    /// Adds the matrix at `place`; `within` is the name of its parent structure.
     pub(crate) fn matrix(
         &mut self,
         source: &Arc<dyn ByteSource>,
@@ -62,7 +62,7 @@ impl Found {
         Ok(())
     }
 
-    /// The fields of a structure, each an array of its own; those of several structures are cells.
+    /// The fields of a structure, one array each; those of several structures are cells.
     fn structure(
         &mut self,
         source: &Arc<dyn ByteSource>,

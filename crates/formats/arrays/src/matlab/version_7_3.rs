@@ -1,4 +1,4 @@
-//! MATLAB files of version 7.3: HDF5 whose lengths of axes stand in reverse, with the class of each variable as an attribute.
+//! MATLAB files of version 7.3: HDF5 with reversed axes, and the class of each variable as an attribute.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ struct Variable {
     turned: ColumnMajor,
 }
 
-/// The elements of a dataset, row by row of HDF5, as bytes.
+/// The elements of a dataset as bytes, in HDF5 row order.
 #[derive(Debug)]
 struct DatasetBytes {
     hdf5: Arc<Hdf5>,
@@ -38,7 +38,7 @@ struct DatasetBytes {
     length: u64,
 }
 
-/// What MATLAB keeps for itself: the content of cells and objects.
+/// Internal groups of MATLAB: the content of cells and objects.
 const OWN: [&str; 2] = ["/#refs#", "/#subsystem#"];
 
 impl Matlab73 {
@@ -168,7 +168,7 @@ impl Store for Matlab73 {
     }
 }
 
-/// Codes of letters, so many lines.
+/// Text lines from codes of letters.
 fn lines(codes: ArrayValues, count: u64) -> Result<ArrayValues, Problem> {
     let wrong = || Problem::unsupported("a text that is no Unicode", "save it as UTF-8");
     let ArrayValues::U16(codes) = codes else {

@@ -1,4 +1,4 @@
-//! What is made in the place of a call: arrays, their types, numbers, bytes of texts.
+//! Values built in place of calls: arrays, their types, numbers, bytes of texts.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ fn unknown(at: u64, global: &str) -> Problem {
     )
 }
 
-/// What `global(*arguments)` stands for.
+/// The value of `global(*arguments)`.
 pub(crate) fn call(
     machine: &mut Machine<'_>,
     global: Id,
@@ -78,7 +78,7 @@ pub(crate) fn call(
     }
 }
 
-/// What `object.__setstate__(state)` stands for.
+/// The effect of `object.__setstate__(state)`.
 pub(crate) fn build(
     machine: &mut Machine<'_>,
     object: Id,
@@ -89,7 +89,7 @@ pub(crate) fn build(
         return Err(unknown(at, "__setstate__"));
     };
     let built = match (machine.value(object).clone(), state.as_slice()) {
-        // Version, order of bytes, ...
+        // Version, byte order, ...
         (Value::DType(DType::Named(name)), [_, order, ..]) => {
             let order = machine.text(*order).ok_or_else(|| unknown(at, "dtype"))?;
             let plain = name.trim_start_matches(['|', '<', '>', '=']);
@@ -98,7 +98,7 @@ pub(crate) fn build(
             ))?))
         }
         (Value::DType(DType::Objects), _) => return Ok(()),
-        // Version, shape, type, whether column by column, elements.
+        // Version, shape, type, Fortran order, elements.
         (Value::Array(_), [_, shape, dtype, is_fortran, elements]) => {
             let shape = lengths(machine, *shape).ok_or_else(|| unknown(at, "ndarray"))?;
             let is_fortran = matches!(machine.value(*is_fortran), Value::Bool(true));
@@ -120,7 +120,7 @@ pub(crate) fn build(
     Ok(())
 }
 
-/// The type, its order of bytes that of this machine where none was said.
+/// The type; the byte order is that of this machine by default.
 fn dtype_of(machine: &Machine<'_>, dtype: Id, at: u64) -> Result<DType, Problem> {
     match machine.value(dtype) {
         Value::DType(DType::Named(name)) => Scalar::from_numpy(name).map(DType::Known),
@@ -166,7 +166,7 @@ fn array(
     }))
 }
 
-/// Protocol 2 has no bytes: they are letters of Latin-1.
+/// The bytes of a text: protocol 2 writes bytes as Latin-1 text.
 fn encode(machine: &mut Machine<'_>, text: Id, coding: Id, at: u64) -> Result<Value, Problem> {
     let coding = machine.text(coding);
     let Value::Text(letters) = machine.value(text).clone() else {
@@ -175,7 +175,7 @@ fn encode(machine: &mut Machine<'_>, text: Id, coding: Id, at: u64) -> Result<Va
     if !matches!(coding.as_deref(), Some("latin1" | "latin-1")) {
         return Err(unknown(at, "encode"));
     }
-    // A text that is encoded again and again would fill any memory.
+    // Repeated encoding of one text could fill any memory.
     machine.held_bytes = machine.held_bytes.saturating_add(letters.length());
     if machine.held_bytes > machine.source.length() {
         return Err(Problem::too_large(

@@ -1,4 +1,4 @@
-//! What a value gives to read: an array, a list of numbers, or a column for each key of a dictionary or of a list of them.
+//! Columns of a pickle: an array, a list of numbers, or one column for each key of a dictionary or of a list of dictionaries.
 
 use std::sync::Arc;
 
@@ -8,7 +8,6 @@ use crate::error::Problem;
 use crate::limits;
 use crate::scalar::shown;
 
-/// A column.
 #[derive(Debug)]
 pub(crate) struct Column {
     pub(crate) name: String,
@@ -19,23 +18,23 @@ pub(crate) struct Column {
 /// The elements of a column.
 #[derive(Debug)]
 pub(crate) enum Cells {
-    /// Of one array.
+    /// One array.
     Array(PickledArray),
-    /// Of several arrays of one shape and type, one behind the other.
+    /// Consecutive arrays of one shape and type.
     Arrays(Vec<PickledArray>),
     /// Plain values.
     Plain { element: Element, ids: Vec<Id> },
 }
 
-/// The values of a pickle, looked at.
+/// The values of a pickle, with a limit on visits.
 pub(crate) struct Values<'a> {
     pub(crate) values: &'a [Value],
-    /// How many more may be looked at: a list may hold another many times, which holds another many times.
+    /// Number of visits left: nested lists may repeat one another exponentially.
     left: u64,
     text: &'a dyn Fn(&Bytes) -> Option<String>,
 }
 
-/// Columns, and what is there and is none, with the reason.
+/// Columns, and values that are no columns, with the reason.
 pub(crate) type Found = (Vec<Column>, Vec<(String, Problem)>);
 
 impl<'a> Values<'a> {
@@ -54,7 +53,7 @@ impl<'a> Values<'a> {
         &self.values[id as usize]
     }
 
-    /// The columns of the whole.
+    /// The columns of the whole pickle.
     pub(crate) fn columns(&mut self, whole: Id) -> Result<Found, Problem> {
         let mut found = (Vec::new(), Vec::new());
         self.named(whole, "", 0, &mut found)?;
@@ -127,7 +126,7 @@ impl<'a> Values<'a> {
         Ok(())
     }
 
-    /// The last entry of each key, in the order in which they were first written.
+    /// The last entry of each key, in the order of first occurrence.
     fn entries(&mut self, entries: &[(Id, Id)]) -> Result<Vec<(String, Id)>, Problem> {
         let mut named: Vec<(String, Id)> = Vec::new();
         let mut places = std::collections::BTreeMap::new();
@@ -138,7 +137,7 @@ impl<'a> Values<'a> {
                 Value::Whole(number) => Some(number.to_string()),
                 _ => None,
             };
-            // What is under another key cannot be named by anybody.
+            // Only texts and whole numbers can be requested as keys.
             let Some(key) = key else { continue };
             match places.get(&key) {
                 Some(place) => named[*place] = (key, *value),
@@ -173,7 +172,7 @@ impl<'a> Values<'a> {
                 .all(|row| matches!(self.value(*row), Value::Dictionary(_)))
     }
 
-    /// A list of dictionaries: one column a key of the first, which all must have.
+    /// A list of dictionaries: one column for each key of the first; all must have it.
     fn table(&mut self, rows: &[Id], name: &str, found: &mut Found) -> Result<(), Problem> {
         let mut columns: Vec<(String, Vec<Id>)> = Vec::new();
         for (row, id) in rows.iter().enumerate() {
@@ -251,7 +250,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Values of one kind, or lists of them of one length.
+    /// Values of one kind, or lists of them of equal length.
     fn list(&mut self, values: &[Id]) -> Result<(Vec<u64>, Cells), Problem> {
         self.look_at(values.len())?;
         let arrays = values.iter().map_while(|id| match self.value(*id) {
@@ -278,7 +277,7 @@ impl<'a> Values<'a> {
         }
         let mut shape = vec![values.len() as u64];
         let mut ids = values.to_vec();
-        // Lists of lists: each axis is the length of all lists at that depth.
+        // Lists of lists: each axis is the common length of all lists at that depth.
         while let Some(length) = ids.first().and_then(|id| self.length(*id)) {
             if shape.len() == limits::AXES {
                 return Err(Problem::unsupported(
@@ -316,7 +315,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// The type that all of some values have: whole numbers beside others become floating point.
+    /// The common type of some values: whole numbers mixed with others become floating point.
     fn element(&self, ids: &[Id]) -> Result<Element, Problem> {
         let mut common = None;
         for id in ids {
@@ -350,7 +349,7 @@ impl<'a> Values<'a> {
     }
 }
 
-/// Bytes as a source of their own.
+/// Bytes as a separate source.
 pub(crate) fn held(bytes: &Bytes) -> Option<Arc<Vec<u8>>> {
     match bytes {
         Bytes::Held(bytes) => Some(Arc::clone(bytes)),

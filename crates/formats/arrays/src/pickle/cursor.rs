@@ -1,11 +1,11 @@
-//! A pickle from its first byte on, some kilobytes at a time; long bytes are passed by.
+//! Sequential reader of a pickle, some kilobytes at a time; long bytes are skipped.
 
 use crate::error::Problem;
 use crate::source::{ByteSource, bytes_of};
 
 const WINDOW_BYTES: u64 = 64 << 10;
 
-/// Where the reading stands.
+/// Position of the reader.
 #[derive(Debug)]
 pub(crate) struct Cursor<'a> {
     source: &'a dyn ByteSource,
@@ -24,7 +24,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Where the next byte is.
+    /// Offset of the next byte.
     pub(crate) fn at(&self) -> u64 {
         self.at
     }
@@ -56,7 +56,7 @@ impl<'a> Cursor<'a> {
         Ok(bytes)
     }
 
-    /// A length of `N` bytes, little-endian.
+    /// Reads a little-endian length of `N` bytes.
     pub(crate) fn length<const N: usize>(&mut self) -> Result<u64, Problem> {
         let bytes = self.few::<N>()?;
         Ok(bytes
@@ -65,7 +65,7 @@ impl<'a> Cursor<'a> {
             .fold(0, |number, byte| number << 8 | u64::from(*byte)))
     }
 
-    /// Passes so many bytes by, and tells where they began.
+    /// Skips `count` bytes and returns their offset.
     pub(crate) fn pass(&mut self, count: u64) -> Result<u64, Problem> {
         let at = self.at;
         let end = at
@@ -79,7 +79,7 @@ impl<'a> Cursor<'a> {
         Ok(at)
     }
 
-    /// A line of at most `most` bytes, without its end.
+    /// Reads a line of at most `most` bytes, without its end.
     pub(crate) fn line(&mut self, most: usize) -> Result<String, Problem> {
         let start = self.at;
         let mut line = Vec::new();

@@ -1,9 +1,9 @@
-//! The names that a pickle may ask for. None of them is ever called: each stands for something that is made here.
+//! Names that a pickle may use. None is ever called: each stands for a value that is built here.
 
 use crate::error::Problem;
 use crate::scalar::shown;
 
-/// Module, name, and what it is called here.
+/// Module, name, and internal name.
 const KNOWN: &[(&str, &str, &str)] = &[
     ("numpy", "ndarray", "ndarray"),
     ("numpy", "dtype", "dtype"),
@@ -14,12 +14,12 @@ const KNOWN: &[(&str, &str, &str)] = &[
     ("numpy.core.numeric", "_frombuffer", "_frombuffer"),
     ("numpy._core.numeric", "_frombuffer", "_frombuffer"),
     ("_codecs", "encode", "encode"),
-    // No bytes at all, of protocol 2.
+    // The empty bytes of protocol 2.
     ("__builtin__", "bytes", "bytes"),
     ("collections", "OrderedDict", "OrderedDict"),
 ];
 
-/// What a global is called here; others are refused by name.
+/// The internal name of a global; rejects unknown ones by name.
 pub(crate) fn known(module: &str, name: &str, at: u64) -> Result<&'static str, Problem> {
     let found = KNOWN
         .iter()
@@ -33,7 +33,7 @@ pub(crate) fn known(module: &str, name: &str, at: u64) -> Result<&'static str, P
         })
 }
 
-/// What to do with the object in the program that wrote it.
+/// The alternative for the user, in the program that wrote the object.
 fn mend(module: &str) -> &'static str {
     match module.split('.').next() {
         Some("pandas") => {

@@ -1,4 +1,4 @@
-//! The machine that a pickle is a program for, restricted: it makes plain values and arrays of NumPy, and calls nothing.
+//! Restricted pickle machine: builds plain values and NumPy arrays, and calls nothing.
 
 use std::collections::BTreeMap;
 
@@ -10,12 +10,12 @@ use crate::error::Problem;
 use crate::limits;
 use crate::source::{ByteSource, bytes_of};
 
-/// Values of a pickle, and which of them is the whole.
+/// Values of a pickle under construction.
 #[derive(Debug)]
 pub(crate) struct Machine<'a> {
     pub(crate) source: &'a dyn ByteSource,
     pub(crate) values: Vec<Value>,
-    /// Bytes that were made of texts; no more than the file has.
+    /// Number of bytes made from texts; limited by the length of the file.
     pub(crate) held_bytes: u64,
     stack: Vec<Id>,
     /// Heights of the stack at which groups begin.
@@ -23,10 +23,10 @@ pub(crate) struct Machine<'a> {
     memo: BTreeMap<u32, Id>,
 }
 
-/// The longest name of a module or of what it holds.
+/// Maximum name of a module or of a global, bytes.
 const NAME_BYTES: usize = 1_024;
 
-/// Reads the pickle that begins at `at`; the whole is the value with the number that is returned.
+/// Runs the pickle that begins at `at`; returns its values and the id of the result.
 pub(crate) fn run(source: &dyn ByteSource, at: u64) -> Result<(Vec<Value>, Id), Problem> {
     let mut machine = Machine {
         source,
@@ -92,7 +92,7 @@ impl Machine<'_> {
             .ok_or_else(|| wrong(at, "an operation without its value"))
     }
 
-    /// What lies above the last mark.
+    /// Pops the values above the last mark.
     fn group(&mut self, at: u64) -> Result<Vec<Id>, Problem> {
         let height = self
             .marks
@@ -103,7 +103,7 @@ impl Machine<'_> {
             .ok_or_else(|| wrong(at, "a group without its beginning"))
     }
 
-    /// The last `count` values.
+    /// Pops the last `count` values.
     fn last(&mut self, count: usize, at: u64) -> Result<Vec<Id>, Problem> {
         let least = self.marks.last().copied().unwrap_or(0);
         let height = self
@@ -190,7 +190,7 @@ impl Machine<'_> {
         self.push(Value::Global(global))
     }
 
-    /// Bytes or text of so many bytes, which stay where they are.
+    /// Pushes bytes or text of `length` bytes, which stay in the file.
     fn long(&mut self, length: u64, is_text: bool, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let bytes = Bytes::InFile {
             at: cursor.pass(length)?,
@@ -205,7 +205,7 @@ impl Machine<'_> {
 
     fn step(&mut self, operation: u8, at: u64, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         match operation {
-            // A frame says how long it is, which nobody here needs.
+            // A frame states its length, which is not needed.
             0x95 => cursor.few::<8>().map(|_| ()),
             b'(' => {
                 self.marks.push(self.stack.len());
@@ -310,7 +310,7 @@ impl Machine<'_> {
         }
     }
 
-    /// A whole number of up to 255 bytes.
+    /// Pushes a whole number of up to 255 bytes.
     fn whole(&mut self, at: u64, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let count = cursor.byte()?;
         if count > 8 {
@@ -358,7 +358,6 @@ impl Machine<'_> {
     }
 }
 
-/// The bytes themselves.
 pub(crate) fn read(source: &dyn ByteSource, bytes: &Bytes) -> Result<Vec<u8>, Problem> {
     match bytes {
         Bytes::InFile { at, length } => bytes_of(source, *at, *length),
@@ -366,7 +365,7 @@ pub(crate) fn read(source: &dyn ByteSource, bytes: &Bytes) -> Result<Vec<u8>, Pr
     }
 }
 
-/// A value handed on to what is done with it, so that each operation is one line.
+/// Passes a value on to a function, so that each operation is one line.
 trait Pipe: Sized {
     fn pipe<T>(self, next: impl FnOnce(Self) -> T) -> T {
         next(self)

@@ -1,5 +1,4 @@
-//! What a pickle holds. Values name one another by number, so that none of them owns another: nothing is nested, however deep the
-//! pickle is.
+//! Values of a pickle. They refer to one another by number and own none, so that no depth of nesting causes recursion.
 
 use std::sync::Arc;
 
@@ -12,9 +11,9 @@ pub(crate) type Id = u32;
 /// Bytes of a pickle.
 #[derive(Clone, Debug)]
 pub(crate) enum Bytes {
-    /// They are read when they are asked for.
+    /// Not read yet.
     InFile { at: u64, length: u64 },
-    /// Of protocol 2, which writes bytes as text.
+    /// From protocol 2, which writes bytes as text.
     Held(Arc<Vec<u8>>),
 }
 
@@ -38,26 +37,25 @@ pub(crate) struct PickledArray {
 /// The elements of an array.
 #[derive(Clone, Debug)]
 pub(crate) enum Content {
-    /// It is being made.
+    /// Under construction.
     Nothing,
     Numbers {
         item: Item,
         bytes: Bytes,
     },
-    /// Values of Python: the number of the list.
+    /// Python values: the number of the list.
     Objects(Id),
 }
 
-/// The type of an array, as far as it is made.
+/// The type of an array, as far as it is built.
 #[derive(Clone, Debug)]
 pub(crate) enum DType {
-    /// Without the order of its bytes: `f8`.
+    /// Without the byte order: `f8`.
     Named(String),
     Known(Scalar),
     Objects,
 }
 
-/// A value.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     None,

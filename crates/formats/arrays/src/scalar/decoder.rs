@@ -1,11 +1,11 @@
-//! Bytes of a file as values.
+//! Decoder of the bytes of a file.
 
 use super::{Filler, Kind, Scalar};
 use crate::error::Problem;
 use crate::source::{ByteSource, bytes_of};
 use crate::values::ArrayValues;
 
-/// Numbers are read in pieces of so many bytes, which stay in the processor's cache, where the whole would be allocated twice.
+/// Size of the pieces in which numbers are read, bytes. They stay in the processor's cache, and the whole is not allocated twice.
 const PIECE_BYTES: usize = 128 << 10;
 
 impl Scalar {
@@ -24,7 +24,7 @@ impl Scalar {
         if !is_in_pieces {
             return self.decode(bytes_of(source, at, bytes)?, count);
         }
-        // Whether they are there is known before anything is allocated.
+        // The range is checked before anything is allocated.
         if at
             .checked_add(bytes)
             .is_none_or(|end| end > source.length())
@@ -45,7 +45,7 @@ impl Scalar {
         Ok(values)
     }
 
-    /// The `count` elements that `raw` holds.
+    /// Decodes `count` elements from `raw`.
     pub(crate) fn decode(self, raw: Vec<u8>, count: usize) -> Result<ArrayValues, Problem> {
         debug_assert_eq!(raw.len(), count * self.bytes, "whole elements");
         match self.kind {
@@ -67,9 +67,9 @@ impl Scalar {
         }
     }
 
-    /// Adds the numbers that `raw` holds.
+    /// Appends the numbers in `raw`.
     fn extend(self, values: &mut ArrayValues, raw: &[u8]) -> Result<(), Problem> {
-        /// Elements of `N` bytes, each made by one of the two functions, which are compiled into the loop.
+        /// Elements of `N` bytes; one of the two functions converts each, and is inlined into the loop.
         fn each<const N: usize, T>(
             all: &mut Vec<T>,
             raw: &[u8],
@@ -102,7 +102,7 @@ impl Scalar {
             }
             ArrayValues::F32(all) => each(all, raw, big, f32::from_le_bytes, f32::from_be_bytes),
             ArrayValues::F64(all) => each(all, raw, big, f64::from_le_bytes, f64::from_be_bytes),
-            // Whoever lists references reads what they refer to from its heap.
+            // References are resolved from their heap by the caller.
             ArrayValues::Text(_) | ArrayValues::Bytes(_) => {
                 return Err(Problem::unsupported(
                     "references to values elsewhere",
@@ -147,7 +147,7 @@ impl Scalar {
     }
 }
 
-/// How many bytes stand before what fills the field.
+/// Length of the text before the padding, bytes.
 fn length_of(bytes: &[u8], filler: Filler) -> usize {
     let up_to_last = |filled: u8| {
         bytes
@@ -165,7 +165,7 @@ fn length_of(bytes: &[u8], filler: Filler) -> usize {
     }
 }
 
-/// UTF-32 up to the zeros that fill the field.
+/// UTF-32 up to the zero padding.
 fn utf32(bytes: &[u8], of: fn([u8; 4]) -> u32) -> Option<String> {
     let (codes, _) = bytes.as_chunks::<4>();
     let end = codes
@@ -178,7 +178,7 @@ fn utf32(bytes: &[u8], of: fn([u8; 4]) -> u32) -> Option<String> {
         .collect()
 }
 
-/// An IEEE 754 number of 16 bits as one of 32, which is exact.
+/// Converts an IEEE 754 number of 16 bits to 32 bits, which is exact.
 fn widened(half: u16) -> f32 {
     let sign = u32::from(half >> 15) << 31;
     let exponent = u32::from(half >> 10) & 0x1f;

@@ -1,11 +1,11 @@
-//! Numbers stored in a narrower type than they have.
+//! Conversion of numbers between types.
 
 use super::ArrayValues;
 use crate::element::Element;
 use crate::error::Problem;
 
 impl ArrayValues {
-    /// Room for so many elements.
+    /// An empty list with capacity for `count` elements.
     pub(crate) fn with_capacity(element: Element, count: usize) -> ArrayValues {
         match element {
             Element::Bool => ArrayValues::Bool(Vec::with_capacity(count)),
@@ -24,7 +24,7 @@ impl ArrayValues {
         }
     }
 
-    /// Elements of the same type behind these; others are left out.
+    /// Appends elements of the same type; ignores others.
     pub(crate) fn append(&mut self, more: ArrayValues) {
         match (self, more) {
             (ArrayValues::Bool(all), ArrayValues::Bool(more)) => all.extend(more),
@@ -72,7 +72,7 @@ impl ArrayValues {
         })
     }
 
-    /// The type of the elements; that of 16 bits with a floating point is widened.
+    /// The type of the elements; 16-bit floating point is already widened.
     fn element(&self) -> Element {
         match self {
             ArrayValues::Bool(_) => Element::Bool,

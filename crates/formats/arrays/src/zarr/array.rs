@@ -1,4 +1,4 @@
-//! An array in chunks, as either version describes it.
+//! A chunked array, in either version.
 
 use serde_json::Value;
 
@@ -7,20 +7,20 @@ use crate::error::Problem;
 use crate::fields::Item;
 use crate::limits;
 
-/// An array in chunks.
+/// A chunked array.
 #[derive(Debug)]
 pub(crate) struct ZarrArray {
-    /// Its full name.
+    /// Full name.
     pub(crate) name: String,
     pub(crate) shape: Vec<u64>,
-    /// Lengths of a chunk; those at an edge are stored whole.
+    /// Lengths of a chunk; chunks at an edge are stored whole.
     pub(crate) chunk: Vec<u64>,
     pub(crate) item: Item,
-    /// One element of what was never written.
+    /// One element of the fill value.
     pub(crate) fill: Option<Vec<u8>>,
-    /// What was done to a chunk, in order.
+    /// Codecs of a chunk, in the order of writing.
     pub(crate) codecs: Vec<Codec>,
-    /// What stands in front of the numbers of a chunk, and between them.
+    /// Prefix of the name of a chunk.
     pub(crate) prefix: &'static str,
     pub(crate) separator: char,
 }
@@ -38,7 +38,7 @@ impl ZarrArray {
         }
     }
 
-    /// Whether `name` is that of a chunk within the shape.
+    /// True if `name` is the name of a chunk within the shape.
     pub(crate) fn is_key(&self, name: &str) -> bool {
         let numbers = name.strip_prefix(self.prefix).unwrap_or(name);
         let numbers = numbers.trim_start_matches(self.separator);
@@ -60,7 +60,7 @@ impl ZarrArray {
         })
     }
 
-    /// Bytes of a chunk once everything is undone.
+    /// Unpacked size of a chunk, bytes.
     pub(crate) fn chunk_bytes(&self) -> Option<u64> {
         let bytes = self
             .chunk
@@ -71,7 +71,7 @@ impl ZarrArray {
         bytes.filter(|bytes| *bytes <= limits::CHUNK_BYTES)
     }
 
-    /// Refuses shapes and chunks that cannot be.
+    /// Rejects impossible shapes and chunks.
     pub(crate) fn check(self) -> Result<ZarrArray, Problem> {
         let is_grid = self.shape.len() == self.chunk.len()
             && self.shape.len() <= limits::AXES
@@ -99,7 +99,7 @@ impl ZarrArray {
         Ok(self)
     }
 
-    /// Undoes what was done to a chunk.
+    /// Reverses the codecs of a chunk.
     pub(crate) fn unpack(&self, packed: Vec<u8>) -> Result<Vec<u8>, Problem> {
         let bytes = usize::try_from(self.chunk_bytes().unwrap_or(0)).unwrap_or(0);
         let mut chunk = packed;
@@ -108,7 +108,7 @@ impl ZarrArray {
             .iter()
             .filter(|codec| codec.is_packing())
             .count();
-        // What is packed twice may be a little larger in between.
+        // Data compressed twice may be a little larger in between.
         let most = if packings > 1 {
             bytes + bytes / 8 + (64 << 10)
         } else {
@@ -128,7 +128,7 @@ impl ZarrArray {
     }
 }
 
-/// Lengths of axes.
+/// Parses lengths of axes.
 pub(crate) fn lengths(metadata: &Value, key: &str) -> Result<Vec<u64>, Problem> {
     let sides = metadata
         .as_array()

@@ -1,14 +1,13 @@
-//! What is done to a chunk when it is written, and how it is undone.
+//! Codecs of chunks, and their reversal.
 
 use crate::codec::{blosc, gzip, lz4_with_length, zlib, zstd};
 use crate::error::Problem;
 use crate::order::c_order;
 use crate::scalar::shown;
 
-/// One step.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Codec {
-    /// The axes stand in this order.
+    /// The axes are in this order.
     Transposed(Vec<usize>),
     Gzip,
     Zlib,
@@ -19,7 +18,7 @@ pub(crate) enum Codec {
 }
 
 impl Codec {
-    /// By its name in either version.
+    /// The codec with this name in either version.
     pub(crate) fn from_name(name: &str) -> Result<Codec, Problem> {
         match name.trim_start_matches("numcodecs.") {
             "gzip" => Ok(Codec::Gzip),
@@ -35,12 +34,12 @@ impl Codec {
         }
     }
 
-    /// Whether it changes the number of bytes in a way that only the chunk itself tells.
+    /// True if the output length is known only from the chunk itself.
     pub(crate) fn is_packing(&self) -> bool {
         !matches!(self, Codec::Transposed(_) | Codec::Crc32c)
     }
 
-    /// Undoes it to a chunk of such sides and elements; more than `most` bytes are refused.
+    /// Reverses the codec for a chunk of these sides and elements; rejects more than `most` bytes.
     pub(crate) fn undo(
         &self,
         chunk: Vec<u8>,
@@ -60,7 +59,7 @@ impl Codec {
     }
 }
 
-/// The checksum (Castagnoli) stands behind the bytes, little-endian.
+/// Removes and checks the checksum (CRC-32C) after the bytes, little-endian.
 fn without_sum(mut chunk: Vec<u8>) -> Result<Vec<u8>, Problem> {
     let at = chunk.len() as u64;
     let Some((bytes, sum)) = chunk.split_last_chunk::<4>() else {
@@ -78,7 +77,7 @@ fn without_sum(mut chunk: Vec<u8>) -> Result<Vec<u8>, Problem> {
     Ok(chunk)
 }
 
-/// The reversed polynomial.
+/// The reversed polynomial of CRC-32C.
 const CASTAGNOLI: u32 = 0x82f6_3b78;
 
 fn crc32c(bytes: &[u8]) -> u32 {

@@ -1,4 +1,4 @@
-//! The value of elements that were never written.
+//! Fill value of elements that were never written.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::fields::Item;
 
-/// The bytes of one element, or `None` where the value is of a kind that is not understood.
+/// The bytes of one element; `None` if the value is of an unknown kind.
 pub(crate) fn fill(value: &Value, item: &Item) -> Option<Vec<u8>> {
     let zero = || Some(vec![0; item.bytes]);
     let scalar = match item.fields.as_slice() {
@@ -27,7 +27,7 @@ pub(crate) fn fill(value: &Value, item: &Item) -> Option<Vec<u8>> {
     }
 }
 
-/// The numbers that JSON has no form for.
+/// Numbers that JSON cannot express.
 fn float(text: &str) -> Option<f64> {
     match text {
         "NaN" => Some(f64::NAN),
@@ -37,7 +37,7 @@ fn float(text: &str) -> Option<f64> {
     }
 }
 
-/// Version 2 writes texts and records as the base64 of their bytes.
+/// Decodes base64: version 2 writes texts and records so.
 fn bytes(text: &str, item: &Item) -> Option<Vec<u8>> {
     let bytes = BASE64_STANDARD.decode(text).ok()?;
     (bytes.len() == item.bytes).then_some(bytes)

@@ -1,4 +1,4 @@
-//! Which chunks some rows lie in, and which part of each.
+//! Chunks that contain some rows, and the part of each.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::order::strides;
 /// Some rows of an array, over its chunks.
 #[derive(Debug)]
 pub(crate) struct Grid {
-    /// Of each axis: from where to where elements are wanted.
+    /// Wanted range of each axis.
     wanted: Vec<Range<u64>>,
     shape: Vec<u64>,
     chunk: Vec<u64>,
@@ -47,7 +47,7 @@ impl Grid {
         &self.shape
     }
 
-    /// Of each axis: the numbers of the chunks.
+    /// Range of chunk numbers of each axis.
     fn ranges(&self) -> impl Iterator<Item = Range<u64>> {
         self.wanted.iter().zip(&self.chunk).map(|(wanted, side)| {
             if wanted.is_empty() {
@@ -58,7 +58,7 @@ impl Grid {
         })
     }
 
-    /// All of the rows, with the fill value.
+    /// All rows, with the fill value.
     pub(crate) fn filled(&self, array: &ZarrArray) -> Result<Vec<u8>, Problem> {
         let bytes = self
             .shape
@@ -88,7 +88,7 @@ impl Grid {
         Ok(raw)
     }
 
-    /// The chunks, the last axis fastest.
+    /// Positions of the chunks, the last axis fastest.
     pub(crate) fn places(&self) -> Vec<Vec<u64>> {
         let mut places = vec![Vec::new()];
         for range in self.ranges() {
@@ -104,10 +104,10 @@ impl Grid {
         places
     }
 
-    /// Copies what the chunk at `place` holds of the rows.
+    /// Copies the wanted part of the chunk at `place`.
     pub(crate) fn copy(&self, place: &[u64], chunk: &[u8], raw: &mut [u8]) {
         let axes = self.wanted.len();
-        // Of each axis: where the part begins in the rows and in the chunk, how long it is, and how far apart neighbours are.
+        // For each axis: begin of the part in the rows and in the chunk, its length, and the strides.
         let mut parts = Vec::with_capacity(axes);
         for (axis, number) in place.iter().enumerate() {
             let start = number * self.chunk[axis];
@@ -125,7 +125,7 @@ impl Grid {
     }
 }
 
-/// Copies a block: axis after axis, the last in one piece.
+/// Copies a block, axis after axis; the last axis is contiguous.
 fn block(
     raw: &mut [u8],
     chunk: &[u8],
@@ -158,7 +158,7 @@ fn block(
     }
 }
 
-/// A length that was checked against a limit.
+/// A length that was checked against a limit, as `usize`.
 fn index(length: u64) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
 }

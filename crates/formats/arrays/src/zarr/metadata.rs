@@ -1,4 +1,4 @@
-//! What the metadata of a folder says, whichever version it is.
+//! Metadata of a folder, in either version.
 
 use serde_json::Value;
 
@@ -8,7 +8,7 @@ use super::{version_2, version_3};
 use crate::error::Problem;
 use crate::limits;
 
-/// What one folder is.
+/// Metadata of one folder.
 #[derive(Debug, Default)]
 pub(crate) struct Node {
     pub(crate) is_group: bool,

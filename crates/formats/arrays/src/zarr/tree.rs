@@ -1,4 +1,4 @@
-//! Folder of a zarr store: on the disk, or within a ZIP archive that holds the whole store.
+//! Folder of a zarr store: on disk, or within a ZIP archive of the whole store.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -22,9 +22,9 @@ pub(crate) enum Tree {
 #[derive(Clone, Debug)]
 pub(crate) struct Archive {
     file: Arc<FileBytes>,
-    /// Members by their path; of several with one path the last, as ZIP archives that were added to have them.
+    /// Members by path; the last of several with one path, as in ZIP archives that were appended to.
     members: Arc<BTreeMap<String, Packed>>,
-    /// The path of the folder, with a `/` behind it; empty of the outermost.
+    /// The path of the folder with a trailing `/`; empty for the root.
     folder: String,
 }
 
@@ -59,7 +59,7 @@ impl Tree {
         }
     }
 
-    /// The bytes of the file `name` within this folder, at most `most` of them; `None` where there is none. `what` names it in errors.
+    /// The bytes of the file `name` within this folder, at most `most`; `None` if there is none. Errors name it by `what`.
     pub(crate) fn bytes(
         &self,
         name: &str,
@@ -102,7 +102,7 @@ impl Tree {
         }
     }
 
-    /// The names of the folders within this one, sorted; links on the disk are none, as they may lead anywhere.
+    /// The names of the folders within this one, sorted; links on disk are excluded, because they may lead anywhere.
     pub(crate) fn folders(&self) -> Result<Vec<String>, Problem> {
         let mut names = BTreeSet::new();
         match self {
@@ -124,7 +124,7 @@ impl Tree {
         Ok(names.into_iter().collect())
     }
 
-    /// Bytes that the file `name` within this folder takes.
+    /// Size of the file `name` within this folder, bytes.
     pub(crate) fn file_bytes(&self, name: &str) -> Result<u64, Problem> {
         match self {
             Tree::Folder(folder) => {
@@ -169,7 +169,7 @@ impl Archive {
     }
 }
 
-/// The folder that holds the store: the archive itself, or the only folder in it where nothing else is.
+/// The root of the store: the archive itself, or its only folder if it contains nothing else.
 fn outermost(members: &BTreeMap<String, Packed>) -> String {
     let is_described = ["zarr.json", ".zgroup", ".zarray"]
         .iter()

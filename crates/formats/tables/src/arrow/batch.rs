@@ -1,4 +1,4 @@
-//! Messages of a stream, and the places of the buffers of a batch of rows.
+//! Messages of a stream, and the locations of the buffers of a record batch.
 
 use std::fs::File;
 
@@ -8,15 +8,15 @@ use crate::flatbuffer::Table;
 use crate::limits;
 use crate::source::Source;
 
-/// The kinds of messages that are read.
+/// The types of supported messages.
 pub(super) const SCHEMA: u8 = 1;
 pub(super) const RECORDS: u8 = 3;
-/// The four bytes before the length of a message, since Arrow 0.15.
+/// Marker before the length of a message, since Arrow 0.15.
 const CONTINUED: u32 = u32::MAX;
 
-/// A message: its metadata, and the place of the bytes behind it.
+/// A message: its metadata, and the location of its body.
 pub(super) struct Message {
-    /// Place of its first byte in the file.
+    /// Offset of its first byte in the file.
     pub(super) at: u64,
     pub(super) kind: u8,
     metadata: Vec<u8>,
@@ -25,7 +25,7 @@ pub(super) struct Message {
 }
 
 impl Message {
-    /// The message at `at`, which is moved behind it; `None` at the mark of the end.
+    /// Reads the message at `at` and advances `at` past it; `None` at the end marker.
     pub(super) fn next(
         source: &Source,
         file: &mut File,
@@ -82,13 +82,13 @@ impl Message {
     }
 }
 
-/// Rows whose columns lie one behind the other.
+/// A record batch: rows stored column by column.
 #[derive(Debug)]
 pub(super) struct Batch {
-    /// The number of its first row in the table.
+    /// Number of its first row in the table.
     pub(super) first: u64,
     pub(super) rows: u64,
-    /// Places of buffers in the file, and their lengths.
+    /// Offsets of buffers in the file, and their lengths.
     pub(super) buffers: Vec<Buffer>,
     pub(super) codec: Option<Codec>,
 }
@@ -100,7 +100,7 @@ pub(super) struct Buffer {
 }
 
 impl Batch {
-    /// The batch in a message, whose schema asks for `buffers` buffers.
+    /// The batch in a message, whose schema has `buffers` buffers.
     pub(super) fn new(message: &Message, first: u64, buffers: usize) -> Result<Batch, String> {
         let header = message.header()?;
         let rows =

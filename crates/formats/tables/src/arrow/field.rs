@@ -1,16 +1,16 @@
-//! The schema of a stream: the types of its columns, and which buffers of a batch are theirs.
+//! The schema of a stream: the types of its columns, and their buffers in a batch.
 
 use crate::flatbuffer::Table;
 use crate::limits;
 use crate::parquet::{ColumnKind, LeafForm, Node, NodeKind};
 use crate::path::longest;
 
-/// The schema, as far as it is read.
+/// The schema, as far as it is used.
 pub(super) struct Schema {
     pub(super) fields: Vec<Field>,
-    /// Texts by key that writers put beside it.
+    /// Metadata of the schema, by key.
     pub(super) written: Vec<(String, String)>,
-    /// Buffers of each batch.
+    /// Number of buffers of each batch.
     pub(super) buffers: usize,
 }
 
@@ -18,7 +18,7 @@ pub(super) struct Schema {
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     pub(super) name: String,
-    /// The first of its buffers: that of validity, if it has one.
+    /// Index of its first buffer: the validity buffer, if it has one.
     pub(super) buffer: usize,
     pub(super) kind: FieldKind,
 }
@@ -27,9 +27,9 @@ pub(super) struct Field {
 pub(super) enum FieldKind {
     Null,
     Bool,
-    /// Numbers of so many bytes.
+    /// Numbers with this many bytes each.
     Fixed(usize, Number),
-    /// Texts or bytes of any length, behind offsets of 4 or 8 bytes.
+    /// Texts or bytes of any length, with offsets of 4 or 8 bytes.
     Bytes {
         is_text: bool,
         offset: usize,
@@ -45,7 +45,7 @@ pub(super) enum FieldKind {
     },
 }
 
-/// The meaning of the bytes of a number.
+/// Meaning of the bytes of a number.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Number {
     Signed,
@@ -53,16 +53,16 @@ pub(super) enum Number {
     Float,
     Decimal(i32),
     Time(&'static str),
-    /// None: they are bytes.
+    /// No number: plain bytes.
     Opaque,
 }
 
-/// Units of times, by their number in the schema.
+/// Units of times, by their code in the schema.
 const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
-/// Advice for a type that is not read.
+/// Remedy for an unsupported type.
 const REMEDY: &str = "write Parquet: `ds.to_parquet(\"table.parquet\")` of datasets, `pyarrow.parquet.write_table(table, \"table.parquet\")`";
 
-/// The schema in the header of a message; `Err` names what is not read, with the remedy.
+/// The schema in the header of a message; the error names the unsupported part, with the remedy.
 pub(super) fn schema(header: Table<'_>) -> Result<Schema, String> {
     if header.short(0).is_some_and(|order| order != 0) {
         return Err(format!(
@@ -92,7 +92,7 @@ pub(super) fn schema(header: Table<'_>) -> Result<Schema, String> {
     })
 }
 
-/// Counts of what was made so far.
+/// Counts of the fields and buffers made so far.
 struct Made {
     buffers: usize,
     fields: usize,
@@ -137,7 +137,7 @@ impl Made {
         Ok(Field { name, buffer, kind })
     }
 
-    /// The kind of a field without what is nested in it, and the number of its own buffers.
+    /// The kind of a field without its children, and the number of its own buffers.
     fn kind(&self, field: Table<'_>, name: &str) -> Result<(Flat, usize), String> {
         let own = field.table(3);
         let short = |number, otherwise| own.and_then(|own| own.short(number)).unwrap_or(otherwise);
@@ -266,7 +266,7 @@ enum Flat {
 }
 
 impl Field {
-    /// The same as a column of Parquet, for names, kinds and places inside.
+    /// The field as a Parquet column, for names, kinds and paths.
     pub(super) fn node(&self) -> Node {
         let leaf = |kind| NodeKind::Leaf {
             column: self.buffer,
@@ -302,7 +302,7 @@ impl Field {
     }
 }
 
-/// The one of `fields` that `name` begins with, with no more members of structures than it leads to.
+/// The field at the start of `name`, restricted to the members of structures that `name` selects.
 pub(super) fn named(fields: &[Field], name: &str) -> Option<Field> {
     let names = fields.iter().map(|field| field.name.as_str());
     let (at, rest) = longest(name, names)?;

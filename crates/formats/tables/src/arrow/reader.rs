@@ -1,4 +1,4 @@
-//! Cells out of the buffers of a batch.
+//! Conversion of the buffers of a batch to cells.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -12,15 +12,15 @@ use crate::limits;
 use crate::scalar::{decimal, half, nanoseconds_in};
 use crate::source::Source;
 
-/// A batch whose cells are asked for.
+/// Reader of the cells of a batch.
 pub(super) struct Reader<'t> {
     source: &'t Source,
     file: File,
     batch: &'t Batch,
     name: &'t str,
-    /// Compressed buffers that were unpacked.
+    /// Unpacked buffers, by index.
     unpacked: BTreeMap<usize, Vec<u8>>,
-    /// Bytes that more cells may take.
+    /// Memory left for further cells, bytes.
     pub(super) left: u64,
 }
 
@@ -157,7 +157,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The ends of `count` entries from entry `begin` on, behind the beginning of the first.
+    /// The ends of `count` entries from entry `begin` on, after the start of the first.
     fn offsets(
         &mut self,
         index: usize,
@@ -167,7 +167,7 @@ impl<'t> Reader<'t> {
     ) -> Result<Vec<u64>, TableError> {
         let raw = self.entries(index, begin, count + 1, bytes)?;
         let offsets: Vec<u64> = raw.chunks_exact(bytes).map(unsigned).collect();
-        // A negative one is beyond any buffer.
+        // A negative offset is beyond any buffer.
         match offsets.windows(2).all(|pair| pair[0] <= pair[1]) {
             true => Ok(offsets),
             false => Err(self.damaged("offsets that go back")),
@@ -221,7 +221,7 @@ impl<'t> Reader<'t> {
                 self.source
                     .bytes(&mut self.file, buffer.at, buffer.bytes, limits::PAGE_BYTES)?;
             let whole = unpacked(codec, &packed).map_err(|problem| self.damaged(problem))?;
-            // Those of one column are needed together; others are not.
+            // The buffers of one column are needed together; others are not.
             let held: usize = self.unpacked.values().map(Vec::len).sum();
             if (held + whole.len()) as u64 > limits::PAGE_BYTES {
                 self.unpacked.clear();
@@ -249,7 +249,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// A compressed buffer: its length, −1 where it is not compressed, and its bytes.
+/// Unpacks a compressed buffer: its length, −1 for no compression, then its bytes.
 fn unpacked(codec: codec::Codec, packed: &[u8]) -> Result<Vec<u8>, String> {
     let Some((length, rest)) = packed.split_first_chunk() else {
         return Err(format!("a compressed buffer of {} bytes", packed.len()));
@@ -270,7 +270,7 @@ fn unpacked(codec: codec::Codec, packed: &[u8]) -> Result<Vec<u8>, String> {
     }
 }
 
-/// A number of up to 16 bytes as a cell; bytes of any length where they are none.
+/// A number of up to 16 bytes as a cell; bytes of any length for opaque types.
 fn cell(raw: &[u8], number: Number) -> Cell {
     match number {
         Number::Signed => Cell::Integer(signed(raw)),

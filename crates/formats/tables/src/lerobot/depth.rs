@@ -1,17 +1,17 @@
-//! Depth maps: videos whose numbers are codes of distances.
+//! Depth maps: videos whose pixel values are codes of distances.
 
 use serde_json::Value;
 
-/// Codes of a depth map have 12 bits.
+/// The last of the 12-bit codes of a depth map.
 const LAST_CODE: u16 = 4095;
-/// Keys of the four parameters, and of whether the codes are logarithmic.
+/// Keys of the parameters, besides the one for logarithmic codes.
 const PARAMETERS: [&str; 3] = ["video.depth_min", "video.depth_max", "video.shift"];
 const LOGARITHMIC: &str = "video.use_log";
 
-/// Distances that the codes 0 to 4095 of a depth map mean.
+/// Distances of the codes 0 to 4095 of a depth map.
 ///
 /// # Units
-/// Millimetres from the camera. LeRobot states its parameters in metres whatever unit was recorded.
+/// Millimetres from the camera. LeRobot states its parameters in metres, whatever unit was recorded.
 ///
 /// ```
 /// use taceva_tables::DepthCodes;
@@ -30,8 +30,8 @@ pub struct DepthCodes {
 }
 
 impl DepthCodes {
-    /// Codes of the distances from the first to the last of `ends_m`, m; logarithmic ones of the distance and `shift_m`, m. `None` where these are no
-    /// range, or have no logarithm.
+    /// Codes of distances in the range `ends_m`, m. Logarithmic codes are linear in the logarithm of distance plus `shift_m`, m. `None` if
+    /// the ends form no range, or have no logarithm.
     pub fn new(ends_m: [f64; 2], shift_m: f64, is_logarithmic: bool) -> Option<DepthCodes> {
         let [least_m, greatest_m] = ends_m;
         let are_finite = ends_m
@@ -62,7 +62,7 @@ impl DepthCodes {
             }
             false => between(self.least_m, self.greatest_m),
         };
-        // The ends are what is stated, whatever their logarithms were rounded to.
+        // The stated ends are exact, whatever the rounding of their logarithms.
         let metres = match code {
             0 => self.least_m,
             LAST_CODE => self.greatest_m,
@@ -76,15 +76,15 @@ impl DepthCodes {
         [self.least_m * 1000.0, self.greatest_m * 1000.0]
     }
 
-    /// True if some neighbouring codes are less than a millimetre apart.
+    /// True if some neighbouring codes differ by less than a millimetre.
     pub fn is_finer_than_millimetres(&self) -> bool {
-        // Logarithmic codes lie closest at their beginning.
+        // Logarithmic codes are densest at their beginning.
         let first = self.millimetres(0).zip(self.millimetres(1));
         first.is_some_and(|(first, second)| second - first < 1.0)
     }
 }
 
-/// The codes that a feature states under `info`; `Err` says what is missing.
+/// The codes that a feature states under `info`; the error names the missing key.
 pub(super) fn codes(feature: &Value) -> Result<DepthCodes, String> {
     let own = |key: &str| {
         ["info", "video_info"]

@@ -1,4 +1,4 @@
-//! Episodes and tasks: in lines of JSON in version 2.1, in Parquet files in version 3.
+//! Episodes and tasks: JSON lines in version 2.1, Parquet files in version 3.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,15 +12,15 @@ use crate::error::{Place, TableError};
 use crate::parquet::ParquetTable;
 use crate::source::Source;
 
-/// Where version 3 describes its episodes.
+/// Path of the descriptions of episodes in version 3.
 const EPISODES: &str = "meta/episodes/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet";
 
-/// A piece of a video that shows one episode.
+/// A clip of a video: the part with one episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Clip {
     pub(super) chunk: u64,
     pub(super) file: u64,
-    /// Seconds from the beginning of the file.
+    /// Start, seconds from the beginning of the file.
     pub(super) from: f64,
 }
 
@@ -38,7 +38,7 @@ pub(super) fn of_lines(folder: &Path) -> Result<Vec<u64>, TableError> {
         .collect()
 }
 
-/// The rows that each episode has by its description, as far as it says so; that description.
+/// Number of rows of each episode that states it, with the path of its description.
 pub(super) fn lengths(
     folder: &Path,
     is_in_lines: bool,
@@ -145,7 +145,7 @@ pub(super) fn tasks(
     }
     let table = ParquetTable::open(&inside(folder, "meta/tasks.parquet".as_ref())?)?;
     let indices = table.column("task_index")?;
-    // The text is the index of a data frame of pandas, which has no name of its own.
+    // The text is the unnamed index of a pandas data frame.
     let names = table.names();
     let name = names
         .iter()

@@ -1,10 +1,10 @@
-//! The features of a dataset that is written.
+//! Features of a written dataset.
 
 use serde_json::{Value, json};
 
 use crate::parquet::{WrittenColumn, WrittenKind};
 
-/// A feature of a dataset that is written.
+/// A feature of a written dataset.
 ///
 /// ```
 /// use taceva_tables::{WrittenColumn, WrittenFeature, WrittenKind};
@@ -15,18 +15,18 @@ use crate::parquet::{WrittenColumn, WrittenKind};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct WrittenFeature {
-    /// Its name, without `/`, and what its cells are.
+    /// Name, without `/`, and kind of the cells.
     pub column: WrittenColumn,
-    /// Its shape in one row: of a picture height, width, colours.
+    /// Shape in one row; for a picture height, width, colours.
     pub shape: Vec<u64>,
-    /// What its elements are called, or the axes of a picture.
+    /// Names of the elements, or of the axes of a picture.
     pub names: Option<Vec<String>>,
-    /// The unit of its numbers, or several in the order of its names; a key that LeRobot leaves alone.
+    /// Unit of the numbers, or several in the order of the names; LeRobot ignores this key.
     pub unit: Option<String>,
 }
 
 impl WrittenFeature {
-    /// A feature of that shape, whose elements have no names. LeRobot reads a list of one number as that number, so that it is written so too.
+    /// A feature of this shape with unnamed elements. LeRobot reads a list of one number as a number, so it is written as one.
     pub fn new(column: WrittenColumn, shape: impl IntoIterator<Item = u64>) -> WrittenFeature {
         WrittenFeature {
             column,
@@ -36,7 +36,7 @@ impl WrittenFeature {
         }
     }
 
-    /// The same with names of its elements, or of the axes of a picture.
+    /// The same feature with names of its elements, or of the axes of a picture.
     #[must_use]
     pub fn with_names<N: Into<String>>(self, names: impl IntoIterator<Item = N>) -> WrittenFeature {
         WrittenFeature {
@@ -45,7 +45,7 @@ impl WrittenFeature {
         }
     }
 
-    /// The same with the unit of its numbers.
+    /// The same feature with the unit of its numbers.
     #[must_use]
     pub fn with_unit(self, unit: impl Into<String>) -> WrittenFeature {
         WrittenFeature {

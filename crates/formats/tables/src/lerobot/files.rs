@@ -1,4 +1,4 @@
-//! Files inside the folder of a dataset, and those that describe it.
+//! Files inside the folder of a dataset, and its metadata files.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
 
-/// `path` in `folder`, which no link leads out of.
+/// Resolves `path` in `folder`; rejects a link that leads outside.
 pub(super) fn inside(folder: &Path, path: &Path) -> Result<PathBuf, TableError> {
     let whole = folder.join(path);
     let io = |source: std::io::Error| TableError::Io {
@@ -29,7 +29,7 @@ pub(super) fn inside(folder: &Path, path: &Path) -> Result<PathBuf, TableError> 
     }
 }
 
-/// The text of a description.
+/// The text of a metadata file.
 fn description(folder: &Path, name: &str) -> Result<(Source, Vec<u8>), TableError> {
     let source = Source::new(&inside(folder, name.as_ref())?)?;
     let mut file = source.open()?;
@@ -37,7 +37,7 @@ fn description(folder: &Path, name: &str) -> Result<(Source, Vec<u8>), TableErro
     Ok((source, bytes))
 }
 
-/// The value of a file of JSON.
+/// The value of a JSON file.
 pub(super) fn json_file(folder: &Path, name: &str) -> Result<(Source, Value), TableError> {
     let (source, bytes) = description(folder, name)?;
     let json = serde_json::from_slice(&bytes);
@@ -46,7 +46,7 @@ pub(super) fn json_file(folder: &Path, name: &str) -> Result<(Source, Value), Ta
     Ok((source, json))
 }
 
-/// The values of a file of a JSON value a line, each with the byte at which its line begins.
+/// The values of a file of JSON lines, each with the byte offset of its line.
 pub(super) fn json_lines(
     folder: &Path,
     name: &str,

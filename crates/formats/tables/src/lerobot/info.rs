@@ -1,4 +1,4 @@
-//! `meta/info.json`: the version, where files lie, and what each column is.
+//! `meta/info.json`: the version, the paths of files, and the features.
 
 use serde_json::Value;
 
@@ -7,32 +7,32 @@ use super::pattern::Pattern;
 use crate::error::{Place, TableError, shown};
 use crate::source::Source;
 
-/// The layouts that are read.
+/// The supported layouts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// A file an episode, described by lines of JSON.
+    /// One file for each episode, described by JSON lines.
     V21,
     /// Episodes in shared files, described by Parquet files.
     V30,
 }
 
-/// A column of a LeRobot dataset as `meta/info.json` describes it.
+/// A column of a LeRobot dataset, as `meta/info.json` describes it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Feature {
-    /// Its name, as `observation.state`.
+    /// Name, as `observation.state`.
     pub name: String,
     /// `video`, `image`, or the type of its numbers, such as `float32`.
     pub dtype: String,
-    /// Lengths of its axes in one row; of pictures height, width and colours.
+    /// Lengths of its axes in one row; for pictures height, width and colours.
     pub shape: Vec<u64>,
-    /// What its numbers are called, in order; empty where nothing says it.
+    /// Names of its numbers, in order; empty if not stated.
     pub names: Vec<String>,
-    /// Frames a second of a video: its own where it states them, else those of the dataset; 0 of what is no video where nothing states them.
+    /// Frame rate of a video, 1/s: its own if stated, else that of the dataset; 0 for other features if the dataset states none.
     pub fps: f64,
-    /// True of a depth map: codes of 12 bits, which are no brightness.
+    /// True for a depth map: 12-bit codes, which are no brightness.
     pub is_depth: bool,
-    /// The distances of its codes; none where the feature does not state them, or is no depth map.
+    /// The distances of its codes; `None` if the feature does not state them, or is no depth map.
     pub depth: Option<DepthCodes>,
 }
 
@@ -43,11 +43,11 @@ pub(super) struct Info {
     pub(super) video: Option<Pattern>,
     pub(super) chunks_size: u64,
     pub(super) features: Vec<Feature>,
-    /// Depth maps whose codes are not known, each with the reason.
+    /// Depth maps with unknown codes, each with the reason.
     pub(super) unknown_depths: Vec<(String, String)>,
 }
 
-/// What the file at `source` says.
+/// Parses the file at `source`.
 pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
     let wrong = |name: &str, problem: String| source.damaged(Place::of(name), problem);
     let text = |name: &str| {
@@ -71,7 +71,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
         None | Some(Value::Null) => None,
         Some(_) => Some(pattern("video_path")?),
     };
-    // What has no video may leave it out.
+    // A dataset without videos may omit the rate.
     let fps = match json.get("fps") {
         None | Some(Value::Null) => None,
         Some(stated) => {
@@ -134,7 +134,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
     })
 }
 
-/// Texts in a list, or in lists by a name: `["x", "y"]`, `{"motors": ["x", "y"]}`.
+/// Texts in a list, or in a dictionary of lists: `["x", "y"]`, `{"motors": ["x", "y"]}`.
 fn names(written: &Value) -> Vec<String> {
     let lists: Vec<&Value> = match written {
         Value::Object(lists) => lists.values().collect(),

@@ -1,4 +1,4 @@
-//! Patterns of paths as LeRobot writes them: `data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet`.
+//! Path patterns of LeRobot: `data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::error::shown;
 use crate::limits;
 
-/// A pattern: texts and named places by turns.
+/// A pattern: alternating texts and named fields.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Pattern {
     parts: Vec<Part>,
@@ -15,14 +15,14 @@ pub(super) struct Pattern {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Part {
     Text(String),
-    /// A number or a text by its name, a number with at least this many digits.
+    /// A number or a text by name, a number with at least this many digits.
     Value {
         name: String,
         digits: usize,
     },
 }
 
-/// What stands for a name.
+/// Value of a named field.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Value<'a> {
     Number(u64),
@@ -30,7 +30,7 @@ pub(super) enum Value<'a> {
 }
 
 impl Pattern {
-    /// `Err` says what is no pattern of relative paths.
+    /// Parses `text`; the error is a message if it is no pattern of relative paths.
     pub(super) fn parse(text: &str) -> Result<Pattern, String> {
         let wrong = || format!("`{}` is no pattern of paths inside the folder", shown(text));
         let mut parts = Vec::new();
@@ -66,7 +66,7 @@ impl Pattern {
         }
     }
 
-    /// The path with values in place of names; `Err` says which name has none, or that the path would lead out of the folder.
+    /// The path with values in place of names; the error is a message if a name has no value, or the path would leave the folder.
     pub(super) fn fill(&self, values: &[(&str, Value<'_>)]) -> Result<PathBuf, String> {
         let mut path = String::new();
         for part in &self.parts {
@@ -92,7 +92,7 @@ impl Pattern {
         }
     }
 
-    /// The files in `folder` that the pattern describes, with all its names numbers, in the order of these numbers.
+    /// The files in `folder` that match the pattern, with numbers for all names, sorted by these numbers.
     pub(super) fn files(&self, folder: &Path) -> Result<Vec<PathBuf>, std::io::Error> {
         let mut found = vec![(Vec::new(), PathBuf::new())];
         for component in self.components() {
@@ -145,7 +145,7 @@ impl Pattern {
     }
 }
 
-/// The numbers of `name` at the places of `component`; none if it is another.
+/// The numbers of `name` at the fields of `component`; `None` if it does not match.
 fn matches(component: &[Part], name: &str) -> Option<Vec<u64>> {
     let mut rest = name;
     let mut numbers = Vec::new();
@@ -167,7 +167,7 @@ fn matches(component: &[Part], name: &str) -> Option<Vec<u64>> {
     rest.is_empty().then_some(numbers)
 }
 
-/// Whether a path is relative and goes down alone.
+/// True if a path is relative and never leads upwards.
 fn is_inside(path: &str) -> bool {
     let is_name = |part: &str| !part.is_empty() && part != "." && part != "..";
     !path.contains(['\\', '\0']) && path.split('/').all(is_name)

@@ -1,9 +1,9 @@
-//! What a feature is like over all rows, as `meta/stats.json` says it: policies normalise by it.
+//! Statistics of a feature over all rows for `meta/stats.json`, by which policies normalise.
 
 use serde_json::{Value, json};
 
-/// Least, greatest, mean and standard deviation of each element of a feature, in its unit. Policies normalise by them; they are no scores, and are rounded with each
-/// row.
+/// Minimum, maximum, mean and standard deviation of each element of a feature, in its unit. Policies normalise by them. They are no scores,
+/// and rounding errors accumulate with each row.
 ///
 /// ```
 /// use taceva_tables::FeatureStats;
@@ -31,7 +31,7 @@ struct Element {
 }
 
 impl FeatureStats {
-    /// The statistics of a feature of `length` numbers a row, before its first row.
+    /// Empty statistics of a feature of `length` numbers in each row.
     pub fn new(length: usize) -> FeatureStats {
         let nothing = Element {
             count: 0.0,
@@ -46,7 +46,7 @@ impl FeatureStats {
         }
     }
 
-    /// Adds a row, a number an element; one that is not finite is left out of its element.
+    /// Adds a row, one number for each element; skips a number that is not finite.
     pub fn add(&mut self, numbers: impl IntoIterator<Item = f64>) {
         self.rows += 1;
         let places = self.elements.iter_mut().zip(numbers);
@@ -60,7 +60,7 @@ impl FeatureStats {
         }
     }
 
-    /// Adds the pixels of a picture, a number an element and pixel, the elements of a pixel together; they count as one row.
+    /// Adds the pixels of a picture, with the elements of each pixel together. They count as one row.
     pub fn add_picture(&mut self, numbers: impl IntoIterator<Item = f64>) {
         let length = self.elements.len().max(1);
         let rows = self.rows + 1;
@@ -74,17 +74,17 @@ impl FeatureStats {
         self.rows = rows;
     }
 
-    /// How many rows there were, or pictures.
+    /// Number of rows or pictures.
     pub fn rows(&self) -> u64 {
         self.rows
     }
 
-    /// The mean of each element, 0 of one that had no number.
+    /// The mean of each element; 0 if it had no number.
     pub fn mean(&self) -> Vec<f64> {
         self.elements.iter().map(|element| element.mean).collect()
     }
 
-    /// As `meta/stats.json` has it; none if an element had no number, of which nothing can be said. Elements of a picture lie in lists of lists.
+    /// The statistics as in `meta/stats.json`; `None` if an element had no number. Elements of a picture are lists of lists.
     pub(super) fn json(&self, is_picture: bool) -> Option<Value> {
         let is_seen = self.elements.iter().all(|element| element.count > 0.0);
         if !is_seen || self.elements.is_empty() {

@@ -1,4 +1,4 @@
-//! Rows of each episode, held against its description: two takes under one number would get the pictures of the first.
+//! Check of the rows of each episode against its description: two takes under one number would both get the pictures of the first.
 
 use std::collections::BTreeMap;
 
@@ -9,14 +9,14 @@ use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::source::Source;
 
-/// Rows of one episode, as the data files have them.
+/// Rows of one episode in the data files.
 #[derive(Clone, Copy)]
 struct Take {
     rows: u64,
     last_s: f64,
 }
 
-/// Checks that every episode is one take of as many rows as its description says. Datasets without numbers of episodes are not checked.
+/// Checks that every episode is one take with as many rows as its description states. Datasets without episode numbers are not checked.
 pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
     let has = |name: &str| dataset.names.iter().any(|known| known == name);
     if !has("episode_index") {
@@ -28,7 +28,7 @@ pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
         false => Vec::new(),
     };
     let mut takes: BTreeMap<u64, Take> = BTreeMap::new();
-    // The first row whose time is not above that of the row before it in its episode.
+    // The first row whose time is not after that of the previous row of its episode.
     let mut again: Option<(u64, u64)> = None;
     for (row, episode) in episodes.iter().enumerate() {
         let Cell::Integer(episode) = episode else {

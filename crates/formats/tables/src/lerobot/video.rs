@@ -1,4 +1,4 @@
-//! Which frame of which file belongs to a row.
+//! Video file and frame of each row.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use super::pattern::{Pattern, Value};
 use crate::cell::Cell;
 use crate::error::{Place, TableError};
 
-/// Which frame of which file a video of a LeRobot dataset shows in each row.
+/// Video file and frame of each row of a LeRobot dataset.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VideoFrames {
     files: Vec<PathBuf>,
@@ -18,7 +18,7 @@ pub struct VideoFrames {
 }
 
 impl VideoFrames {
-    /// The file, relative to the folder of the dataset, and the place of the frame in it, from 0; none beyond the last row.
+    /// The file, relative to the folder of the dataset, and the index of the frame in it, from 0; `None` beyond the last row.
     ///
     /// ```
     /// # use taceva_tables::LeRobot;
@@ -39,7 +39,7 @@ impl VideoFrames {
     }
 }
 
-/// How far a time stamp may be from the nearest frame, in frames.
+/// Maximum distance of a time stamp from the nearest frame, in frames.
 const TOLERANCE: f64 = 0.25;
 
 /// The frames of `dataset` in the video called `key`.
@@ -90,15 +90,15 @@ pub(super) fn frames(dataset: &LeRobot, key: &str) -> Result<VideoFrames, TableE
     })
 }
 
-/// The files of one video, as far as rows needed them.
+/// The files of one video that rows need.
 struct Files<'a> {
     key: &'a str,
     pattern: &'a Pattern,
     chunks_size: u64,
-    /// Where episodes lie in files that several share; none where each has its own.
+    /// Clips of episodes in shared files; `None` if each episode has its own file.
     clips: Option<BTreeMap<u64, Clip>>,
     paths: Vec<PathBuf>,
-    /// The file of each episode, and where the episode begins in it, in seconds.
+    /// The file of each episode, and the start of the episode in it, seconds.
     places: BTreeMap<u64, (u32, f64)>,
 }
 
@@ -144,7 +144,7 @@ impl Files<'_> {
             ("episode_chunk", Value::Number(episode / self.chunks_size)),
             ("episode_index", Value::Number(episode)),
         ])?;
-        // Episodes that share a file follow one another.
+        // Episodes that share a file are consecutive.
         if self.paths.last() != Some(&path) {
             self.paths.push(path);
         }
@@ -155,7 +155,7 @@ impl Files<'_> {
     }
 }
 
-/// The frame nearest to a place counted in frames; none if every frame is further than [`TOLERANCE`].
+/// The frame nearest to a position in frames; `None` if every frame is further than [`TOLERANCE`].
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

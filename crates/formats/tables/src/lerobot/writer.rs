@@ -1,4 +1,4 @@
-//! Folders of LeRobot, version 3.0, written an episode after another: pictures lie in the tables, so that no encoder of clips is needed.
+//! Writer of LeRobot folders, version 3.0, episode after episode. Pictures are stored in the tables, so that no video encoder is needed.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -14,11 +14,11 @@ use crate::cell::Cell;
 use crate::error::TableError;
 use crate::parquet::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_features};
 
-/// How large a data file is before the next episode goes into another, MiB.
+/// Size of a data file from which the next episode begins another, MiB.
 const FILE_MB: u64 = 100;
-/// Data files in one folder.
+/// Number of data files in one folder.
 pub(super) const FILES_A_CHUNK: u64 = 1000;
-/// The columns that every dataset of LeRobot has, behind those that it is made of.
+/// The columns of every LeRobot dataset, after its features.
 const OWN: [(&str, WrittenKind, &str); 5] = [
     ("timestamp", WrittenKind::Single, "float32"),
     ("frame_index", WrittenKind::Integer, "int64"),
@@ -27,25 +27,25 @@ const OWN: [(&str, WrittenKind, &str); 5] = [
     ("task_index", WrittenKind::Integer, "int64"),
 ];
 
-/// An episode that was written.
+/// A written episode.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Episode {
     pub(super) task: usize,
     pub(super) first: u64,
     pub(super) end: u64,
-    /// The number of its data file, over all chunks.
+    /// Index of its data file, over all chunks.
     pub(super) file: u64,
 }
 
-/// The data file that is written.
+/// The current data file.
 #[derive(Debug)]
 struct DataFile {
     writer: ParquetWriter,
-    /// Its number over all chunks.
+    /// Index over all chunks.
     number: u64,
 }
 
-/// A folder of LeRobot while it is written: `data`, then `meta`.
+/// A LeRobot folder that is being written: `data`, then `meta`.
 ///
 /// ```
 /// use taceva_tables::{Cell, LeRobot, LeRobotWriter, WrittenColumn, WrittenFeature, WrittenKind};
@@ -78,16 +78,16 @@ pub struct LeRobotWriter {
     episodes: Vec<Episode>,
     rows: u64,
     data: Option<DataFile>,
-    /// Those made so far.
+    /// Folders created so far.
     folders: Vec<String>,
 }
 
 impl LeRobotWriter {
-    /// Begins a dataset in the empty folder `folder`, of the robot called `robot`, with `rate_hz` frames a second.
+    /// Creates a dataset in the empty folder `folder`, for the robot called `robot`, at `rate_hz` frames a second.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if a feature has a name of LeRobot's own columns, or one with `/`, or if the rate is not above 0;
-    /// [`TableError::Write`].
+    /// [`TableError::Mismatch`] if a feature has the name of one of LeRobot's own columns, or a name with `/`, or if the rate is not above
+    /// 0; [`TableError::Write`].
     pub fn create(
         folder: &Path,
         robot: &str,
@@ -154,10 +154,10 @@ impl LeRobotWriter {
         })
     }
 
-    /// Begins an episode, of which `task` says what is done in it; the one before has ended.
+    /// Begins an episode with the task `task`; this ends the previous episode.
     ///
     /// # Errors
-    /// As [`ParquetWriter::create`] and [`ParquetWriter::finish`], where a data file is full.
+    /// As [`ParquetWriter::create`] and [`ParquetWriter::finish`] if a data file is full.
     pub fn begin_episode(&mut self, task: &str) -> Result<(), TableError> {
         let task = match self.tasks.iter().position(|known| known == task) {
             Some(known) => known,
@@ -182,7 +182,7 @@ impl LeRobotWriter {
         Ok(())
     }
 
-    /// Adds a row to the episode, a cell a feature; LeRobot's own columns are not among them.
+    /// Adds a row to the episode, one cell for each feature, without LeRobot's own columns.
     ///
     /// # Errors
     /// [`TableError::Mismatch`] if no episode was begun; else as [`ParquetWriter::push`].
@@ -230,8 +230,8 @@ impl LeRobotWriter {
         Ok(())
     }
 
-    /// Ends the dataset: writes what describes it. `pictures` says what pictures are like, by the name of their feature, each number from 0 to 1;
-    /// returns the folders inside that hold files, for whoever makes their names durable.
+    /// Ends the dataset and writes its metadata. `pictures` has the statistics of pictures by feature, with numbers from 0 to 1. Returns
+    /// the subfolders with files, so that the caller can sync them.
     ///
     /// # Errors
     /// [`TableError::Write`].
@@ -285,7 +285,7 @@ impl LeRobotWriter {
         Ok(())
     }
 
-    /// What `meta/info.json` says.
+    /// The content of `meta/info.json`.
     fn info(&self) -> Value {
         let mut features: Map<String, Value> = self
             .features
@@ -331,7 +331,7 @@ impl LeRobotWriter {
     }
 }
 
-/// The time of a frame in its episode, s, as LeRobot counts it.
+/// The time of a frame in its episode, s, as LeRobot computes it.
 #[expect(
     clippy::cast_precision_loss,
     reason = "frames of an episode are far fewer than 2^53"
@@ -340,7 +340,7 @@ fn seconds(frame: u64, rate_hz: f64) -> f64 {
     frame as f64 / rate_hz
 }
 
-/// A rate as LeRobot writes it: whole where it is.
+/// A rate as LeRobot writes it: an integer if it is whole.
 #[expect(clippy::cast_possible_truncation, reason = "whole and below 2^53")]
 fn rate(rate_hz: f64) -> Value {
     match rate_hz.fract() == 0.0 && rate_hz < 9e15 {
@@ -349,7 +349,7 @@ fn rate(rate_hz: f64) -> Value {
     }
 }
 
-/// The number in a cell; NaN of none.
+/// The number in a cell; NaN if there is none.
 #[expect(
     clippy::cast_precision_loss,
     reason = "what is said of a feature is rounded anyway"

@@ -1,4 +1,4 @@
-//! Chunks of an MCAP file, unpacked one at a time, their sums checked.
+//! Chunks of an MCAP file, unpacked one at a time, with checks of their checksums.
 
 use std::fs::File;
 use std::sync::Arc;
@@ -11,10 +11,10 @@ use crate::growth::Growth;
 use crate::limits;
 use crate::source::Source;
 
-/// Unpacked chunks that are kept: writers with several threads let the times of neighbours overlap.
+/// Number of unpacked chunks in the cache: writers with several threads let the times of neighbours overlap.
 const KEPT: usize = 2;
 
-/// Records of a file by their places, through one cursor.
+/// Reader of records by offset, through one cursor.
 pub(super) struct Chunks<'a> {
     source: &'a Source,
     file: File,
@@ -32,7 +32,7 @@ impl<'a> Chunks<'a> {
         })
     }
 
-    /// The code and the length of the fields of the record at `at`.
+    /// The code and the length of the record at `at`.
     pub(super) fn head(&mut self, at: u64) -> Result<(u8, u64), TableError> {
         let head = self.source.bytes(&mut self.file, at, HEAD, HEAD)?;
         let mut bytes = Bytes::new(&head);
@@ -53,7 +53,7 @@ impl<'a> Chunks<'a> {
         }
     }
 
-    /// The fields of the record at `at`, which must have the code `expected`; the first `most` bytes of them.
+    /// The first `most` bytes of the fields of the record at `at`, which must have the code `expected`.
     pub(super) fn fields(
         &mut self,
         at: u64,
@@ -73,7 +73,7 @@ impl<'a> Chunks<'a> {
         )
     }
 
-    /// The records in the chunk at `at`.
+    /// The unpacked records of the chunk at `at`.
     pub(super) fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some(found) = self.kept.iter().position(|(place, _)| *place == at) {
             let kept = self.kept.remove(found);
@@ -81,7 +81,7 @@ impl<'a> Chunks<'a> {
             self.kept.push(kept);
             return Ok(bytes);
         }
-        // The oldest goes before the next is unpacked, so that no more than `KEPT` are in memory.
+        // The oldest is dropped before the next is unpacked, so that memory holds no more than `KEPT`.
         if self.kept.len() >= KEPT {
             self.kept.remove(0);
         }

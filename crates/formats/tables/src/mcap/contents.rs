@@ -1,4 +1,4 @@
-//! What a file holds: by its summary where that is whole, else by walking over its records.
+//! Contents of a file: from its summary if that is complete, else from a walk over its records.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -11,24 +11,24 @@ use crate::limits;
 use crate::message::Schema;
 use crate::source::Source;
 
-/// What is wrong with a record that its length does not hold.
+/// Message for a truncated record.
 const CUT: &str = "a record is cut short";
 
-/// Schemas, channels and the places of messages.
+/// Schemas, channels and the locations of messages.
 #[derive(Debug, Default)]
 pub(super) struct Contents {
     pub(super) schemas: BTreeMap<u16, Schema>,
     pub(super) channels: BTreeMap<u16, Channel>,
     pub(super) chunks: Vec<ChunkIndex>,
-    /// Messages outside chunks: where their records begin, by channel.
+    /// Offsets of the records of messages outside chunks, by channel.
     pub(super) loose: BTreeMap<u16, Vec<u64>>,
-    /// How many messages each channel has.
+    /// Number of messages of each channel.
     pub(super) counts: BTreeMap<u16, u64>,
-    /// Bytes of all schemas and channels that were met.
+    /// Total size of the schemas and channels read, bytes.
     described: u64,
 }
 
-/// What the file at `source` holds; the sums of its summary and of its data are checked.
+/// Reads the contents of the file at `source`; checks the checksums of its summary and of its data.
 pub(super) fn read(source: &Source) -> Result<Contents, TableError> {
     let mut chunks = Chunks::new(source)?;
     let footer_at = check_ends(source)?;
@@ -54,7 +54,7 @@ pub(super) fn read(source: &Source) -> Result<Contents, TableError> {
     walk(source)
 }
 
-/// The marks at both ends; gives where the footer begins.
+/// Checks the marks at both ends; returns the offset of the footer.
 fn check_ends(source: &Source) -> Result<u64, TableError> {
     let mut file = source.open()?;
     let least = 2 * MAGIC.len() as u64 + FOOTER;
@@ -78,7 +78,7 @@ fn check_ends(source: &Source) -> Result<u64, TableError> {
     Ok(end - FOOTER)
 }
 
-/// The sum over all records before the one that ends the data, where it is stated.
+/// Checks the checksum over all data records, if it is stated.
 fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result<(), TableError> {
     let Some(at) = data_end.checked_sub(HEAD + 4) else {
         return Ok(());
@@ -112,14 +112,14 @@ fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result
     }
 }
 
-/// The contents by the summary; none if it leaves something out.
+/// The contents from the summary; `None` if it is incomplete.
 fn summary(
     source: &Source,
     begin: u64,
     footer_at: u64,
     crc: u32,
 ) -> Result<Option<Contents>, TableError> {
-    // The sum goes on into the footer, up to itself.
+    // The checksum covers the footer up to the checksum itself.
     let summed = footer_at - begin + HEAD + 16;
     let mut file = source.open()?;
     let all = source.bytes(&mut file, begin, summed, limits::DESCRIPTION_BYTES)?;
@@ -176,7 +176,7 @@ fn summary(
     Ok(is_whole.then_some(contents))
 }
 
-/// The contents by all records up to the end of the data; every chunk is unpacked once.
+/// The contents from all records up to the end of the data; every chunk is unpacked once.
 pub(super) fn walk(source: &Source) -> Result<Contents, TableError> {
     let mut chunks = Chunks::new(source)?;
     let end = source.length() - MAGIC.len() as u64;
@@ -235,7 +235,7 @@ pub(super) fn walk(source: &Source) -> Result<Contents, TableError> {
 }
 
 impl Contents {
-    /// Keeps a schema or a channel; records of other kinds are passed over.
+    /// Stores a schema or a channel; ignores other records.
     fn describe(&mut self, code: u8, fields: &[u8]) -> Result<(), &'static str> {
         if !matches!(code, code::SCHEMA | code::CHANNEL) {
             return Ok(());

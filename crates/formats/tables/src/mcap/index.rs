@@ -1,4 +1,4 @@
-//! Where the messages of a topic lie, in the order in which they were logged.
+//! Index of the messages of a topic, by log time.
 
 use std::collections::BTreeSet;
 
@@ -11,9 +11,9 @@ use crate::limits;
 use crate::message::Entry;
 use crate::source::Source;
 
-/// All messages of `channels`, by time and, at the same time, as they lie in the file.
+/// All messages of `channels`, by time; at equal times in the order of the file.
 ///
-/// Where the indices of the file do not hold as many as its statistics state, all records are looked at.
+/// If the indices of the file have fewer messages than its statistics state, all records are read.
 pub(super) fn index(
     source: &Source,
     contents: &Contents,
@@ -38,7 +38,7 @@ pub(super) fn index(
             return Err(source.damaged(Place::of("summary"), problem));
         }
     }
-    // No two lie at one place: the order is that of a stable sort, without its memory.
+    // Locations are unique, so the order is that of a stable sort, without its memory.
     entries
         .sort_unstable_by_key(|entry| (entry.log_time, entry.chunk.unwrap_or(entry.at), entry.at));
     Ok(entries)
@@ -105,7 +105,7 @@ fn gather(
     Ok(entries)
 }
 
-/// The messages in the chunk at `chunk`, which has no index.
+/// Indexes the messages of the chunk at `chunk`, which has no index.
 fn scan(
     source: &Source,
     chunks: &mut Chunks<'_>,

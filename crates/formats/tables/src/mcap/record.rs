@@ -1,4 +1,4 @@
-//! Records of MCAP: a code, a length and fields of little-endian numbers, texts and maps.
+//! MCAP records: a code, a length and fields of little-endian numbers, texts and maps.
 
 use std::collections::BTreeMap;
 
@@ -7,12 +7,12 @@ use crate::message::Schema;
 
 /// The first and the last eight bytes of a file.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
-/// Bytes before the fields of a record: its code and its length.
+/// Size of the code and the length of a record, bytes.
 pub(super) const HEAD: u64 = 9;
-/// A footer as a whole.
+/// Size of a footer, bytes.
 pub(super) const FOOTER: u64 = HEAD + 20;
 
-/// The codes of the records that are read.
+/// The codes of the supported records.
 pub(super) mod code {
     pub(in crate::mcap) const FOOTER: u8 = 0x02;
     pub(in crate::mcap) const SCHEMA: u8 = 0x03;
@@ -25,7 +25,7 @@ pub(super) mod code {
     pub(in crate::mcap) const DATA_END: u8 = 0x0f;
 }
 
-/// What messages of one topic by one writer share.
+/// Properties that messages of one topic by one writer share.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Channel {
     pub(super) schema: u16,
@@ -33,7 +33,7 @@ pub(super) struct Channel {
     pub(super) encoding: String,
 }
 
-/// What stands before the bytes of a message.
+/// Fields before the bytes of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct MessageHead {
     pub(super) channel: u16,
@@ -41,7 +41,7 @@ pub(super) struct MessageHead {
     pub(super) publish_time: u64,
 }
 
-/// What stands before the bytes of a chunk.
+/// Fields before the bytes of a chunk.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ChunkHead {
     pub(super) unpacked: u64,
@@ -50,7 +50,7 @@ pub(super) struct ChunkHead {
     pub(super) packed: u64,
 }
 
-/// Where a chunk lies, and where the indices of its messages do.
+/// Location of a chunk, and of the indices of its messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ChunkIndex {
     pub(super) at: u64,
@@ -59,13 +59,13 @@ pub(super) struct ChunkIndex {
 }
 
 impl ChunkIndex {
-    /// Where the chunk ends; none beyond all files.
+    /// Offset of the end of the chunk; `None` on overflow.
     pub(super) fn end(&self) -> Option<u64> {
         self.at.checked_add(self.length)
     }
 }
 
-/// How much there is.
+/// Counts of the contents.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Statistics {
     pub(super) messages: u64,
@@ -75,7 +75,7 @@ pub(super) struct Statistics {
     pub(super) of_channel: BTreeMap<u16, u64>,
 }
 
-/// The next record in bytes that hold whole ones: its code and its fields; none if they are cut short.
+/// The next record in `bytes`: its code and its fields; `None` if it is truncated.
 pub(super) fn next<'a>(bytes: &mut Bytes<'a>) -> Option<(u8, &'a [u8])> {
     let code = bytes.u8()?;
     let length = usize::try_from(bytes.u64()?).ok()?;
@@ -125,7 +125,7 @@ pub(super) fn message(fields: &[u8]) -> Option<(MessageHead, &[u8])> {
     Some((head, bytes.rest()))
 }
 
-/// The head of a chunk, and how many bytes it takes.
+/// The head of a chunk, and its size in bytes.
 pub(super) fn chunk(fields: &[u8]) -> Option<(ChunkHead, usize)> {
     let mut bytes = Bytes::new(fields);
     let _times = (bytes.u64()?, bytes.u64()?);
@@ -163,7 +163,7 @@ pub(super) fn statistics(fields: &[u8]) -> Option<Statistics> {
     })
 }
 
-/// The index of the messages of one channel in a chunk: the channel, and the time and the place of each.
+/// The message index of one channel in a chunk: the channel, and the time and the offset of each message.
 pub(super) fn message_index(fields: &[u8]) -> Option<(u16, Vec<(u64, u64)>)> {
     let mut bytes = Bytes::new(fields);
     let channel = bytes.u16()?;
@@ -176,7 +176,7 @@ pub(super) fn message_index(fields: &[u8]) -> Option<(u16, Vec<(u64, u64)>)> {
     Some((channel, places))
 }
 
-/// A footer: where the summary begins, 0 where there is none, and its sum, 0 where there is none.
+/// A footer: the offset of the summary and its checksum, each 0 if there is none.
 pub(super) fn footer(fields: &[u8]) -> Option<(u64, u32)> {
     let mut bytes = Bytes::new(fields);
     let summary = bytes.u64()?;

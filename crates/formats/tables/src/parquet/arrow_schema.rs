@@ -1,8 +1,8 @@
-//! What writers that use Arrow say of columns beside the schema of Parquet, which has no type for durations: the unit of their integers.
+//! Units of durations from the Arrow schema: Parquet has no type for durations and stores integers.
 //!
 //! The text under `ARROW:schema` is the base64 of an Arrow IPC message, whose schema is a FlatBuffers table
-//! (<https://arrow.apache.org/docs/format/Columnar.html#encapsulated-message-format>). Only names, types, children and units of durations are
-//! read; of a schema that contradicts itself, or is not that of the columns, nothing is taken.
+//! (<https://arrow.apache.org/docs/format/Columnar.html#encapsulated-message-format>). Only names, types, children and units of durations
+//! are read. An inconsistent schema, or one of other columns, is ignored.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -11,14 +11,14 @@ use super::kind::ColumnKind;
 use super::schema::{LeafForm, Node, NodeKind};
 use crate::flatbuffer::Table;
 
-/// The type of a field that is a duration.
+/// The type code of a duration.
 const DURATION: u8 = 18;
-/// The header of a message that is a schema.
+/// The header type of a schema message.
 const SCHEMA: u8 = 1;
-/// The longest schema that is read, as text, bytes.
+/// Maximum length of a schema that is read, as text, bytes.
 const LONGEST: usize = 1 << 20;
 
-/// Gives those of `columns` that `text` calls durations their unit.
+/// Gives those of `columns` that are durations in `text` their unit.
 pub(super) fn apply(text: &str, columns: &mut [Node]) {
     let Some(bytes) = (text.len() <= LONGEST)
         .then(|| BASE64_STANDARD.decode(text).ok())
@@ -69,13 +69,13 @@ fn name_units(field: Table<'_>, node: &mut Node) {
     }
 }
 
-/// The unit of a field that is a duration; where none is written it is the one that the format names for that.
+/// The unit of a duration field; the default is that of the format.
 fn duration(field: Table<'_>) -> Option<&'static str> {
     let unit = field.table(3)?.short(0).unwrap_or(1);
     ["s", "ms", "us", "ns"].get(usize::from(unit)).copied()
 }
 
-/// The table of a message: behind its length, which newer writers mark.
+/// The table of a message after its length; newer writers put a marker before the length.
 fn message(bytes: &[u8]) -> Option<Table<'_>> {
     let begin = if bytes.get(..4)? == [0xff; 4] { 8 } else { 4 };
     Table::root(bytes.get(begin..)?)
@@ -98,7 +98,7 @@ mod tests {
         vec![leaf("d"), leaf("n")]
     }
 
-    /// As pyarrow 26 writes it of `d: duration[us]` and `n: int64`.
+    /// As pyarrow 26 writes it for `d: duration[us]` and `n: int64`.
     const WRITTEN: &str = include_str!("arrow_schema.base64");
 
     #[test]
@@ -107,7 +107,7 @@ mod tests {
         apply(WRITTEN.trim(), &mut found);
         let kinds: Vec<ColumnKind> = found.iter().map(ColumnKind::of).collect();
         assert_eq!(kinds, [ColumnKind::Time("us"), ColumnKind::Integer]);
-        // A schema of other columns says nothing of these.
+        // A schema of other columns does not apply to these.
         let mut other = columns();
         other[0].name = "e".to_owned();
         apply(WRITTEN.trim(), &mut other);

@@ -1,4 +1,4 @@
-//! Rows out of leaves: the levels of each entry say where a list begins, goes on, is empty or is absent.
+//! Assembly of rows from leaves: the levels of each entry tell whether a list begins, continues, is empty or is null.
 
 use parquet::file::metadata::RowGroupMetaData;
 
@@ -8,7 +8,7 @@ use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::source::Source;
 
-/// A column in one group of rows: its tree, with a reader at each leaf.
+/// A column in one row group: its tree, with a reader at each leaf.
 pub(super) struct Assembly {
     root: Part,
 }
@@ -40,7 +40,7 @@ impl Assembly {
         })
     }
 
-    /// Hands the next `rows` rows to `each`.
+    /// Calls `each` with each of the next `rows` rows.
     pub(super) fn read(
         &mut self,
         source: &Source,
@@ -50,7 +50,7 @@ impl Assembly {
         self.root.for_each_leaf(&mut |leaf| leaf.read(rows))?;
         for _ in 0..rows {
             each(self.root.row()?)?;
-            // A row that ends in the middle of a list would shift all that follow.
+            // A row that ends inside a list would shift all later ones.
             if self
                 .root
                 .first()
@@ -63,7 +63,6 @@ impl Assembly {
         Ok(())
     }
 
-    /// Passes over `rows` rows.
     pub(super) fn skip(&mut self, rows: usize) -> Result<(), TableError> {
         self.root.for_each_leaf(&mut |leaf| leaf.skip(rows))
     }
@@ -110,7 +109,7 @@ impl Part {
         }
     }
 
-    /// The leaf whose levels speak for this part: all leaves below it agree down to its own level.
+    /// The leaf that gives the levels of this part: all leaves below it agree down to its own level.
     fn first(&self) -> &Leaf {
         match &self.kind {
             PartKind::Leaf(leaf) => leaf,
@@ -121,7 +120,7 @@ impl Part {
         }
     }
 
-    /// What stands in the next row, or in the next element of the list around this part.
+    /// The next row, or the next element of the enclosing list.
     fn row(&mut self) -> Result<Cell, TableError> {
         let next = self.first().peek();
         let definition = next.map_or(0, |(definition, _)| definition);
@@ -159,7 +158,7 @@ impl Part {
         }
     }
 
-    /// Takes the one entry by which every leaf says that there is nothing.
+    /// Consumes the entry of each leaf that marks a null.
     fn drop_entry(&mut self) -> Result<(), TableError> {
         self.for_each_leaf(&mut |leaf| leaf.take().map(drop))
     }

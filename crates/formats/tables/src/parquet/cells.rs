@@ -1,4 +1,4 @@
-//! Cells of bytes in one group of rows: streamed out of plain pages, else out of pages that are decoded.
+//! Cells of bytes in one row group: streamed from plain pages, else from decoded pages.
 
 use parquet::file::metadata::RowGroupMetaData;
 
@@ -9,7 +9,7 @@ use crate::cell::Cell;
 use crate::error::TableError;
 use crate::source::Source;
 
-/// Cells of bytes in one group of rows, one after another.
+/// Cells of bytes in one row group, in sequence.
 pub(super) enum Cells {
     Stream(Box<Stream>),
     Assembly(Assembly),

@@ -1,4 +1,4 @@
-//! Columns by name: which part of the schema a name leads to, and which part of its cells.
+//! Columns by name: the part of the schema that a name selects, and the part of its cells.
 
 use super::kind::ColumnKind;
 use super::schema::{LeafForm, Node, NodeKind};
@@ -7,7 +7,7 @@ use crate::error::TableError;
 use crate::path::{indices, longest};
 use crate::source::Source;
 
-/// A column and the place in its cells that was asked for.
+/// A column and the requested path in its cells.
 pub(crate) struct Found {
     column: Node,
     name: String,
@@ -15,7 +15,7 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// The column that `name` begins with, without the members of structures that it does not lead to.
+    /// The column at the start of `name`, restricted to the members of structures that `name` selects.
     pub(crate) fn new(source: &Source, columns: &[Node], name: &str) -> Result<Found, TableError> {
         let top = longest(name, columns.iter().map(|node| node.name.as_str()));
         let found = top.and_then(|(at, rest)| Some((narrow(&columns[at], rest)?, rest)));
@@ -33,7 +33,7 @@ impl Found {
         &self.column
     }
 
-    /// What the part of the cells that was asked for is.
+    /// The kind of the requested part of the cells.
     pub(crate) fn kind(&self) -> Option<ColumnKind> {
         inside(&self.column, &self.rest).map(ColumnKind::of)
     }
@@ -42,12 +42,12 @@ impl Found {
         &self.name
     }
 
-    /// The leaf that was asked for, if its cells are bytes as they are and no list is on the way.
+    /// The requested leaf, if its cells are plain bytes and the path has no list.
     pub(crate) fn leaf_of_bytes(&self) -> Option<usize> {
         leaf_of_bytes(&self.column, &self.rest)
     }
 
-    /// The part of `cell` that was asked for; null where a structure or a list on the way is.
+    /// The requested part of `cell`; null if a structure or a list on the way is null.
     pub(crate) fn inside(
         &self,
         source: &Source,
@@ -66,7 +66,7 @@ impl Found {
     }
 }
 
-/// The leaf that `rest` leads to inside `node`, through structures alone, if its cells are bytes as they are.
+/// The leaf at `rest` inside `node`, through structures only, if its cells are plain bytes.
 fn leaf_of_bytes(node: &Node, rest: &str) -> Option<usize> {
     match &node.kind {
         NodeKind::Leaf {
@@ -83,7 +83,7 @@ fn leaf_of_bytes(node: &Node, rest: &str) -> Option<usize> {
     }
 }
 
-/// The part of `node` that `rest` leads to.
+/// The part of `node` at `rest`.
 fn inside<'n>(node: &'n Node, rest: &str) -> Option<&'n Node> {
     let mut node = node;
     let mut rest = rest;
@@ -110,7 +110,7 @@ fn inside<'n>(node: &'n Node, rest: &str) -> Option<&'n Node> {
     Some(node)
 }
 
-/// `node` with no more of its members than `rest` leads to; none where it leads nowhere.
+/// `node` restricted to the members that `rest` selects; `None` if it selects none.
 fn narrow(node: &Node, rest: &str) -> Option<Node> {
     if rest.is_empty() {
         return Some(node.clone());
@@ -154,7 +154,7 @@ fn narrow(node: &Node, rest: &str) -> Option<Node> {
     })
 }
 
-/// The names of all columns; of a structure those of its members.
+/// The names of all columns; a structure is replaced by its members.
 pub(crate) fn names(columns: &[Node]) -> Vec<String> {
     let mut names = Vec::new();
     for node in columns {

@@ -1,4 +1,4 @@
-//! What the columns of a written file hold, and their cells as values and levels.
+//! Columns of a written file, and the conversion of their cells to values and levels.
 
 use std::fmt;
 use std::io::Write;
@@ -13,7 +13,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cell::Cell;
 
-/// A column of a file that is written. Any of its cells may be null.
+/// A column of a written file. All its cells may be null.
 ///
 /// ```
 /// use taceva_tables::{WrittenColumn, WrittenKind};
@@ -23,13 +23,13 @@ use crate::cell::Cell;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct WrittenColumn {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What its cells are.
+    /// Kind of the cells.
     pub kind: WrittenKind,
 }
 
-/// What the cells of a written column are, where they are not null.
+/// Kind of the non-null cells of a written column.
 ///
 /// ```
 /// use taceva_tables::{Cell, WrittenKind};
@@ -39,7 +39,7 @@ pub struct WrittenColumn {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WrittenKind {
-    /// Integers of 64 bits with a sign.
+    /// Signed integers of 64 bits.
     Integer,
     /// Numbers of double precision.
     Number,
@@ -47,13 +47,13 @@ pub enum WrittenKind {
     Single,
     /// Texts.
     Text,
-    /// Lists of numbers of double precision: as many in each row, if it is said how many.
+    /// Lists of numbers of double precision, of the given length if it is `Some`.
     Numbers(Option<usize>),
-    /// Lists of numbers of single precision, likewise.
+    /// Lists of numbers of single precision, of the given length if it is `Some`.
     Singles(Option<usize>),
     /// Lists of texts.
     Texts,
-    /// Pictures as the library `datasets` writes them: structures of `bytes`, those of a PNG or JPEG file, and `path`, its name.
+    /// Pictures as the library `datasets` writes them: structures of `bytes`, a PNG or JPEG file, and `path`, its name.
     Picture,
 }
 
@@ -112,7 +112,7 @@ fn list(name: &str, element: TypePtr) -> Result<Type, ParquetError> {
         .build()
 }
 
-/// What the columns are, as the library `datasets` of Hugging Face reads it under the key `huggingface`.
+/// Description of the columns for the library `datasets` of Hugging Face, under the key `huggingface`.
 ///
 /// ```
 /// use taceva_tables::{WrittenColumn, WrittenKind, huggingface_features};
@@ -143,7 +143,7 @@ pub fn huggingface_features(columns: &[WrittenColumn]) -> String {
 }
 
 impl WrittenKind {
-    /// Whether `cell` may stand in such a column; null may in every one.
+    /// True if `cell` may be in such a column; null always may.
     pub fn takes(&self, cell: &Cell) -> bool {
         let is_number = |cell: &Cell| matches!(cell, Cell::Number(_) | Cell::Null);
         let is_text = |cell: &Cell| matches!(cell, Cell::Text(_) | Cell::Null);
@@ -202,7 +202,7 @@ pub(super) fn write_column<W: Write + Send>(
                     Cell::Struct(members) => members.get(member).and_then(|(_, cell)| bytes(cell)),
                     _ => None,
                 };
-                // A value that is there is below two optional levels.
+                // A non-null value is below two optional levels.
                 let levels = cells
                     .iter()
                     .map(|cell| 2 * i16::from(inside(cell).is_some()));
@@ -214,7 +214,7 @@ pub(super) fn write_column<W: Write + Send>(
     }
 }
 
-/// A value a row.
+/// Writes one value for each row.
 fn write_leaf<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &[Cell],
@@ -225,7 +225,8 @@ fn write_leaf<T: DataType, W: Write + Send>(
     write::<T, W>(group, values, levels.collect(), None)
 }
 
-/// A list a row: definition 0 is no list, 1 an empty one, 2 a place without a value, 3 a value; repetition 1 is all but the first of a list.
+/// Writes one list for each row. Definition level 0 is no list, 1 an empty list, 2 a null element, 3 a value. Repetition level 1 marks all
+/// elements but the first.
 fn write_lists<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &[Cell],

@@ -1,10 +1,10 @@
-//! What a column holds, by its schema.
+//! Kind of a column, from its schema.
 
 use parquet::basic::Type as Physical;
 
 use super::schema::{LeafForm, Node, NodeKind};
 
-/// What the cells of a column are, where they are not null.
+/// Kind of the non-null cells of a column.
 ///
 /// ```
 /// use taceva_tables::{ColumnKind, ParquetTable};
@@ -28,10 +28,10 @@ pub enum ColumnKind {
     Text,
     /// Bytes, such as encoded pictures.
     Bytes,
-    /// Times that the file counts in a unit, `d`, `s`, `ms`, `us` or `ns`: points in time since 1970-01-01 00:00 (of UTC, where they have a time
-    /// zone; else of the clock that was read), times of day since midnight, and durations. Their cells are [`Cell::Time`](crate::Cell::Time).
+    /// Times in the unit `d`, `s`, `ms`, `us` or `ns`: points in time since 1970-01-01 00:00 (UTC with a time zone, else local time), times
+    /// of day since midnight, and durations. Their cells are [`Cell::Time`](crate::Cell::Time).
     Time(&'static str),
-    /// Lists of cells of a kind.
+    /// Lists of cells of this kind.
     List(Box<ColumnKind>),
     /// Structures.
     Struct,

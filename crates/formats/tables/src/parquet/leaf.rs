@@ -1,4 +1,4 @@
-//! One leaf of a column: its values and the levels that say which row and which list each belongs to.
+//! One leaf of a column: its values, and the levels that assign them to rows and lists.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,7 +15,7 @@ use crate::error::{Place, TableError};
 use crate::scalar::{decimal, half, nanoseconds_in};
 use crate::source::Source;
 
-/// A leaf in one group of rows, read some rows at a time.
+/// A leaf in one row group, read in batches of rows.
 pub(super) struct Leaf {
     source: Source,
     name: String,
@@ -27,7 +27,7 @@ pub(super) struct Leaf {
     values: Values,
     definitions: Vec<i16>,
     repetitions: Vec<i16>,
-    /// The next level, and the next value that is not null.
+    /// Indices of the next level, and of the next non-null value.
     at: usize,
     next_value: usize,
 }
@@ -44,7 +44,7 @@ enum Values {
 }
 
 impl Leaf {
-    /// The leaf at place `column` of `group`.
+    /// The leaf at index `column` of `group`.
     pub(super) fn new(
         source: &Source,
         group: &RowGroupMetaData,
@@ -91,7 +91,7 @@ impl Leaf {
         })
     }
 
-    /// Reads the next `rows` rows; all of the rows before must have been taken.
+    /// Reads the next `rows` rows; all earlier rows must have been taken.
     pub(super) fn read(&mut self, rows: usize) -> Result<(), TableError> {
         self.handed.store(0, Ordering::Relaxed);
         (self.at, self.next_value) = (0, 0);
@@ -146,7 +146,6 @@ impl Leaf {
         }
     }
 
-    /// Passes over `rows` rows.
     pub(super) fn skip(&mut self, rows: usize) -> Result<(), TableError> {
         self.handed.store(0, Ordering::Relaxed);
         let skipped = match &mut self.reader {
@@ -165,7 +164,7 @@ impl Leaf {
         }
     }
 
-    /// The levels of the next entry: definition and repetition; none at the end of what was read.
+    /// The levels of the next entry: definition and repetition; `None` at the end of the rows read.
     pub(super) fn peek(&self) -> Option<(i16, i16)> {
         let definition = *self.definitions.get(self.at)?;
         let repetition = match self.has_repetition {
@@ -252,7 +251,7 @@ impl Leaf {
         })
     }
 
-    /// An error of the decoder, or ours that came through it.
+    /// Converts an error of the decoder, or unwraps one of ours.
     fn outer(&self, error: ParquetError) -> TableError {
         match error {
             ParquetError::External(inner) => match inner.downcast::<TableError>() {
@@ -268,7 +267,7 @@ impl Leaf {
     }
 }
 
-/// A time stamp of 12 bytes: nanoseconds of the day and the Julian day, in nanoseconds since 1970.
+/// Converts a 12-byte time stamp, nanoseconds of the day and Julian day, to nanoseconds since 1970.
 fn nanoseconds(value: &Int96) -> i128 {
     let [low, high, day] = [value.data()[0], value.data()[1], value.data()[2]];
     let of_day = (i128::from(high) << 32) | i128::from(low);

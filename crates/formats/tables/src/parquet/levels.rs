@@ -1,6 +1,6 @@
-//! Levels in the encoding of Parquet that mixes runs of one value with values packed into bits.
+//! Decoder of levels in the hybrid encoding of Parquet: runs of one value, and bit-packed values.
 
-/// Levels one after another.
+/// Iterator over levels.
 #[derive(Debug)]
 pub(super) struct Levels {
     bytes: Vec<u8>,
@@ -11,9 +11,9 @@ pub(super) struct Levels {
 
 #[derive(Clone, Copy, Debug)]
 enum Run {
-    /// So many of one value are left.
+    /// Number of repetitions left of one value.
     Same { left: u64, value: u32 },
-    /// So many packed values are left, the next at this bit.
+    /// Number of packed values left, and the bit offset of the next.
     Packed { left: u64, bit: u64 },
 }
 
@@ -30,7 +30,7 @@ impl Levels {
         }
     }
 
-    /// The next level; none at the end of the bytes.
+    /// The next level; `None` at the end of the bytes.
     pub(super) fn next(&mut self) -> Option<u32> {
         loop {
             match &mut self.run {
@@ -116,7 +116,7 @@ mod tests {
             [2, 2, 2, 0, 1, 2, 3, 0, 1, 2, 3]
         );
         assert_eq!(all(&[3, 0b0101_0011], 1, 99), [1, 1, 0, 0, 1, 0, 1, 0]);
-        // The last group may be cut where its values are not needed.
+        // The last group may be truncated where its values are not needed.
         assert_eq!(all(&[5, 0xff], 1, 99), [1; 8]);
         assert!(
             all(

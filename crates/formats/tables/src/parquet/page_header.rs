@@ -1,27 +1,26 @@
-//! The header of a page: a structure in the compact protocol of Thrift, of which the fields that a reader needs are kept.
+//! Header of a page: a structure in the compact protocol of Thrift; only the fields that a reader needs are kept.
 //!
-//! The numbers of fields and kinds are those of `parquet.thrift`, version 2.12. Bytes of statistics, which may be two whole pictures,
-//! are passed over without being read.
+//! Field and type numbers are those of `parquet.thrift`, version 2.12. Statistics, which may contain two whole pictures, are skipped.
 
 use std::io::{BufRead, Read};
 
 use crate::limits;
 
-/// What a page says of itself before its bytes.
+/// Fields of a page header.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct PageHeader {
     pub(super) kind: PageKind,
-    /// Bytes of the page in the file, and unpacked.
+    /// Size of the page in the file, and unpacked, bytes.
     pub(super) packed: u32,
     pub(super) unpacked: u32,
     /// CRC-32 of the bytes in the file.
     pub(super) crc: Option<u32>,
     pub(super) values: u32,
     pub(super) encoding: i32,
-    /// Of version 1: how levels are encoded.
+    /// Version 1: encodings of the levels.
     pub(super) definition_encoding: i32,
     pub(super) repetition_encoding: i32,
-    /// Of version 2: levels are not compressed, and their sizes are known.
+    /// Version 2: number of nulls; levels are uncompressed, with known sizes.
     pub(super) nulls: u32,
     pub(super) rows: u32,
     pub(super) definition_bytes: u32,
@@ -38,7 +37,7 @@ pub(super) enum PageKind {
     DataV2,
 }
 
-/// Reads a header from `from` and counts its bytes; [`Err`] says what is wrong with it.
+/// Reads a header and counts its bytes; the error is a message.
 pub(super) fn read_header(from: &mut impl BufRead) -> Result<(PageHeader, u64), String> {
     let mut thrift = Thrift { from, read: 0 };
     let mut header = PageHeader {
@@ -102,7 +101,7 @@ pub(super) fn read_header(from: &mut impl BufRead) -> Result<(PageHeader, u64), 
     Ok((header, thrift.read))
 }
 
-/// How a field is written.
+/// Wire type of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     True,
@@ -118,7 +117,7 @@ enum Form {
     Struct,
 }
 
-/// The number of the last field of a structure, to which the next adds.
+/// The number of the last field of a structure; the next one is relative to it.
 #[derive(Default)]
 struct Fields {
     last: i32,
@@ -131,7 +130,7 @@ struct Thrift<'a, R> {
 }
 
 impl<R: BufRead> Thrift<'_, R> {
-    /// The next field of a structure, or none at its end.
+    /// The next field of a structure; `None` at its end.
     fn field(&mut self, fields: &mut Fields) -> Result<Option<(i32, Form)>, String> {
         let byte = self.byte()?;
         if byte == 0 {
@@ -195,7 +194,7 @@ impl<R: BufRead> Thrift<'_, R> {
         }
     }
 
-    /// Elements of a list: truth values take a byte there. Each takes a byte at least, so that the end of the file ends the loop.
+    /// Skips elements of a list. Each takes at least a byte, including truth values, so that the end of the file ends the loop.
     fn skip_elements(&mut self, form: Form, count: u64, depth: usize) -> Result<(), String> {
         for _ in 0..count {
             match form {
@@ -219,7 +218,7 @@ impl<R: BufRead> Thrift<'_, R> {
         i32::try_from(number).map_err(|_| format!("{number} in a page header, which takes 32 bits"))
     }
 
-    /// A number with its sign in the lowest bit.
+    /// A zigzag number, with its sign in the lowest bit.
     fn int(&mut self) -> Result<i64, String> {
         let bits = self.varint()?;
         Ok((bits >> 1).cast_signed() ^ -((bits & 1).cast_signed()))

@@ -1,7 +1,6 @@
-//! Pages of a column chunk, checked and unpacked here, and decoded by the `parquet` crate.
+//! Pages of a column chunk, checked and unpacked here, decoded by the `parquet` crate.
 //!
-//! Reading pages ourselves is what lets them be unpacked without C, their sums be checked and their sizes be held against the file
-//! before anything is allocated.
+//! Our own page reader unpacks without C, verifies checksums, and compares sizes with the file before it allocates.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
@@ -26,22 +25,22 @@ pub(super) struct Pages {
     source: Source,
     name: String,
     file: BufReader<File>,
-    /// Where the next header begins, and where the chunk ends.
+    /// Offsets of the next header, and of the end of the chunk.
     at: u64,
     end: u64,
     codec: Codec,
     values: ValueSize,
     has_nulls: bool,
     has_lists: bool,
-    /// A header that was looked at, and where its page begins.
+    /// A header that was peeked at, and the offset of its page.
     peeked: Option<(PageHeader, u64)>,
-    /// Values of all pages handed over since whoever shares this set it to zero.
+    /// Number of values of all pages returned since the shared counter was reset.
     handed: Arc<AtomicU64>,
     is_dictionary_read: bool,
 }
 
 impl Pages {
-    /// The pages of `chunk`, which belongs to the column called `name`.
+    /// The pages of `chunk` of the column called `name`.
     pub(super) fn new(
         source: &Source,
         name: &str,
@@ -74,7 +73,7 @@ impl Pages {
         ]
         .into_iter()
         .flatten()
-        // Some writers give 0 for a dictionary that is not there.
+        // Some writers give 0 if there is no dictionary.
         .filter(|offset| *offset > 0)
         .min();
         let at = first.and_then(|offset| u64::try_from(offset).ok());
@@ -108,7 +107,7 @@ impl Pages {
         })
     }
 
-    /// The next header and where its page begins; the cursor of the file stands there.
+    /// The next header and the offset of its page; the cursor of the file is there.
     fn header(&mut self) -> Result<Option<&(PageHeader, u64)>, TableError> {
         if self.peeked.is_some() || self.at >= self.end {
             return Ok(self.peeked.as_ref());
@@ -135,14 +134,14 @@ impl Pages {
         Ok(self.peeked.as_ref())
     }
 
-    /// Passes over the page whose header was looked at.
+    /// Skips the page whose header was peeked at.
     fn pass(&mut self) {
         if let Some((header, begin)) = self.peeked.take() {
             self.at = begin + u64::from(header.packed);
         }
     }
 
-    /// The next header, of whatever kind, and where its page begins; the page is passed over.
+    /// The next header, of any kind, and the offset of its page; skips the page.
     pub(super) fn next_header(&mut self) -> Result<Option<(PageHeader, u64)>, TableError> {
         let found = self.header()?.cloned();
         self.pass();
@@ -153,7 +152,7 @@ impl Pages {
         self.codec
     }
 
-    /// Checks the sum of the page that `file` stands before, which begins at `begin`.
+    /// Verifies the checksum of the page at the cursor of `file`, which begins at `begin`.
     pub(super) fn check_sum(
         &self,
         header: &PageHeader,
@@ -227,7 +226,7 @@ impl Pages {
             .map_err(|problem| self.damaged(begin, problem))
     }
 
-    /// The bytes of a page unpacked: of version 2 levels come before what is packed.
+    /// Unpacks a page; in version 2 uncompressed levels come first.
     fn unpacked(&self, header: &PageHeader, packed: Vec<u8>) -> Result<Vec<u8>, String> {
         let size = header.unpacked as usize;
         if header.kind != PageKind::DataV2 {
@@ -257,7 +256,7 @@ impl Pages {
         Ok(whole)
     }
 
-    /// Blocks of the older LZ4 are framed as Hadoop does, or, by some writers, not at all.
+    /// Unpacks bytes; blocks of the older LZ4 codec have Hadoop frames, or none from some writers.
     fn unpack(&self, codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
         match (codec, unpack(codec, packed, size)) {
             (Codec::Lz4Hadoop, Err(problem)) => unpack(Codec::Lz4Frame, packed, size)
@@ -267,7 +266,7 @@ impl Pages {
         }
     }
 
-    /// A page whose numbers fit its bytes.
+    /// Builds a page after a check that its counts fit its bytes.
     fn checked(&mut self, header: &PageHeader, bytes: Vec<u8>) -> Result<Page, String> {
         let encoding = encoding(header.encoding)?;
         let buf = Bytes::from(bytes);
@@ -331,7 +330,7 @@ impl Pages {
     }
 }
 
-/// An error of ours, through the crate that asked for a page.
+/// Wraps an error of ours for the crate that requested a page.
 fn outer(error: TableError) -> ParquetError {
     ParquetError::External(Box::new(error))
 }

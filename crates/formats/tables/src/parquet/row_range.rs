@@ -1,4 +1,4 @@
-//! Some rows of a column, without the others in memory.
+//! Row ranges of a column, without the other rows in memory.
 
 use std::ops::Range;
 
@@ -9,8 +9,8 @@ use crate::cell::Cell;
 use crate::error::TableError;
 
 impl ParquetTable {
-    /// Hands what stands in `rows` of the column called `name` to `each`, row by row. Groups of rows before and after are not read, and pages
-    /// before the first row are passed over; a few hundred cells are in memory at a time.
+    /// Calls `each` with each cell of `rows` in the column called `name`. Row groups outside are not read, and pages before the first row
+    /// are skipped. Memory holds a few hundred cells at a time.
     ///
     /// ```
     /// use taceva_tables::{Cell, ParquetTable};
@@ -26,7 +26,7 @@ impl ParquetTable {
     /// ```
     ///
     /// # Errors
-    /// As [`column`](Self::column); [`TableError::Mismatch`] too for rows that are not there; whatever `each` returns.
+    /// As [`column`](Self::column); also [`TableError::Mismatch`] for rows that do not exist; and the errors of `each`.
     pub fn visit_rows(
         &self,
         name: &str,
@@ -63,7 +63,7 @@ impl ParquetTable {
     }
 }
 
-/// A number of rows, of which there are fewer than `usize` counts.
+/// Converts a number of rows that fits `usize`.
 fn small(rows: u64) -> usize {
     usize::try_from(rows).unwrap_or(usize::MAX)
 }

@@ -1,4 +1,4 @@
-//! The schema of a Parquet file as a tree of columns: structures, lists and leaves, with the levels that tell them apart.
+//! Schema of a Parquet file as a tree of columns: structures, lists and leaves, with their levels.
 
 use parquet::basic::{ConvertedType, LogicalType, Repetition, TimeUnit};
 use parquet::schema::types::{SchemaDescriptor, Type};
@@ -10,7 +10,7 @@ use crate::limits;
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) name: String,
-    /// The definition level from which this is not null.
+    /// Definition level from which this is not null.
     pub(crate) definition: i16,
     pub(crate) kind: NodeKind,
 }
@@ -24,30 +24,30 @@ pub(crate) enum NodeKind {
     },
     Struct(Vec<Node>),
     List {
-        /// The definition level from which there is an element, and the repetition level of all but the first.
+        /// Definition level from which there is an element, and repetition level of all elements but the first.
         definition: i16,
         repetition: i16,
         element: Box<Node>,
     },
 }
 
-/// What the bits of a leaf mean.
+/// Logical type of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LeafForm {
-    /// What the physical type says.
+    /// As the physical type.
     Plain,
     Text,
     Unsigned,
-    /// An integer over a power of ten.
+    /// An integer divided by a power of ten.
     Decimal {
         scale: i32,
     },
     Half,
-    /// A time or a date as an integer, of this unit.
+    /// A time or a date as an integer, in this unit.
     Time(&'static str),
 }
 
-/// The top-level columns of a schema; `Err` says what is not understood.
+/// The top-level columns of a schema; the error names the unsupported part.
 pub(crate) fn columns(schema: &SchemaDescriptor) -> Result<Vec<Node>, String> {
     let mut leaves = 0;
     let nodes = schema
@@ -85,7 +85,7 @@ fn node(field: &Type, above: Levels, leaves: &mut usize, depth: usize) -> Result
         false => Repetition::REQUIRED,
     };
     if repetition == Repetition::REPEATED {
-        // A field that is repeated by itself is a list that is never null.
+        // A repeated field without a list annotation is a list that is never null.
         let levels = deeper(above, true)?;
         let element = content(field, levels, leaves, depth)?;
         return Ok(Node {
@@ -108,7 +108,7 @@ fn node(field: &Type, above: Levels, leaves: &mut usize, depth: usize) -> Result
     content(field, levels, leaves, depth)
 }
 
-/// The levels below a repeated field.
+/// The levels below an optional or a repeated field.
 fn deeper(above: Levels, is_repeated: bool) -> Result<Levels, String> {
     let step = i16::from(is_repeated);
     let more = |level: i16| level.checked_add(step).ok_or("a schema of too many levels");
@@ -167,8 +167,8 @@ fn content(field: &Type, levels: Levels, leaves: &mut usize, depth: usize) -> Re
     }
 }
 
-/// The element of a list whose repeated group is `repeated`: the one field in it, or the group itself where it has several, or the
-/// name of one that older writers repeat themselves.
+/// The element of a list whose repeated group is `repeated`: its only field, or the group itself if it has several fields or a name that
+/// older writers repeat.
 fn element(
     list: &Type,
     repeated: &Type,

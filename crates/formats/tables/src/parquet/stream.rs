@@ -1,7 +1,7 @@
-//! Cells of bytes one at a time out of pages that hold them one behind the other.
+//! Cells of bytes read one at a time from plain pages.
 //!
-//! Some writers put a thousand pictures into one page. Where pages are not encoded otherwise, cells are read out of the file, or out of
-//! what unpacks it, without the page as a whole in memory; blocks of snappy and LZ4 alone are unpacked as a whole.
+//! Some writers put a thousand pictures into one page. Cells of plain pages are read directly from the file, or from a streaming decoder,
+//! without the whole page in memory. Only blocks of snappy and LZ4 are unpacked as a whole.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -18,7 +18,7 @@ use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
 
-/// The encodings that are read here, by the numbers of the format.
+/// The supported encodings, by their number in the format.
 const PLAIN: i32 = 0;
 const RLE: i32 = 3;
 
@@ -31,24 +31,24 @@ pub(super) struct Stream {
     page: Option<Open>,
 }
 
-/// A page that is read.
+/// The current page.
 struct Open {
     at: u64,
     body: Body,
     levels: Option<Levels>,
-    /// Entries and bytes that are left.
+    /// Number of entries and bytes left.
     entries: u64,
     bytes: u64,
 }
 
 enum Body {
-    /// As it lies in the file, so that cells can be passed over without being read.
+    /// Directly in the file, so that cells can be skipped by seeking.
     File(BufReader<File>),
     Unpacked(Box<dyn Read>),
 }
 
 impl Stream {
-    /// The cells of `chunk`; none if its pages are of another kind.
+    /// The cells of `chunk`; `None` if its pages are of another kind.
     pub(super) fn new(
         source: &Source,
         chunk: &ColumnChunkMetaData,
@@ -82,7 +82,7 @@ impl Stream {
         }))
     }
 
-    /// Passes over `rows` rows: of pages as a whole nothing is read but their headers.
+    /// Skips `rows` rows; of whole pages only the headers are read.
     pub(super) fn skip(&mut self, rows: u64) -> Result<(), TableError> {
         let mut left = rows;
         while left > 0 {
@@ -104,7 +104,7 @@ impl Stream {
         Ok(())
     }
 
-    /// The cell of the next row; none if it is null.
+    /// The cell of the next row; `None` if it is null.
     pub(super) fn next(&mut self) -> Result<Option<Vec<u8>>, TableError> {
         while self.page.as_ref().is_none_or(|page| page.entries == 0) {
             let (header, begin) = self.next_data()?;
@@ -146,7 +146,7 @@ impl Stream {
         })
     }
 
-    /// The page whose bytes `file` stands before. Levels of version 2 are not packed; those of version 1 are, after their length.
+    /// Opens the page at the cursor of `file`. Levels of version 2 are not packed; those of version 1 are, after their length.
     fn opened(
         &self,
         header: &PageHeader,
@@ -191,7 +191,7 @@ impl Stream {
     }
 }
 
-/// What reads the values of a page.
+/// A reader of the values of a page.
 fn body(codec: Codec, file: BufReader<File>, packed: u32, unpacked: u32) -> Result<Body, String> {
     if codec == Codec::Plain {
         return match packed == unpacked {
@@ -209,7 +209,7 @@ fn body(codec: Codec, file: BufReader<File>, packed: u32, unpacked: u32) -> Resu
 }
 
 impl Open {
-    /// The next cell; none if it is null.
+    /// The next cell; `None` if it is null.
     fn take(&mut self, highest: i16) -> Result<Option<Vec<u8>>, String> {
         match self.is_null(highest)? {
             true => Ok(None),
@@ -220,7 +220,7 @@ impl Open {
         }
     }
 
-    /// Reads what follows the last cell, where a codec has its sum.
+    /// Reads to the end after the last cell, where a codec has its checksum.
     fn finish(&mut self) -> Result<(), String> {
         match &mut self.body {
             Body::Unpacked(reader) if self.bytes == 0 => reader
@@ -231,7 +231,7 @@ impl Open {
         }
     }
 
-    /// Passes over the next cell.
+    /// Skips the next cell.
     fn pass(&mut self, highest: i16) -> Result<(), String> {
         if self.is_null(highest)? {
             return Ok(());
@@ -279,7 +279,7 @@ impl Open {
         }
     }
 
-    /// Takes `length` bytes from those that are left.
+    /// Subtracts `length` from the bytes left.
     fn announce(&mut self, length: u32) -> Result<(), String> {
         let left = self.bytes.checked_sub(length.into());
         self.bytes = left.ok_or_else(|| {
@@ -298,7 +298,7 @@ impl Open {
     }
 }
 
-/// So many bytes; memory grows with what is there, not with what is announced.
+/// Reads `length` bytes; memory grows with the bytes present, not with the announced length.
 fn read_exactly(reader: &mut impl Read, length: u64) -> Result<Vec<u8>, String> {
     let most = usize::try_from(length.min(1 << 20)).unwrap_or(0);
     let mut bytes = Vec::with_capacity(most);

@@ -1,9 +1,9 @@
-//! How values of a column are written, and how many can stand in so many bytes.
+//! Encodings of values of a column, and checks of their number against the bytes.
 
 use parquet::basic::{Encoding, Type as Physical};
 use parquet::schema::types::ColumnDescriptor;
 
-/// The least that a value takes where it is not encoded otherwise, in bits.
+/// Minimum size of a plain value, bits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ValueSize(u64);
 
@@ -14,13 +14,13 @@ impl ValueSize {
             Physical::INT32 | Physical::FLOAT => 32,
             Physical::INT64 | Physical::DOUBLE => 64,
             Physical::INT96 => 96,
-            // The length that stands before the bytes.
+            // The length before the bytes.
             Physical::BYTE_ARRAY => 32,
             Physical::FIXED_LEN_BYTE_ARRAY => u64::try_from(column.type_length()).unwrap_or(0) * 8,
         })
     }
 
-    /// Whether a dictionary of so many values fits its bytes: memory is taken for as many as it announces.
+    /// Checks that a dictionary of `values` values fits its bytes, because memory is allocated for the announced number.
     pub(super) fn check_dictionary(self, values: u32, bytes: usize) -> Result<(), String> {
         match self.0 {
             1 => Err("a dictionary of truth values".to_owned()),
@@ -28,7 +28,7 @@ impl ValueSize {
         }
     }
 
-    /// Whether so many values fit so many bytes.
+    /// Checks that `values` values fit `bytes` bytes.
     pub(super) fn check_plain(self, values: u32, bytes: usize) -> Result<(), String> {
         let bits = u64::from(values).checked_mul(self.0);
         match bits.is_some_and(|bits| bits <= (bytes as u64).saturating_mul(8)) {
@@ -38,7 +38,6 @@ impl ValueSize {
     }
 }
 
-/// The encoding of this number.
 pub(super) fn encoding(code: i32) -> Result<Encoding, String> {
     Ok(match code {
         0 => Encoding::PLAIN,
@@ -55,7 +54,7 @@ pub(super) fn encoding(code: i32) -> Result<Encoding, String> {
     })
 }
 
-/// The encoding of levels of this number; where there are none, writers state any.
+/// The encoding of levels with this code; if there are none, writers state any.
 pub(super) fn level_encoding(code: i32, are_there: bool) -> Result<Encoding, String> {
     match (code, are_there) {
         (3 | 4, _) => encoding(code),

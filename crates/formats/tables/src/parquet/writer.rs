@@ -1,4 +1,4 @@
-//! Tables written as Parquet files, a row at a time.
+//! Writer of Parquet files, row by row.
 
 use std::fs::File;
 use std::io;
@@ -16,12 +16,12 @@ use super::column_writer::{WrittenColumn, write_column};
 use crate::cell::Cell;
 use crate::error::TableError;
 
-/// Rows of a row group: who reads one row reads its group.
+/// Maximum rows of a row group: reading one row reads its group.
 const GROUP_ROWS: usize = 1000;
-/// Bytes of cells in memory that end a row group before it has so many rows.
+/// Memory of cells that ends a row group early, bytes.
 const GROUP_BYTES: u64 = 16 << 20;
 
-/// A Parquet file while it is written: the cells of one row group are in memory, compressed by snappy when it ends. The same rows are the same bytes.
+/// A Parquet file that is being written. Memory holds one row group, compressed by snappy at its end. Equal rows give equal bytes.
 ///
 /// ```
 /// use taceva_tables::{Cell, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind};
@@ -46,16 +46,16 @@ pub struct ParquetWriter {
     path: PathBuf,
     columns: Vec<WrittenColumn>,
     writer: SerializedFileWriter<File>,
-    /// Of each column the cells of the rows that no group holds yet.
+    /// For each column, the cells of the rows that are in no group yet.
     held: Vec<Vec<Cell>>,
     held_bytes: u64,
 }
 
 impl ParquetWriter {
-    /// Begins the new file at `path`, with texts beside the table by their keys.
+    /// Creates the file at `path`, with texts by key as its metadata.
     ///
     /// # Errors
-    /// [`TableError::Write`] if the file is there already or cannot be made; [`TableError::Mismatch`] if two columns have one name.
+    /// [`TableError::Write`] if the file exists already or cannot be created; [`TableError::Mismatch`] if two columns have one name.
     pub fn create(
         path: &Path,
         columns: &[WrittenColumn],
@@ -100,11 +100,11 @@ impl ParquetWriter {
         })
     }
 
-    /// Adds a row, a cell a column.
+    /// Adds a row, one cell for each column.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if a cell is not of the kind of its column or there is not one for each, and nothing of the row is written;
-    /// [`TableError::Write`] if the system refuses a row group.
+    /// [`TableError::Mismatch`] if a cell has the wrong kind or the number of cells is wrong; the row is then not written.
+    /// [`TableError::Write`] if a row group cannot be written.
     pub fn push(&mut self, row: Vec<Cell>) -> Result<(), TableError> {
         if row.len() != self.columns.len() {
             let problem = format!("{} cells for {} columns", row.len(), self.columns.len());
@@ -127,12 +127,12 @@ impl ParquetWriter {
         }
     }
 
-    /// About how large the file is, bytes: what it holds, and the cells in memory as they are before they are compressed.
+    /// Approximate size of the file, bytes: its content, and the uncompressed cells in memory.
     pub fn size_bytes(&self) -> u64 {
         self.writer.bytes_written() as u64 + self.held_bytes
     }
 
-    /// Ends the file and waits until its bytes are on the disk; its name is not.
+    /// Ends the file and waits until its bytes are on the disk. The directory entry is not synced.
     ///
     /// # Errors
     /// [`TableError::Write`].
@@ -179,7 +179,7 @@ fn mismatch(path: &Path, name: &str, problem: String) -> TableError {
     }
 }
 
-/// What the system said, out of what the crate wraps around it.
+/// Extracts the error of the system from that of the crate.
 fn failed(path: &Path, error: ParquetError) -> TableError {
     let source = match error {
         ParquetError::External(source) => match source.downcast::<io::Error>() {

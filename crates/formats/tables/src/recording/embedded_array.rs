@@ -1,4 +1,4 @@
-//! Arrays of NumPy within messages of JSON: type, shape, and their bytes as base64.
+//! NumPy arrays in JSON messages: type, shape, and their bytes as base64.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -6,15 +6,15 @@ use serde_json::{Map, Value};
 
 use crate::cell::Cell;
 
-/// Names of the member that holds the bytes.
+/// Names of the member with the bytes.
 const BYTES: [&str; 3] = ["data_b64", "data_base64", "b64"];
-/// Larger arrays stay the text that they are.
+/// Number of elements above which arrays stay text.
 const MOST_NUMBERS: u64 = 1 << 16;
 
-/// The numbers of an object that is an array, lists in lists by its shape; none of another object.
+/// The numbers of an object that is an array, as nested lists of its shape; `None` for another object.
 ///
 /// # Errors
-/// The reason in words if the bytes are no such array.
+/// A message if the bytes do not match the stated type and shape.
 pub(super) fn cell(members: &Map<String, Value>) -> Result<Option<Cell>, String> {
     let bytes = BYTES.iter().find_map(|name| members.get(*name)?.as_str());
     let (Some(bytes), Some(kind), Some(shape)) = (bytes, kind(members), shape(members)) else {
@@ -48,7 +48,7 @@ pub(super) fn cell(members: &Map<String, Value>) -> Result<Option<Cell>, String>
     })
 }
 
-/// True if a cell states the type and shape of an array and holds none of its numbers.
+/// True if a cell states the type and shape of an array but has none of its numbers.
 pub(super) fn is_summary(cell: &Cell) -> bool {
     let Cell::Struct(members) = cell else {
         return false;
@@ -75,10 +75,10 @@ fn shape(members: &Map<String, Value>) -> Option<Vec<u64>> {
     sides.iter().map(Value::as_u64).collect()
 }
 
-/// A number out of its bytes.
+/// Converter of bytes to a number.
 type NumberReader = fn(&[u8]) -> Cell;
 
-/// Width in bytes and reader of a number of such a type; `None` for a type that is not read.
+/// Width in bytes and converter of a number type; `None` for an unsupported type.
 fn reader(kind: &str) -> Option<(usize, NumberReader)> {
     fn bytes<const N: usize>(bytes: &[u8]) -> [u8; N] {
         bytes.try_into().unwrap_or([0; N])

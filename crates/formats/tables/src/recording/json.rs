@@ -1,4 +1,4 @@
-//! Messages of JSON.
+//! JSON messages.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use super::embedded_array;
 use crate::cell::Cell;
 use crate::limits;
 
-/// A message as a cell; `Err` says why it is no JSON. `serde_json` reads no deeper than 128 levels.
+/// Parses a message to a cell; the error is a message. `serde_json` limits the depth to 128 levels.
 pub(super) fn cell(message: &[u8]) -> Result<Cell, String> {
     if message.len() as u64 > limits::JSON_BYTES {
         return Err(format!("{} bytes of JSON", message.len()));
@@ -42,7 +42,7 @@ fn of_value(value: Value) -> Result<Cell, String> {
     })
 }
 
-/// Names of members that state the shape of an array and hold none of its numbers.
+/// Collects the names of members that state the shape of an array but have none of its numbers.
 pub(super) fn add_absent_arrays(cell: &Cell, above: &str, into: &mut Vec<String>) {
     let Cell::Struct(members) = cell else { return };
     for (name, member) in members {
@@ -54,7 +54,7 @@ pub(super) fn add_absent_arrays(cell: &Cell, above: &str, into: &mut Vec<String>
     }
 }
 
-/// The names of the members of a cell that are no objects.
+/// Collects the names of the members of a cell that are no objects.
 pub(super) fn add_names(cell: &Cell, above: &str, into: &mut Vec<String>) {
     let Cell::Struct(members) = cell else { return };
     for (name, member) in members {

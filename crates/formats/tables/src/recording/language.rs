@@ -1,4 +1,4 @@
-//! Languages that the messages of a topic are written in.
+//! Encodings of the messages of a topic.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -14,10 +14,10 @@ use crate::message::MessageStore;
 use crate::protobuf::{self, ProtobufMessage};
 use crate::ros::{self, Dialect, Fields, Picture, PictureField, RosSchema};
 
-/// Begin of messages of rosbag2 that are compressed one by one; no message of CDR begins so.
+/// First bytes of messages of rosbag2 that are compressed one by one; no CDR message begins so.
 const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
-/// A language that messages are written in.
+/// An encoding of messages.
 #[derive(Clone, Debug)]
 pub(super) enum Language {
     Ros(Arc<RosSchema>),
@@ -25,14 +25,14 @@ pub(super) enum Language {
     Protobuf(&'static ProtobufMessage),
 }
 
-/// Reader of the fields that were asked for out of a message.
+/// Reader of the requested fields of a message.
 pub(super) type Reader<'a> = Box<dyn Fn(&[u8]) -> Result<Vec<Cell>, String> + 'a>;
 
-/// Reader of the picture out of a message.
+/// Reader of the picture of a message.
 pub(super) type PictureReader<'a> = Box<dyn Fn(&[u8]) -> Result<Picture, String> + 'a>;
 
 impl Language {
-    /// Reader of the fields called `names`; the error is the first of them that there is not.
+    /// A reader of the fields called `names`; the error is the first unknown name.
     pub(super) fn reader<'a>(&'a self, names: &[&'a str]) -> Result<Reader<'a>, &'a str> {
         match self {
             Language::Ros(schema) => {
@@ -56,7 +56,7 @@ impl Language {
         }
     }
 
-    /// Reader of the pictures in the field called `name`; the error says why it holds none.
+    /// A reader of the pictures in the field called `name`; the error is a message if it has none.
     pub(super) fn pictures<'a>(&'a self, name: &str) -> Result<PictureReader<'a>, String> {
         match self {
             Language::Json => Err("messages of JSON hold no pictures that are read".to_owned()),
@@ -74,7 +74,7 @@ impl Language {
     }
 }
 
-/// A message of ROS, unpacked where the recorder compressed each message.
+/// A ROS message, unpacked if the recorder compressed each message.
 fn unpacked(message: &[u8]) -> Result<Cow<'_, [u8]>, String> {
     match message.starts_with(&ZSTANDARD) {
         false => Ok(Cow::Borrowed(message)),
@@ -82,7 +82,7 @@ fn unpacked(message: &[u8]) -> Result<Cow<'_, [u8]>, String> {
     }
 }
 
-/// Language of the messages of `topic`: one, by one schema.
+/// The encoding of the messages of `topic`; all must share one encoding and one schema.
 pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Language, String> {
     let channels = store.channels().values();
     let channels = channels.filter(|channel| channel.topic == topic.name);
@@ -133,7 +133,7 @@ pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Langua
     Ok(Language::Ros(Arc::new(parsed)))
 }
 
-/// The names of the fields of messages of ROS and protobuf.
+/// The names of the fields of ROS and protobuf messages.
 pub(super) fn names(language: &Language) -> Result<Vec<String>, String> {
     match language {
         Language::Ros(schema) => ros::names(schema),

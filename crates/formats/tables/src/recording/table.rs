@@ -1,4 +1,4 @@
-//! The messages of one topic as rows.
+//! Messages of one topic as rows.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -15,11 +15,11 @@ use crate::ros::{self, Picture};
 use crate::rows::check_sorted;
 use crate::source::Source;
 
-/// The messages of one topic, in the order in which they were logged; at the same time, as they lie in the file.
+/// The messages of one topic by log time; at equal times in the order of the file.
 ///
-/// Columns are the fields of the messages by their dotted names (`wrench.force.x`, `position[2]`), and when each message was logged
-/// and published: `log_time` and `publish_time` in seconds, `log_time.ns` and `publish_time.ns` as whole nanoseconds. A field that is a
-/// time is one number too: `header.stamp` in seconds, `header.stamp.ns` in nanoseconds, with `sec` and `nanosec` inside.
+/// Columns are the fields of the messages by dotted name (`wrench.force.x`, `position[2]`), and the times of each message: `log_time` and
+/// `publish_time` in seconds, `log_time.ns` and `publish_time.ns` as whole nanoseconds. A field that is a time is one number too:
+/// `header.stamp` in seconds, `header.stamp.ns` in nanoseconds, with `sec` and `nanosec` inside.
 ///
 /// ```
 /// use taceva_tables::{Cell, Recording};
@@ -75,15 +75,15 @@ impl TopicTable {
         &self.topic
     }
 
-    /// How many messages there are.
+    /// Number of messages.
     pub fn rows(&self) -> u64 {
         self.entries.len() as u64
     }
 
-    /// The columns: times, then fields in the order of the schema, lists by one name each. Of JSON those of the first message.
+    /// The columns: times, then fields in the order of the schema, one name for each list. For JSON those of the first message.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if the schema has more fields than are accepted; of JSON as [`columns`](Self::columns).
+    /// [`TableError::Unsupported`] if the schema has too many fields; for JSON as [`columns`](Self::columns).
     pub fn names(&self) -> Result<Vec<String>, TableError> {
         let mut names: Vec<String> = TIMES.iter().map(|(name, _)| (*name).to_owned()).collect();
         let fields = language::names(&self.language);
@@ -99,7 +99,7 @@ impl TopicTable {
         Ok(names)
     }
 
-    /// Fields of the first message of JSON that state the shape of an array and hold none of its numbers.
+    /// Fields of the first JSON message that state the shape of an array but have none of its numbers.
     ///
     /// # Errors
     /// As [`names`](Self::names).
@@ -124,11 +124,11 @@ impl TopicTable {
         Ok(names)
     }
 
-    /// What is in the columns called `names`, a column each, row by row. The file is read once, whatever their number.
+    /// The cells of the columns called `names`, column by column. The file is read once for all of them.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such field, [`TableError::TooLarge`] if the cells take more memory than 96 to 320 MiB by the size of the file,
-    /// [`TableError::Damaged`] if a chunk or a message does not read.
+    /// [`TableError::Missing`] if there is no such field; [`TableError::TooLarge`] if the cells exceed 96 to 320 MiB of memory, by the size
+    /// of the file; [`TableError::Damaged`] if a chunk or a message cannot be parsed.
     pub fn columns(&self, names: &[&str]) -> Result<Vec<Vec<Cell>>, TableError> {
         let is_time = |name: &&str| TIMES.iter().any(|(time, _)| time == name);
         let of_message: Vec<&str> = names
@@ -185,7 +185,7 @@ impl TopicTable {
         Ok(columns)
     }
 
-    /// What is in the column called `name`, row by row: [`columns`](Self::columns) of one.
+    /// The cells of the column called `name`: [`columns`](Self::columns) for one.
     ///
     /// # Errors
     /// As [`columns`](Self::columns).
@@ -193,15 +193,14 @@ impl TopicTable {
         Ok(self.columns(&[name])?.pop().unwrap_or_default())
     }
 
-    /// Hands the pictures in the field called `name`, such as `data` of `sensor_msgs/Image` and `sensor_msgs/CompressedImage`, of the rows
-    /// `sorted` to `each`, with the row. Two chunks are in memory at a time.
+    /// Calls `each` with each row of `sorted` and its picture in the field called `name`, such as `data` of `sensor_msgs/Image` and
+    /// `sensor_msgs/CompressedImage`. Memory holds two chunks at a time.
     ///
-    /// `sorted` must ascend; a row that stands in it twice is handed over twice.
+    /// `sorted` must ascend; a row listed twice is passed twice.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if the field holds no bytes, or if `sorted` does not ascend or names a row that is not there;
-    /// [`TableError::Damaged`] if a chunk or a message does not read, or a picture is of a kind that is not read; whatever `each`
-    /// returns.
+    /// [`TableError::Mismatch`] if the field has no bytes, or if `sorted` does not ascend or names a row that does not exist;
+    /// [`TableError::Damaged`] if a chunk or a message cannot be parsed, or a picture is of an unsupported kind; and the errors of `each`.
     pub fn visit_pictures<E: From<TableError>>(
         &self,
         name: &str,
@@ -226,7 +225,7 @@ impl TopicTable {
         Ok(())
     }
 
-    /// What reads the fields called `names` out of a message.
+    /// A reader of the fields called `names`.
     fn reader<'a>(&'a self, names: &[&'a str]) -> Result<Reader<'a>, TableError> {
         match self.language.reader(names) {
             Ok(reader) => Ok(reader),
@@ -234,7 +233,7 @@ impl TopicTable {
         }
     }
 
-    /// Hands the message at `entry` to `read`.
+    /// Calls `read` with the message at `entry`.
     fn message<T>(
         &self,
         reader: &mut dyn MessageReader,
@@ -262,10 +261,10 @@ impl TopicTable {
     }
 }
 
-/// A column that every message has.
+/// Value of a column that every message has.
 type OfHead = fn(&Message) -> Cell;
 
-/// The columns that every topic has.
+/// The time columns of every topic.
 const TIMES: [(&str, OfHead); 4] = [
     ("log_time", |head| seconds(head.log_time)),
     ("log_time.ns", |head| Cell::Integer(head.log_time.into())),

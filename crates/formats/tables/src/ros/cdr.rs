@@ -1,36 +1,36 @@
-//! Messages in CDR, the encoding of ROS 2: numbers aligned to their own size, counted from behind the first four bytes. Those of ROS 1 lie one
-//! behind the other from the first byte on.
+//! Decoder of CDR, the encoding of ROS 2: numbers are aligned to their own size, counted after the first four bytes. ROS 1 messages are
+//! packed without alignment from the first byte on.
 
 use super::schema::{Count, Dialect, Field, Kind, Message, RosSchema};
 use crate::cell::Cell;
 use crate::limits;
 
-/// What is wanted of a message or a field.
+/// Requested part of a message or a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Want {
-    /// Nothing: it is passed over.
+    /// Skipped.
     Nothing,
-    /// All of it, into the slot of this number.
+    /// The whole, into the slot of this number.
     Whole(usize),
     /// The bytes of a list of `uint8`, into the slot of this number.
     Bytes(usize),
-    /// Of each field something.
+    /// A request for each field.
     Fields(Vec<Want>),
 }
 
-/// The bytes of a message as they are read.
+/// The bytes of a message while they are read.
 #[derive(Debug)]
 pub(crate) struct Cdr<'a> {
     bytes: &'a [u8],
     at: usize,
     is_big_endian: bool,
     dialect: Dialect,
-    /// Cells that were made of this message.
+    /// Number of cells made from this message.
     cells: usize,
 }
 
 impl<'a> Cdr<'a> {
-    /// The body of `message`, of ROS 2 behind the four bytes that say how it is encoded.
+    /// The body of `message`; in ROS 2 it follows four bytes that state the encoding.
     pub(crate) fn new(message: &'a [u8], dialect: Dialect) -> Result<Cdr<'a>, String> {
         if dialect == Dialect::Ros1 {
             return Ok(Cdr {
@@ -71,7 +71,7 @@ impl<'a> Cdr<'a> {
         })
     }
 
-    /// Reads the message, `slots` filled as `want` says.
+    /// Reads the message and fills `slots` as `want` requests.
     pub(crate) fn read(
         &mut self,
         schema: &RosSchema,
@@ -89,7 +89,7 @@ impl<'a> Cdr<'a> {
         slots: &mut [Cell],
     ) -> Result<(), String> {
         if message.fields.is_empty() && self.dialect == Dialect::Ros2 {
-            // ROS 2 gives a message without fields one byte.
+            // A ROS 2 message without fields has one byte.
             self.take(1)?;
         }
         for (at, field) in message.fields.iter().enumerate() {
@@ -140,7 +140,7 @@ impl<'a> Cdr<'a> {
         }
     }
 
-    /// Passes over a field.
+    /// Skips a field.
     fn pass(&mut self, schema: &RosSchema, field: &Field) -> Result<(), String> {
         let count = self.count(field)?;
         if let Some(size) = field.kind.size() {
@@ -160,7 +160,7 @@ impl<'a> Cdr<'a> {
         Ok(())
     }
 
-    /// A field as a cell: a list where it holds several.
+    /// A field as a cell: a list if it has several elements.
     fn cell(&mut self, schema: &RosSchema, field: &Field) -> Result<Cell, String> {
         if field.count == Count::One {
             return self.one(schema, field.kind);
@@ -212,7 +212,7 @@ impl<'a> Cdr<'a> {
         })
     }
 
-    /// How many of a field follow. Each takes a byte at least, so that no more are announced than there are bytes.
+    /// Number of elements of a field. Each takes at least a byte, so that more than the bytes left are rejected.
     fn count(&mut self, field: &Field) -> Result<usize, String> {
         let count = match field.count {
             Count::One => 1,
@@ -232,7 +232,7 @@ impl<'a> Cdr<'a> {
         }
     }
 
-    /// The bytes of a text, behind their number.
+    /// The bytes of a text, after their length.
     fn text_bytes(&mut self) -> Result<&'a [u8], String> {
         let length = u32::from_le_bytes(self.number()?) as usize;
         self.take(length)
@@ -240,12 +240,12 @@ impl<'a> Cdr<'a> {
 
     fn text(&mut self) -> Result<&'a str, String> {
         let bytes = self.text_bytes()?;
-        // The length counts a zero at the end.
+        // The length includes a zero at the end.
         let text = bytes.strip_suffix(&[0]).unwrap_or(bytes);
         std::str::from_utf8(text).map_err(|_| "a text that is no UTF-8".to_owned())
     }
 
-    /// The bytes of the next number, the lowest first.
+    /// The bytes of the next number, little-endian.
     fn number<const N: usize>(&mut self) -> Result<[u8; N], String> {
         self.align(N);
         let bytes = self.take(N)?;
@@ -270,5 +270,5 @@ impl<'a> Cdr<'a> {
     }
 }
 
-/// A message that ends before its schema does.
+/// Message for a message that is shorter than its schema.
 const CUT: &str = "the message is shorter than its schema";

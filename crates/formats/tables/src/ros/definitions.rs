@@ -1,4 +1,4 @@
-//! Definitions of messages that every ROS 2 has, for recordings that do not hold them.
+//! Definitions of standard ROS 2 messages, for recordings without definitions.
 
 /// Messages by `package/Name`, in the language of `.msg` files.
 pub(super) const KNOWN: [(&str, &str); 43] = [
@@ -127,7 +127,7 @@ pub(super) const KNOWN: [(&str, &str); 43] = [
     ),
 ];
 
-/// The definition of the message called `name`, as `sensor_msgs/msg/Image`, where every ROS 2 has it.
+/// The definition of the message called `name`, as `sensor_msgs/msg/Image`; `None` if it is no standard message.
 pub(crate) fn known_definition(name: &str) -> Option<&'static str> {
     let short = super::schema::short(name);
     let found = KNOWN.iter().find(|(known, _)| *known == short);

@@ -1,4 +1,4 @@
-//! Fields of messages by their dotted names, and the columns that are made of them.
+//! Fields of messages by dotted name, and the columns made from them.
 
 use super::cdr::{Cdr, Want};
 use super::schema::{Count, Field, Kind, Message, RosSchema};
@@ -6,7 +6,7 @@ use crate::cell::Cell;
 use crate::limits;
 use crate::path::longest;
 
-/// The fields that some columns ask for.
+/// The fields that some columns need.
 #[derive(Debug)]
 pub(crate) struct Fields {
     want: Want,
@@ -14,7 +14,7 @@ pub(crate) struct Fields {
     picks: Vec<Pick>,
 }
 
-/// A column: where its cell is found in a slot, and how a time is written.
+/// A column: its slot, the path in it, and the form of a time.
 #[derive(Clone, Debug)]
 struct Pick {
     slot: usize,
@@ -30,14 +30,14 @@ enum Form {
 }
 
 impl Fields {
-    /// The columns called `names`; `Err` is the first name that the schema does not have.
+    /// The columns called `names`; the error is the first name that the schema lacks.
     pub(crate) fn new<'n>(schema: &RosSchema, names: &[&'n str]) -> Result<Fields, &'n str> {
         let mut fields = Fields {
             want: Want::Nothing,
             slots: 0,
             picks: Vec::new(),
         };
-        // What holds others first, so that those find it.
+        // Containers first, so that their members find them.
         let mut order: Vec<usize> = (0..names.len()).collect();
         order.sort_by_key(|at| names[*at].len());
         let mut picks = vec![None; names.len()];
@@ -48,7 +48,7 @@ impl Fields {
         Ok(fields)
     }
 
-    /// The cells of one message, a column each; `Err` says what is wrong with the message.
+    /// The cells of one message, one for each column; the error is a message.
     pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Vec<Cell>, String> {
         let mut slots = vec![Cell::Null; self.slots];
         Cdr::new(message, schema.dialect())?.read(schema, &self.want, &mut slots)?;
@@ -97,17 +97,17 @@ impl Fields {
     }
 }
 
-/// The place of a field in each message on the way to it, and what the name says behind it.
+/// The index of a field in each message on the path to it, with the rest of the name.
 type Steps<'n> = Vec<(usize, &'n str)>;
 
-/// The way to a field, and how it is written.
+/// The path to a field, and its form.
 struct Way<'n> {
     steps: Steps<'n>,
     form: Form,
 }
 
 impl<'n> Way<'n> {
-    /// The way to what is called `name`; a time is one number, and `ns` inside it another.
+    /// The path to the field called `name`; a time is one number, and `ns` inside it another.
     fn to(schema: &RosSchema, name: &'n str) -> Option<Way<'n>> {
         if let Some((steps, end)) = steps(schema, name) {
             let form = match end.is_some_and(is_time) {
@@ -124,7 +124,7 @@ impl<'n> Way<'n> {
     }
 }
 
-/// The steps to what is called `name`, and the message that it is, if it is a single one.
+/// The steps to the field called `name`, and its message type if it is a single message.
 fn steps<'s, 'n>(schema: &'s RosSchema, name: &'n str) -> Option<(Steps<'n>, Option<&'s Message>)> {
     let mut message = schema.root();
     let mut steps = Vec::new();
@@ -147,7 +147,7 @@ fn steps<'s, 'n>(schema: &'s RosSchema, name: &'n str) -> Option<(Steps<'n>, Opt
     }
 }
 
-/// The message that a field holds one of.
+/// The message type of a field with one message.
 fn inner<'s>(schema: &'s RosSchema, field: &Field) -> Option<&'s Message> {
     match (field.kind, field.count) {
         (Kind::Message(place), Count::One) => Some(schema.message(place)),
@@ -155,7 +155,7 @@ fn inner<'s>(schema: &'s RosSchema, field: &Field) -> Option<&'s Message> {
     }
 }
 
-/// Whether a message is a point in time or a length of time: seconds and nanoseconds.
+/// True if a message is a time or a duration: seconds and nanoseconds.
 fn is_time(message: &Message) -> bool {
     let is_named = matches!(
         message.name.as_str(),
@@ -207,7 +207,7 @@ impl Form {
 
 const NANO: i128 = 1_000_000_000;
 
-/// Seconds and nanoseconds as one number, formed as the libraries of ROS form it.
+/// Seconds and nanoseconds as one number, computed as the ROS libraries do.
 #[expect(
     clippy::cast_precision_loss,
     reason = "both have at most 64 bits, of which 53 count"
@@ -224,7 +224,7 @@ mod tests {
     const JOINTS: &str = "std_msgs/Header header\nstring[] name\nfloat64[] position\nPair[2] pairs\n\
         ===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n===\nMSG: a/Pair\nuint8 low\nint16 high";
 
-    /// A message of it, with numbers in the order of bytes that is asked for.
+    /// A message of it, with numbers in the requested byte order.
     fn message(is_big_endian: bool) -> Vec<u8> {
         let mut bytes = vec![0, u8::from(!is_big_endian), 0, 0];
         let mut put = |number: &[u8]| {

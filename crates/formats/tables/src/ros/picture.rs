@@ -1,11 +1,11 @@
-//! Pictures in messages: those that are encoded, such as JPEG, in the bytes they came in, and samples row by row, without padding.
+//! Pictures in messages: encoded ones, such as JPEG, in their original bytes, and raw samples row by row, without padding.
 
 use super::cdr::{Cdr, Want};
 use super::schema::{Count, Kind, Message, RosSchema};
 use crate::cell::Cell;
 use crate::limits;
 
-/// A picture of a message.
+/// A picture in a message.
 ///
 /// ```
 /// use taceva_tables::{Picture, Recording, TableError};
@@ -21,27 +21,27 @@ use crate::limits;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Picture {
-    /// A picture file, such as JPEG or PNG, as it came.
+    /// A picture file, such as JPEG or PNG, unchanged.
     Encoded(Vec<u8>),
-    /// Samples that are not compressed.
+    /// Uncompressed samples.
     Samples(Samples),
 }
 
-/// A picture that is not compressed.
+/// An uncompressed picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Samples {
-    /// Pixels in a row.
+    /// Width, pixels.
     pub width: u32,
-    /// Rows.
+    /// Height, pixels.
     pub height: u32,
-    /// What a pixel is.
+    /// Pixel format.
     pub form: SampleForm,
-    /// The samples row by row from the top, without padding; of two bytes the lower first.
+    /// The samples row by row from the top, without padding; two-byte samples are little-endian.
     pub bytes: Vec<u8>,
 }
 
-/// What a pixel is, by the names of `sensor_msgs/Image`.
+/// Pixel format, by the names of `sensor_msgs/Image`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SampleForm {
@@ -56,7 +56,7 @@ pub enum SampleForm {
 }
 
 impl SampleForm {
-    /// Bytes of a pixel.
+    /// Size of a pixel, bytes.
     fn bytes(self) -> usize {
         match self {
             SampleForm::Mono8 => 1,
@@ -66,7 +66,7 @@ impl SampleForm {
     }
 }
 
-/// Where messages of a schema have a picture.
+/// The picture field in messages of a schema.
 #[derive(Debug)]
 pub(crate) struct PictureField {
     want: Want,
@@ -84,7 +84,7 @@ const STEP: usize = 6;
 const SLOTS: usize = 7;
 
 impl PictureField {
-    /// The field called `name`, a list of `uint8`; `Err` says why it is none.
+    /// The field called `name`, a list of `uint8`; the error is a message if it is none.
     pub(crate) fn new(schema: &RosSchema, name: &str) -> Result<PictureField, String> {
         let mut message = schema.root();
         let mut places = Vec::new();
@@ -137,7 +137,7 @@ impl PictureField {
         Ok(PictureField { want, is_raw })
     }
 
-    /// The picture of `message`; `Err` says what is wrong with it.
+    /// The picture of `message`; the error is a message.
     pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Picture, String> {
         let mut slots = vec![Cell::Null; SLOTS];
         Cdr::new(message, schema.dialect())?.read(schema, &self.want, &mut slots)?;
@@ -177,12 +177,12 @@ fn raw(slots: &[Cell], data: Vec<u8>) -> Result<RawPicture, String> {
     })
 }
 
-/// A picture as its message describes it, nothing of it checked yet.
+/// A picture as its message describes it, unchecked.
 #[derive(Clone, Debug)]
 pub(crate) struct RawPicture {
     pub(crate) width: u32,
     pub(crate) height: u32,
-    /// Bytes of a row.
+    /// Stride of a row, bytes.
     pub(crate) step: u32,
     pub(crate) encoding: String,
     pub(crate) is_big_endian: bool,
@@ -190,7 +190,7 @@ pub(crate) struct RawPicture {
 }
 
 impl RawPicture {
-    /// The picture without padding, its numbers with the lower byte first; `Err` says why it is none that is read.
+    /// The picture without padding, its numbers little-endian; the error is a message if the format is not supported.
     pub(crate) fn samples(self) -> Result<Samples, String> {
         let RawPicture {
             width,

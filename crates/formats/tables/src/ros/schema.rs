@@ -1,5 +1,5 @@
-//! Definitions of messages in the language of `.msg` files, as ROS 2 writes them into recordings: the message itself, then those that
-//! it names, each after a line of `=` and one of `MSG: package/Name`.
+//! Message definitions in the language of `.msg` files, as ROS 2 writes them into recordings: the message itself, then those that it uses,
+//! each after a line of `=` and one of `MSG: package/Name`.
 
 use std::collections::BTreeMap;
 
@@ -7,16 +7,16 @@ use super::definitions::KNOWN;
 use crate::error::shown;
 use crate::limits;
 
-/// Language of ROS 1 or ROS 2. Their schemas are alike; numbers lie otherwise, and some types differ.
+/// The dialect of ROS 1 or ROS 2. Their schemas are alike; the encoding of numbers and some types differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dialect {
-    /// Numbers one behind the other, the lowest byte first.
+    /// Packed little-endian numbers.
     Ros1,
     /// CDR.
     Ros2,
 }
 
-/// The messages of a schema; the first is the one that the schema is of.
+/// The messages of a schema; the first is the root.
 #[derive(Clone, Debug)]
 pub(crate) struct RosSchema {
     messages: Vec<Message>,
@@ -37,7 +37,7 @@ pub(crate) struct Field {
     pub(crate) count: Count,
 }
 
-/// How many of a kind a field holds.
+/// Number of elements of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Count {
     One,
@@ -59,12 +59,12 @@ pub(crate) enum Kind {
     F32,
     F64,
     Text,
-    /// Another message, by its place in the schema.
+    /// Another message, by its index in the schema.
     Message(usize),
 }
 
 impl Kind {
-    /// Bytes of a number, none of a text or a message.
+    /// Size of a number, bytes; `None` for a text or a message.
     pub(crate) fn size(self) -> Option<usize> {
         match self {
             Kind::Bool | Kind::I8 | Kind::U8 => Some(1),
@@ -76,21 +76,21 @@ impl Kind {
     }
 }
 
-/// A field as it is written, its type still a name.
+/// A field as written, with the name of its type.
 struct Written {
     name: String,
     kind: String,
     count: Count,
 }
 
-/// The types of times that are words of ROS 1, called as those of ROS 2 are.
+/// The time types of ROS 1, which are keywords there, with their ROS 2 names.
 const OF_ROS_1: [(&str, &str); 2] = [
     ("builtin_interfaces/Time", "uint32 sec\nuint32 nanosec"),
     ("builtin_interfaces/Duration", "int32 sec\nint32 nanosec"),
 ];
 
 impl RosSchema {
-    /// The schema of the message called `name`, as `sensor_msgs/msg/Image`; `Err` says what in `text` is not understood.
+    /// Parses the schema of the message called `name`, as `sensor_msgs/msg/Image`; the error names the invalid part of `text`.
     pub(crate) fn parse(name: &str, text: &str, dialect: Dialect) -> Result<RosSchema, String> {
         let mut parts = vec![(short(name), fields_of("")?)];
         let mut body = String::new();
@@ -121,7 +121,7 @@ impl RosSchema {
             }
         }
         close(&mut parts, &mut body)?;
-        // Messages that some recorders leave out of schemas, since every machine knows them.
+        // Messages that some recorders omit from schemas, because every installation has them.
         let known: &[(&str, &str)] = match dialect {
             Dialect::Ros1 => &OF_ROS_1,
             Dialect::Ros2 => &KNOWN,
@@ -135,7 +135,7 @@ impl RosSchema {
         RosSchema::resolve(parts, dialect)
     }
 
-    /// The schema with names of types replaced by places; of two messages of one name the first holds.
+    /// Replaces names of types by indices; of two messages with one name the first is used.
     fn resolve(parts: Vec<(String, Vec<Written>)>, dialect: Dialect) -> Result<RosSchema, String> {
         let mut places = BTreeMap::new();
         for (at, (name, _)) in parts.iter().enumerate() {
@@ -161,12 +161,11 @@ impl RosSchema {
         Ok(schema)
     }
 
-    /// The language that messages of it are written in.
+    /// The dialect of its messages.
     pub(crate) fn dialect(&self) -> Dialect {
         self.dialect
     }
 
-    /// The message that the schema is of.
     pub(crate) fn root(&self) -> &Message {
         &self.messages[0]
     }
@@ -175,7 +174,7 @@ impl RosSchema {
         &self.messages[place]
     }
 
-    /// Whether messages nest no deeper than is accepted below `place`; a message inside itself nests without end.
+    /// Checks that messages nest within the limit below `place`; a message inside itself has no end.
     fn check_depth(
         &self,
         place: usize,
@@ -225,7 +224,7 @@ fn fields_of(body: &str) -> Result<Vec<Written>, String> {
         let rest = rest.trim_start();
         let end = rest.find(|letter: char| !(letter.is_alphanumeric() || letter == '_'));
         let (name, after) = rest.split_at(end.unwrap_or(rest.len()));
-        // A constant has a value after `=`; what follows a name without it is a default.
+        // A constant has a value after `=`; a value without it is a default.
         if after.trim_start().starts_with('=') {
             continue;
         }
@@ -245,7 +244,7 @@ fn fields_of(body: &str) -> Result<Vec<Written>, String> {
     Ok(fields)
 }
 
-/// A type without its brackets, and how many they announce: `float64[6]`, `float64[]`, `float64[<=6]`.
+/// A type without its brackets, and the number of elements in them: `float64[6]`, `float64[]`, `float64[<=6]`.
 fn counted(written: &str) -> Result<(&str, Count), String> {
     let Some((kind, rest)) = written.split_once('[') else {
         return Ok((written, Count::One));

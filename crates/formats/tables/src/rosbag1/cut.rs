@@ -1,10 +1,10 @@
-//! Whole messages of a bag that was cut or not closed.
+//! Whole messages of a bag that was truncated or not closed.
 
 use super::record::{self, op};
 use super::{MAGIC, Records};
 use crate::source::Source;
 
-/// Way out of a bag that is cut, with what it brings back.
+/// Remedy for a truncated bag, with the number of messages it recovers.
 pub(super) fn remedy(source: &Source) -> String {
     format!(
         "{} whole messages lie before the cut; `rosbag reindex FILE` writes a bag of what is whole",
@@ -12,7 +12,7 @@ pub(super) fn remedy(source: &Source) -> String {
     )
 }
 
-/// Messages in the chunks that are whole; of a chunk that is not compressed those before its cut.
+/// Number of messages in complete chunks, and in an uncompressed truncated chunk before its end.
 fn whole_messages(source: &Source) -> u64 {
     let Ok(mut records) = Records::new(source) else {
         return 0;
@@ -31,7 +31,7 @@ fn whole_messages(source: &Source) -> u64 {
     messages + messages_of(&cut_chunk(&mut records, at).unwrap_or_default())
 }
 
-/// Bytes of the chunk at `at` in which the file ends, if it is not compressed.
+/// Bytes of the truncated chunk at `at`, if it is not compressed.
 fn cut_chunk(records: &mut Records<'_>, at: u64) -> Option<Vec<u8>> {
     let length = records.source.length();
     let four = |records: &mut Records<'_>, at: u64| {
@@ -52,7 +52,7 @@ fn cut_chunk(records: &mut Records<'_>, at: u64) -> Option<Vec<u8>> {
     (head.op() == Some(op::CHUNK) && is_plain).then(|| records.data(&head).ok())?
 }
 
-/// Whole messages among the records of a chunk.
+/// Number of whole messages among the records of a chunk.
 fn messages_of(chunk: &[u8]) -> u64 {
     let (mut at, mut messages) = (0, 0);
     while let Some((head, data)) = record::within(chunk, at) {

@@ -25,7 +25,7 @@ pub(super) struct Head {
 }
 
 impl Head {
-    /// The head whose fields are `fields`, each its length, its name, `=` and its value; none if they do not fill it.
+    /// Parses the head from `fields`, each with its length, its name, `=` and its value; `None` if they do not fill it.
     pub(super) fn new(fields: Vec<u8>, data_at: u64, end: u64) -> Option<Head> {
         let mut bytes = Bytes::new(&fields);
         while !bytes.rest().is_empty() {
@@ -50,7 +50,7 @@ impl Head {
         None
     }
 
-    /// The bytes of a number in the field called `name`, the lowest first.
+    /// The little-endian bytes of a number in the field called `name`.
     pub(super) fn number<const N: usize>(&self, name: &str) -> Option<[u8; N]> {
         self.bytes(name)?.try_into().ok()
     }
@@ -74,7 +74,7 @@ fn next<'b>(bytes: &mut Bytes<'b>) -> Option<(&'b [u8], &'b [u8])> {
     Some((&field[..end], &field[end + 1..]))
 }
 
-/// The head of the record at `at` of the bytes of a chunk, and where its data lies.
+/// The head of the record at `at` of an unpacked chunk, and the range of its data.
 pub(super) fn within(held: &[u8], at: usize) -> Option<(Head, Range<usize>)> {
     let mut bytes = Bytes::new(held.get(at..)?);
     let length = usize::try_from(bytes.u32()?).ok()?;

@@ -1,14 +1,14 @@
-//! The columns of a table by the text that made it.
+//! Columns of a table, from its SQL text.
 
 /// The columns of a table.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Columns {
     pub(super) names: Vec<String>,
-    /// The column whose value is the number of the row.
+    /// The column that is an alias of the row number.
     pub(super) id: Option<usize>,
 }
 
-/// The columns that `CREATE TABLE name (…)` names; none of a table that is stored otherwise, or of another text.
+/// The columns in `CREATE TABLE name (…)`; `None` for a table that is stored otherwise, or another text.
 pub(super) fn columns(sql: &str) -> Option<Columns> {
     let (_, behind) = sql.split_once('(')?;
     let (inside, after) = behind.rsplit_once(')')?;
@@ -33,7 +33,7 @@ pub(super) fn columns(sql: &str) -> Option<Columns> {
         }
         let rest = rest.to_ascii_uppercase();
         let words: Vec<&str> = rest.split_whitespace().collect();
-        // Only the whole word INTEGER makes a column the number of the row.
+        // Only the exact type INTEGER makes a primary key an alias of the row number.
         if words.first() == Some(&"INTEGER")
             && words.windows(2).any(|pair| pair == ["PRIMARY", "KEY"])
         {
@@ -69,7 +69,7 @@ fn parts(text: &str) -> Vec<&str> {
     parts
 }
 
-/// The first word of a part, without its quotes, and what follows.
+/// The first word of a part, without its quotes, and the rest.
 fn first_word(part: &str) -> (String, &str) {
     let closing = match part.chars().next() {
         Some(quote @ ('"' | '`' | '\'')) => Some(quote),

@@ -1,4 +1,4 @@
-//! Rows: a number, and values behind a head that says what each is. What does not fit a page goes on in others.
+//! Rows: a row number, and values after a head with their types. A row that does not fit its page continues in overflow pages.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -16,28 +16,28 @@ pub(crate) enum Value {
     Integer(i64),
     Real(f64),
     Text(String),
-    /// Place of its bytes in those of the row.
+    /// Range of its bytes in those of the row.
     Blob(Range<usize>),
 }
 
-/// A row, of which as much is read as its values ask for.
+/// A row; only the bytes that its values need are read.
 pub(crate) struct Record<'p, 'd> {
     pages: &'p mut Pages<'d>,
     page: u32,
     id: Option<usize>,
     number: i64,
-    /// The type and the place of each value.
+    /// The type and the range of each value.
     values: Vec<(u64, Range<usize>)>,
-    /// Bytes of the row that were read.
+    /// The bytes of the row read so far.
     read: Vec<u8>,
-    /// Bytes of the whole row.
+    /// Size of the whole row, bytes.
     length: usize,
-    /// The page that the row goes on in.
+    /// The next overflow page.
     next: u32,
 }
 
 impl<'p, 'd> Record<'p, 'd> {
-    /// The row at `place`, of which what lies in its own page is read.
+    /// Opens the row at `place` and reads the bytes in its own page.
     pub(crate) fn read(
         pages: &'p mut Pages<'d>,
         table: &SqliteTable,
@@ -78,7 +78,7 @@ impl<'p, 'd> Record<'p, 'd> {
             read: read.to_vec(),
             values: Vec::new(),
             id: table.id,
-            // The bits of a negative number fill the variable one.
+            // A negative number is stored as the bits of an unsigned one.
             number: i64::from_ne_bytes(number.to_ne_bytes()),
             page: place.page,
             length,
@@ -89,17 +89,17 @@ impl<'p, 'd> Record<'p, 'd> {
         Ok(record)
     }
 
-    /// Bytes of the whole row.
+    /// Size of the whole row, bytes.
     pub(crate) fn bytes(&self) -> u64 {
         self.length as u64
     }
 
-    /// Bytes of the row that were read: after a value of it at least those of that.
+    /// The bytes of the row read so far: at least up to the last value requested.
     pub(crate) fn into_bytes(self) -> Vec<u8> {
         self.read
     }
 
-    /// The value in the column at `position`, from 0; null where the row was written before there was such a column.
+    /// The value in the column at `position`, from 0; null if the row was written before the column existed.
     pub(crate) fn value(&mut self, position: usize) -> Result<Value, TableError> {
         let Some((kind, range)) = self.values.get(position).cloned() else {
             return Ok(Value::Null);
@@ -133,7 +133,7 @@ impl<'p, 'd> Record<'p, 'd> {
         })
     }
 
-    /// The text in the column at `position`; empty of null.
+    /// The text in the column at `position`; empty for null.
     pub(crate) fn text(&mut self, position: usize) -> Result<String, TableError> {
         match self.value(position)? {
             Value::Text(text) => Ok(text),
@@ -181,7 +181,7 @@ impl<'p, 'd> Record<'p, 'd> {
         Ok(())
     }
 
-    /// Reads on to byte `end` of the row.
+    /// Reads up to byte `end` of the row.
     fn read_to(&mut self, end: usize) -> Result<(), TableError> {
         if self.read.len() >= end {
             return Ok(());
@@ -207,7 +207,7 @@ impl<'p, 'd> Record<'p, 'd> {
     }
 }
 
-/// Bytes of a row of `length` that lie in its own page, of which `usable` can be used.
+/// Number of bytes of a row of `length` that its own page holds, of which `usable` are usable.
 fn in_page(length: usize, usable: usize) -> usize {
     let most = usable - 35;
     if length <= most {
@@ -218,7 +218,7 @@ fn in_page(length: usize, usable: usize) -> usize {
     if even <= most { even } else { least }
 }
 
-/// A number of one to nine bytes, the highest first, and what follows it.
+/// A varint of one to nine bytes, the highest first, and the rest.
 fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let mut number = 0_u64;
     for at in 0..8 {

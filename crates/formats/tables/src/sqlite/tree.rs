@@ -1,4 +1,4 @@
-//! B-trees of tables: inner pages lead to others, leaves hold rows in the order of their numbers.
+//! B-trees of tables: interior pages refer to others, leaf pages have rows in the order of their numbers.
 
 use std::collections::HashSet;
 
@@ -7,26 +7,26 @@ use super::record::Record;
 use super::{RowPlace, SqliteTable};
 use crate::error::TableError;
 
-/// Kinds of pages of a table.
+/// Types of pages of a table.
 const INNER: u8 = 5;
 const LEAF: u8 = 13;
-/// Greatest depth of a tree: of pages that hold two each, all that there can be.
+/// Maximum depth of a tree: enough for all pages with two children each.
 const DEPTH: usize = 40;
 
 /// The head of a page of a table.
 pub(super) struct Head {
     kind: u8,
     cells: u16,
-    /// The last child of an inner page.
+    /// The last child of an interior page.
     last: u32,
-    /// Begin of the places of the cells.
+    /// Offset of the list of cells.
     places: usize,
 }
 
 impl Head {
-    /// The head of the page of this number.
+    /// Parses the head of the page `page` with this number.
     pub(super) fn of(number: u32, page: &[u8]) -> Option<Head> {
-        // The header of the file stands before that of the first page.
+        // The header of the file precedes the first page.
         let at = if number == 1 { 100 } else { 0 };
         let head = page.get(at..)?.first_chunk::<12>()?;
         let is_inner = head[0] == INNER;
@@ -38,7 +38,7 @@ impl Head {
         })
     }
 
-    /// Bytes from the begin of the cell of this number on.
+    /// The bytes from the start of this cell on.
     pub(super) fn cell<'p>(&self, page: &'p [u8], cell: u16) -> Option<&'p [u8]> {
         if cell >= self.cells {
             return None;
@@ -48,20 +48,20 @@ impl Head {
         page.get(usize::from(u16::from_be_bytes([place[0], place[1]]))..)
     }
 
-    /// True if rows lie in it.
+    /// True if it is a leaf page, with rows.
     pub(super) fn is_leaf(&self) -> bool {
         self.kind == LEAF
     }
 }
 
-/// Hands every row of `table` to `each`.
+/// Calls `each` with every row of `table`.
 pub(super) fn walk(
     pages: &mut Pages<'_>,
     table: &SqliteTable,
     each: &mut dyn FnMut(RowPlace, &mut Record<'_, '_>) -> Result<(), TableError>,
 ) -> Result<(), TableError> {
     let mut seen = HashSet::new();
-    // Pages that are still to be read, the next one last, each with its depth.
+    // Pages still to be read, the next one last, each with its depth.
     let mut open = vec![(table.root, 0)];
     while let Some((number, depth)) = open.pop() {
         if !seen.insert(number) || depth > DEPTH {

@@ -1,4 +1,4 @@
-//! TAC025: frames and signals in which there is nothing: one number everywhere.
+//! TAC025: empty frames and signals: one value everywhere.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};

@@ -1,4 +1,4 @@
-//! TAC034: untouched pictures that differ from the reference: the camera, the light or the gel is not what it was.
+//! TAC034: untouched pictures that differ from the reference: the camera, the light or the gel has changed.
 
 use taceva_core::{Field, Unit};
 
@@ -15,14 +15,14 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Untouched pictures, and pictures of contact, below which their means say nothing.
+/// Minimum number of untouched pictures, and of pictures of contact, for their means.
 const LEAST: usize = 3;
-/// Below so many newtons, or millimetres of depth, nothing is touched.
+/// Force, N, and depth, mm, below which there is no contact.
 const UNTOUCHED_N: f64 = 0.02;
 const UNTOUCHED_MM: f64 = 0.01;
-/// A picture is of contact from this share of the greatest load on.
+/// Share of the greatest load from which a picture shows contact.
 const PRESSED: f64 = 0.5;
-/// A change of the untouched picture counts from this share of what a contact changes in the mean over all tiles.
+/// Share of the change by contact, in the mean over all tiles, from which a change of the untouched picture counts.
 const THIRD: f64 = 1.0 / 3.0;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -50,12 +50,12 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     if rest.len() < LEAST || pressed.len() < LEAST {
         return Vec::new();
     }
-    // The median tile by tile would cost more and say the same: faults that stand still are in every picture.
+    // The median of each tile would cost more and say the same: static faults are in every picture.
     let Some(mean) = Tiles::mean(rest.iter().map(|(_, tiles)| *tiles)) else {
         return Vec::new();
     };
     let still = &reference.tiles;
-    // A contact is measured from the untouched pictures of its own time: a fault is in both.
+    // Contact is measured from the untouched pictures of its own time, because a fault is in both.
     let contact = median(pressed.iter().map(|tiles| mean.distance(tiles)));
     let contact_tile = median(pressed.iter().map(|tiles| mean.greatest(tiles)));
     let (change, change_tile) = (mean.distance(still), mean.greatest(still));
@@ -85,7 +85,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     )]
 }
 
-/// The number in the middle; 0 of none.
+/// The median; 0 for no numbers.
 fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     let mut sorted: Vec<f64> = numbers.collect();
     sorted.sort_by(f64::total_cmp);

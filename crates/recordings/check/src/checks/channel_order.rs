@@ -14,7 +14,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Red and blue must differ by this much of full scale before a swap can be distinguished from light that changed.
+/// Difference of red and blue, as a share of full scale, from which a swap can be distinguished from a change of light.
 const CLEAR: f64 = 0.02;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

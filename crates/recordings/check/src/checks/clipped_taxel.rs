@@ -1,4 +1,4 @@
-//! TAC017: taxels whose numbers pile up at the end of their range.
+//! TAC017: taxels whose values accumulate at the end of their range.
 
 use taceva_core::Field;
 
@@ -15,13 +15,13 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// The fewest samples with the number at the end of the range.
+/// Minimum number of samples with the value at the end of the range.
 const LEAST: u64 = 5;
-/// At least one in so many samples has it.
+/// At least one in this many samples has it.
 const SHARE: u64 = 100;
-/// It is met more than so many times as often as the next number.
+/// It occurs more than this many times as often as the next value.
 const TIMES: u64 = 3;
-/// Taxels named in a message; the rest are counted.
+/// Maximum taxels named in a message; the rest are counted.
 const NAMED: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -50,7 +50,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![Found::overall(Severity::Warning, message)]
 }
 
-/// The number that a taxel is clipped at, and how many samples have it.
+/// The value at which a taxel is clipped, and the number of samples with it.
 fn end_of(facts: &SignalFacts, position: usize) -> Option<(f32, u64)> {
     let TaxelFacts {
         least,
@@ -64,7 +64,7 @@ fn end_of(facts: &SignalFacts, position: usize) -> Option<(f32, u64)> {
     };
     let above =
         Some(greatest).filter(|end| below_greatest.is_some_and(|next| is_clipped(*end, next)));
-    // A sensor that says nothing until it is touched is at its least number at rest.
+    // A sensor that shows nothing until it is touched has its least value at rest.
     let is_rest = |end: &(f32, u64)| match &facts.rest {
         Some(rest) => rest.values()[position] <= end.0,
         None => end.0.abs() <= 0.0,

@@ -18,18 +18,18 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// So many usual steps within one contact, and at least so many seconds, are a jump.
+/// Minimum jump within one contact: a multiple of the usual step, and a time in seconds.
 const JUMP_STEPS: f64 = 100.0;
 const JUMP_S: f64 = 1.0;
-/// Without contact points a pause between presses looks the same: one step in so many, or a single one, is a jump, and more are pauses,
+/// Without contact points a pause between presses looks like a jump: at most one step in this many, or a single one, is a jump.
 const SELDOM: usize = 100;
-/// where nine in ten steps are at most so many usual ones.
+/// Jumps are sought there only if nine in ten steps are at most this many usual ones.
 const REGULAR_STEPS: f64 = 3.0;
-/// No recording goes on for so long between two rows, s: twelve days. Seconds since 1970 and since a start are 54 years apart.
+/// Difference of consecutive stamps that shows two clocks, s: twelve days. Seconds since 1970 and since a start are 54 years apart.
 const TWO_CLOCKS_S: f64 = 1e6;
-/// Seconds since 1970 at which Unix times of recordings begin (1990), and beyond which no machine has been running (32 years).
+/// First plausible Unix time of a recording (1990), s, and from the same range the limit `RUNNING_S` of uptime (32 years).
 const UNIX_FROM_S: f64 = 631_152_000.0;
-/// Seconds since 1970 at which they end (2100).
+/// Last plausible Unix time of a recording (2100), s.
 const UNIX_TO_S: f64 = 4_102_444_800.0;
 const RUNNING_S: f64 = 1e9;
 
@@ -37,7 +37,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let table = evidence.table;
     let times = table.t_s();
     let timed = (0..table.rows()).filter(|row| times[*row].is_some());
-    // Another unit of the sensor, or another table, may well be of another month.
+    // Another unit of the sensor, or another table, may be from another month.
     let seconds = |row: usize| times[row].unwrap_or_default();
     let mut others = by_clock(table, timed);
     others.retain(|(before, row)| (seconds(*row) - seconds(*before)).abs() > TWO_CLOCKS_S);
@@ -78,7 +78,7 @@ fn last_stamps(table: &Table) -> Vec<f64> {
     last.into_values().collect()
 }
 
-/// Clocks that count since 1970 beside others that count since a start.
+/// Finds clocks that count since 1970 beside others that count since a start.
 fn of_two_kinds(last: &[f64]) -> Option<Found> {
     let least = last.iter().copied().reduce(f64::min)?;
     let most = last.iter().copied().reduce(f64::max)?;
@@ -89,7 +89,7 @@ fn of_two_kinds(last: &[f64]) -> Option<Found> {
         .then(|| Found::overall(Severity::Warning, message))
 }
 
-/// Stamps that jump ahead within one contact, or between rows without any, by less than two clocks are apart.
+/// Finds stamps that jump ahead within one contact, or between rows without any, by less than two clocks differ.
 fn set_within(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(stream) = Stream::of(evidence) else {
         return Vec::new();
@@ -143,7 +143,7 @@ fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str)
     ))
 }
 
-/// What is stated of the clock, where the last stamps of clocks cannot be its.
+/// Finds a stated clock that contradicts the last stamps.
 fn contradicted(evidence: &Evidence<'_>, last: &[f64]) -> Option<Found> {
     let least = last.iter().copied().reduce(f64::min)?;
     let most = last.iter().copied().reduce(f64::max)?;

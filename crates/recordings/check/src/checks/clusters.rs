@@ -14,7 +14,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Clusters below which the jackknife gives no interval.
+/// Minimum number of clusters for a jackknife interval.
 const LEAST: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -43,7 +43,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     few(distinct.len(), "contact point")
 }
 
-/// The finding on `count` clusters of this kind, where there are too few.
+/// The finding if `count` clusters of this kind are too few.
 fn few(count: usize, kind: &str) -> Vec<Found> {
     if count == 0 || count >= LEAST {
         return Vec::new();

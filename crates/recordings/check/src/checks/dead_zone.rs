@@ -15,13 +15,13 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// So many zeros under load, and one sample in so many, are no chance.
+/// Minimum zeros under load: a number, and one in `SHARE` of the samples.
 const LEAST: usize = 10;
 const SHARE: usize = 20;
-/// The pictures of a force that is not zero must follow it so well, as a correlation, that they say how hard is pressed.
+/// Minimum correlation of nonzero forces with the change of their pictures, so that pictures show the load.
 const CLEAR: f64 = 0.7;
-/// A picture is of contact from here on between the one of rest, which one in so many of those with a force of zero are below, and the median
-/// of those with a force.
+/// Threshold of contact in a picture, between rest and the median with force. Rest is the level that one in `AT_REST` of the zero-force
+/// pictures is below.
 const PRESSED: f64 = 0.25;
 const AT_REST: usize = 10;
 
@@ -34,7 +34,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     };
     let (mut zero, mut loaded) = (Vec::new(), Vec::new());
     for (row, facts) in evidence.frames.iter().enumerate() {
-        // Without a picture of rest nobody knows what contact changes.
+        // Without a picture of rest the change by contact is unknown.
         let change = facts.as_ref().and_then(|facts| facts.distance);
         let Some((change, force)) = change.zip(table.truth(load).get(row)) else {
             continue;
@@ -72,7 +72,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![Found::about(Severity::Warning, message, names)]
 }
 
-/// The number that one in `parts` of `numbers`, of which there is one, are below.
+/// The value below which one in `parts` of `numbers` lies; 0 for no numbers.
 fn ranked(numbers: impl Iterator<Item = f64>, parts: usize) -> f64 {
     let mut sorted: Vec<f64> = numbers.collect();
     sorted.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! TAC022: frames of a stream that are the one before them once more.
+//! TAC022: frames of a stream that repeat the previous one.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -21,7 +21,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let digest = |row: usize| frames[row].as_ref().map(|frame| frame.digest);
     let (mut doubled, mut shared) = (Vec::new(), Vec::new());
     let mut longest = 1;
-    // Between presses the stream pauses, and a run ends.
+    // The stream pauses between presses, which ends a run.
     for run in stream.runs() {
         let mut alike = 1;
         for step in run {

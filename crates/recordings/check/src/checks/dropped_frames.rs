@@ -1,4 +1,4 @@
-//! TAC023: frames of a stream that should have come, by the gaps between the stamps of others.
+//! TAC023: frames missing from a stream, by the gaps between the stamps of others.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -13,42 +13,42 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Steps of so many periods are gaps; longer ones are pauses.
+/// Steps that are gaps, in periods; longer ones are pauses.
 const GAP: std::ops::Range<f64> = 1.5..10.5;
-/// How far a step of a regular stream is from the usual one, and how many of the steps are so near.
+/// A regular stream: maximum deviation of a step from the usual one, and minimum share of such steps.
 const NEAR: f64 = 0.25;
 const REGULAR: f64 = 0.75;
-/// Where more are missing, the period is looked for near the step that one in so many is shorter than,
+/// Streams with more missing frames: the period is sought near the step that one in this many is shorter than.
 const SHORT: usize = 10;
-/// how many of the steps are one period,
+/// Minimum share of steps of one period.
 const SINGLE: f64 = 0.3;
-/// how far, in periods, a step is from a whole multiple of it, and how many of the steps are so near to one.
+/// Maximum deviation of a step from a multiple of the period, in periods, and minimum share of such steps.
 const WHOLE: f64 = 0.2;
 const MULTIPLES: f64 = 0.9;
-/// Places to which stamps are cut, s. A steady stream of 60 Hz in hundredths of a second has steps of one and of two of them.
+/// Resolutions to which stamps are truncated, s. A steady stream of 60 Hz in hundredths of a second has steps of one and two of them.
 const PLACES: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
-/// How far, as a share, a period is from such a place, and how many of them such stamps stray from an even pace.
+/// Maximum relative deviation of a period from such a resolution, and maximum drift of truncated stamps from an even pace, in periods.
 const AT_PLACE: f64 = 0.01;
 const STRAY: f64 = 2.0;
-/// The share of missing frames from which a warning is due.
+/// Share of missing frames from which the finding is a warning.
 const WARN: f64 = 0.01;
 
-/// The frames of a stream that are missing.
+/// Missing frames of a stream.
 #[derive(Debug)]
 pub(super) struct Missing {
-    /// How many, a whole number.
+    /// Number of missing frames, whole.
     pub(super) frames: f64,
-    /// The rows before which they are.
+    /// The rows after the gaps.
     rows: Vec<usize>,
     /// The steps of the stream.
     steps: usize,
-    /// The longest step before one of the rows, in periods.
+    /// The longest gap, in periods.
     longest: f64,
     period_s: f64,
 }
 
 impl Missing {
-    /// What is missing of `stream`; `None` where nothing is, or no period is seen.
+    /// The missing frames of `stream`; `None` if there are none, or no period is found.
     fn of(stream: &Stream) -> Option<Missing> {
         let period_s = period(stream)?;
         let periods = |step: &Step| step.seconds / period_s;
@@ -59,14 +59,14 @@ impl Missing {
             longest: 0.0,
             period_s,
         };
-        // What is neither one period, nor a pause, nor a clock that was set back.
+        // Excludes steps of one period, pauses, and clocks that were set back.
         let is_between = |step: &Step| {
             let periods = periods(step);
             periods > -0.5 && periods < GAP.end && !(0.5..GAP.start).contains(&periods)
         };
         for run in stream.runs() {
             for steps in run.split(|step| !is_between(step)) {
-                // A stamp that is late or doubled makes one step too short and the next one too long, and no frame is missing.
+                // A late or doubled stamp makes one step too short and the next too long, without a missing frame.
                 let frames: f64 = steps.iter().map(|step| periods(step).round() - 1.0).sum();
                 if frames < 0.5 {
                     continue;
@@ -83,7 +83,7 @@ impl Missing {
     }
 }
 
-/// What is missing of the stream that a recording is.
+/// The missing frames of the stream of a recording.
 pub(super) fn missing(evidence: &Evidence<'_>) -> Option<Missing> {
     Missing::of(&Stream::of(evidence)?)
 }
@@ -119,7 +119,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     )]
 }
 
-/// The time from a frame to the next where none is missing, s; `None` if the steps show none.
+/// The period of the frames, s; `None` if the steps show none.
 fn period(stream: &Stream) -> Option<f64> {
     let of = |is_so: &dyn Fn(f64) -> bool, unit: f64| {
         let steps = stream.steps.iter();
@@ -144,7 +144,7 @@ fn period(stream: &Stream) -> Option<f64> {
     (is_period && !is_cut(stream, period)).then_some(period)
 }
 
-/// Whether the steps are those of an even pace whose stamps are cut to a decimal place of `period`.
+/// True if the steps are those of an even pace whose stamps are truncated to a decimal place near `period`.
 fn is_cut(stream: &Stream, period: f64) -> bool {
     let is_pause = |step: &Step| step.seconds / period >= GAP.end;
     let steps = stream.steps.iter().filter(|step| !is_pause(step));
@@ -171,7 +171,7 @@ fn is_cut(stream: &Stream, period: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// The frames that are missing between these numbers of periods of 1/30 s.
+    /// The missing frames between these numbers of periods of 1/30 s.
     fn missing_of(periods: &[f64]) -> f64 {
         let seconds: Vec<f64> = periods.iter().map(|periods| periods / 30.0).collect();
         Missing::of(&Stream::of_seconds(&seconds)).map_or(0.0, |missing| missing.frames)
@@ -221,7 +221,7 @@ mod tests {
             .map(|number| stamps(number + 1) - stamps(number))
             .collect();
         assert!(Missing::of(&Stream::of_seconds(&steps)).is_none());
-        // Frames that are missing at random stray further.
+        // Frames missing at random drift further.
         let steps: Vec<f64> = (0..200)
             .map(|number| match number % 100 {
                 0..50 => 0.01,

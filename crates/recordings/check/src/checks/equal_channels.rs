@@ -1,4 +1,4 @@
-//! TAC038: two labels that are one: a column mapped twice, or recorded twice.
+//! TAC038: two equal labels: a column mapped twice, or recorded twice.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -12,7 +12,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Samples below which two channels may be equal by chance.
+/// Number of samples below which two channels may be equal by chance.
 const LEAST: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -47,7 +47,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// The number of samples that have both, and the sign between them; `None` if they differ somewhere or never change.
+/// The number of samples with both, and the sign between them; `None` if they differ somewhere or never change.
 fn equal(evidence: &Evidence<'_>, one: usize, other: usize) -> Option<(usize, f64)> {
     let (one, other) = (evidence.table.truth(one), evidence.table.truth(other));
     let pairs: Vec<(f64, f64)> = (0..one.len())
@@ -68,7 +68,7 @@ fn equal(evidence: &Evidence<'_>, one: usize, other: usize) -> Option<(usize, f6
         .map(|sign| (pairs.len(), sign))
 }
 
-/// The one column that `label` is read from.
+/// The column that `label` is read from.
 fn source(evidence: &Evidence<'_>, label: &str) -> Option<String> {
     let mut columns = evidence.header.columns.iter();
     let column = columns.find(|column| column.label == label)?;

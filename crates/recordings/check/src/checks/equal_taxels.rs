@@ -1,4 +1,4 @@
-//! TAC039: taxels that say the same in every row.
+//! TAC039: taxels with the same value in every row.
 
 use std::collections::BTreeMap;
 
@@ -16,9 +16,9 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Rows below which two taxels may be equal by chance.
+/// Number of rows below which two taxels may be equal by chance.
 const LEAST: u64 = 5;
-/// Names that a message lists.
+/// Maximum names that a message lists.
 const NAMED: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

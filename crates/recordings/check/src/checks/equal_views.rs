@@ -1,4 +1,4 @@
-//! TAC044: one picture in two views of a sample: one camera for two fingers, or a path that was copied.
+//! TAC044: one picture in two views of a sample: one camera for two fingers, or a copied path.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};

@@ -1,4 +1,4 @@
-//! TAC041: depths that no gel has: the distance of a camera or a robot instead of an indentation.
+//! TAC041: implausible depths: the distance of a camera or a robot instead of an indentation.
 
 use taceva_core::Channel;
 
@@ -14,11 +14,11 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Depths that a check needs.
+/// Minimum number of depths for the check.
 const LEAST: usize = 3;
-/// The deepest press of a gel, mm: the thickest that are sold have 10 mm.
+/// Deepest plausible press of a gel, mm: the thickest gels sold have 10 mm.
 const DEEPEST_MM: f64 = 12.0;
-/// A depth that is never below this share of the greatest, and above so many mm, is a distance.
+/// A depth that is never below this share of the greatest, and exceeds a length in mm, is a distance.
 const NEVER_BELOW: f64 = 0.5;
 const DISTANCE_MM: f64 = 5.0;
 

@@ -1,4 +1,4 @@
-//! TAC043: warnings of the import that a recording came by.
+//! TAC043: warnings of the import of a recording.
 
 use taceva_core::shown;
 

@@ -1,4 +1,4 @@
-//! TAC019: labels that come later or earlier than their pictures, as by two clocks.
+//! TAC019: labels that are later or earlier than their pictures, as by two clocks.
 
 use std::collections::BTreeMap;
 
@@ -17,22 +17,21 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Samples of a stream below which a lag says nothing.
+/// Minimum samples of a stream for a lag.
 const LEAST: usize = 50;
-/// The longest median step, in s, of samples that are a stream.
+/// Maximum median step of a stream, s.
 const STREAM_S: f64 = 1.0;
-/// The furthest that is looked, in steps, and as a share of the samples.
+/// Maximum lag searched, in steps, and as a fraction of the samples.
 const FURTHEST: usize = 60;
 const SHARE: usize = 4;
-/// How well pictures and forces must go together at the lag, as a correlation, and how many times less of the variance it leaves open there
-/// than where they stand.
+/// Minimum correlation of pictures and forces at the lag, and minimum factor by which the lag reduces the unexplained variance.
 const CLEAR: f64 = 0.6;
 const BETTER: f64 = 1.5;
 
-/// A lag is at most this share of the time that a recording takes.
+/// Maximum lag as a share of the duration of the recording.
 const OF_RECORDING: f64 = 0.1;
 
-/// A series varies if its variance is above this share of the square of its mean.
+/// Minimum variance of a varying series, as a share of its squared mean.
 const VARIES: f64 = 1e-20;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -40,11 +39,11 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(load) = evidence.load() else {
         return Vec::new();
     };
-    // Where rows share their times nobody knows how far apart they are, and between single presses there is no lag.
+    // Rows with repeated times give no step, and single presses have no lag.
     if repeated(table).is_some() || is_of_presses(evidence) {
         return Vec::new();
     }
-    // Another unit of the sensor, or another table, is another clock: what follows it in the recording does not follow it in time.
+    // Another unit of the sensor, or another table, has another clock, so consecutive rows are not consecutive in time.
     let mut streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>> = BTreeMap::new();
     for (row, facts) in evidence.frames.iter().enumerate() {
         let instant = facts.as_ref().and_then(|facts| {
@@ -88,21 +87,21 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect()
 }
 
-/// Where forces and pictures go together best.
+/// The lag with the best correlation of forces and pictures.
 #[derive(Debug)]
 struct Lag {
-    /// How many samples later the force is.
+    /// Number of samples by which the force is later.
     steps: i64,
     seconds: f64,
-    /// The correlations there and without a lag, whatever their sign.
+    /// The absolute correlations at the lag and without a lag.
     best: f64,
     standing: f64,
 }
 
-/// A time in s, a number of the picture, and a force.
+/// A time, s, a value of the picture, and a force.
 type Instant = (f64, f64, f64);
 
-/// The streams of each unit of the sensor, each less the means of its unit: one may be brighter than another.
+/// The streams of each unit of the sensor, each minus the means of its unit, since one may be brighter than another.
 fn alike(streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>>) -> Vec<Vec<Instant>> {
     let mut sums: BTreeMap<Option<&str>, [f64; 3]> = BTreeMap::new();
     for ((unit, _), stream) in &streams {
@@ -111,7 +110,7 @@ fn alike(streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>>) -> Vec<V
             *sum = [sum[0] + 1.0, sum[1] + light, sum[2] + force];
         }
     }
-    // Of one unit the numbers stay what they are, to the last bit.
+    // With one unit the values stay the same, bit for bit.
     let is_one = sums.len() == 1;
     let less = |unit: Option<&str>| match sums.get(&unit) {
         Some([count, light, force]) if !is_one => [light / count, force / count],
@@ -128,7 +127,7 @@ fn alike(streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>>) -> Vec<V
 }
 
 impl Lag {
-    /// The lag of streams, which is one for all of them; `None` if they are none.
+    /// The common lag of all streams; `None` if there are none.
     fn of(streams: &[Vec<Instant>]) -> Option<Lag> {
         let pairs = streams.iter().flat_map(|stream| stream.windows(2));
         let mut steps: Vec<f64> = pairs.map(|pair| pair[1].0 - pair[0].0).collect();
@@ -161,7 +160,7 @@ impl Lag {
             .iter()
             .filter_map(|stream| Some(stream.last()?.0 - stream.first()?.0));
         let longest = OF_RECORDING * spans.sum::<f64>();
-        // As far as three quarters of the samples have a partner.
+        // Up to where three quarters of the samples have a partner.
         let furthest = (1..=FURTHEST).take_while(|shift| {
             #[expect(clippy::cast_precision_loss, reason = "at most 60 steps")]
             let is_near = *shift as f64 * step <= longest;
@@ -171,7 +170,7 @@ impl Lag {
             is_near && (count - partners.sum::<usize>()) * SHARE <= count
         });
         let furthest = i64::try_from(furthest.count()).ok()?;
-        // Of lags that are as good the nearest.
+        // The nearest among equal lags.
         let mut lags: Vec<i64> = (-furthest..=furthest).collect();
         lags.sort_by_key(|lag| lag.abs());
         let mut best = (0, at(0));
@@ -192,7 +191,7 @@ impl Lag {
     }
 }
 
-/// Pearson's correlation; 0 where one of them does not vary.
+/// Pearson's correlation; 0 if one of them does not vary.
 pub(super) fn correlation(
     first: impl Iterator<Item = f64> + Clone,
     second: impl Iterator<Item = f64> + Clone,
@@ -210,7 +209,7 @@ pub(super) fn correlation(
         one += first * first;
         other += second * second;
     }
-    // What rounding leaves of a series that does not vary is no variation.
+    // Rounding residue of a constant series is no variation.
     let varies = |squares: f64, mean: f64| squares > VARIES * count * mean * mean;
     match varies(one, mean[0]) && varies(other, mean[1]) {
         true => both / (one * other).sqrt(),

@@ -12,13 +12,13 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Interquartile ranges beyond the quartiles where Tukey's outer fences stand.
+/// Distance of Tukey's outer fences from the quartiles, in interquartile ranges.
 const FENCE: f64 = 3.0;
-/// How wide the gap below outliers is at least, of how far the next label is from the quartile.
+/// Minimum gap below outliers, as a share of the distance from the quartile to the label below the gap.
 const GAP: f64 = 0.5;
-/// More than one in so many labels are no outliers but a group.
+/// Outliers are at most one in this many labels; more form a group.
 const MOST: usize = 20;
-/// Values below which quartiles say nothing.
+/// Minimum number of values for quartiles.
 const LEAST: usize = 20;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -50,18 +50,18 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Values that stand apart above all others.
+/// Values far above all others.
 struct Outliers {
-    /// Their rows, that of the least first.
+    /// Their rows, ordered by value.
     rows: Vec<usize>,
-    /// The least of them.
+    /// The least outlier.
     least: f64,
-    /// The greatest of all others.
+    /// The greatest other value.
     next: f64,
 }
 
-/// The values above Tukey's outer fence and above a gap wider than the interquartile range and than [`GAP`] times the tail below it: most presses
-/// without shear and a few with much have a narrow range and a long tail, in which no label stands apart.
+/// Outliers above Tukey's outer fence and above a gap wider than the interquartile range and than [`GAP`] times the tail below it. If most
+/// presses have no shear and a few have much, the range is narrow and the tail long, and no label is far from the others.
 fn above(mut values: Vec<(f64, usize)>) -> Option<Outliers> {
     if values.len() < LEAST {
         return None;
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn a_long_tail_beside_a_narrow_middle_has_no_outliers_and_a_label_far_beyond_it_is_one() {
-        // Three quarters of the presses shear nothing, the others up to 0.6 N, with gaps wider than the middle.
+        // Three quarters of the presses have no shear, the others up to 0.6 N, with gaps wider than the middle.
         let still = (0..75).map(|row| f64::from(row) * 1e-5);
         let sheared = (1..=25).map(|row| 0.024 * f64::from(row));
         let values: Vec<(f64, usize)> = still.chain(sheared).zip(0..).collect();

@@ -1,4 +1,4 @@
-//! TAC007: test samples that the model has as good as seen.
+//! TAC007: test samples that the model has nearly seen in training.
 
 use std::collections::BTreeSet;
 

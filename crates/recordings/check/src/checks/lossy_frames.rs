@@ -1,4 +1,4 @@
-//! TAC026: frames whose pixels depend on who decodes them.
+//! TAC026: frames whose pixels depend on the decoder.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};

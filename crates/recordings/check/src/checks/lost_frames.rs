@@ -1,4 +1,4 @@
-//! TAC015: frames of a stream that came and are not in its recording.
+//! TAC015: frames that the stream delivered but the recording lacks.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};

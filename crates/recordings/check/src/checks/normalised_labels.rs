@@ -1,4 +1,4 @@
-//! TAC040: labels that were scaled to 0 … 1, or to −1 … 1, and are said to be newtons or millimetres.
+//! TAC040: labels that were scaled to 0 … 1, or to −1 … 1, but are declared as newtons or millimetres.
 
 use taceva_core::{Channel, Unit};
 
@@ -14,11 +14,11 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Different values below which ends say nothing.
+/// Minimum number of different values for a range.
 const VALUES: usize = 10;
-/// Distance from an end of a label that was rounded to binary32.
+/// Tolerance at an end for labels rounded to binary32.
 const ROUNDING: f64 = 1e-6;
-/// One channel alone may end there by chance of its levels; so many do not.
+/// Minimum channels with such a range: a single one may have it by chance.
 const CHANNELS: usize = 2;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -43,7 +43,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             .filter(|(_, [least, greatest])| near(*least, low) && near(*greatest, 1.0))
             .map(|(channel, _)| channel.name())
             .collect();
-        // A lone channel is convincing where it is all there is.
+        // A single channel is convincing if it is the only one.
         let enough = scaled.len() >= CHANNELS || (scaled.len() == 1 && ends.len() == 1);
         if enough {
             let message = format!(
@@ -70,7 +70,7 @@ fn units(ends: &[(&Channel, [f64; 2])], names: &[&str]) -> String {
     units.join(" and ")
 }
 
-/// The least and the greatest label; `None` of few different ones.
+/// The least and the greatest label; `None` for few different values.
 fn ends(evidence: &Evidence<'_>, position: usize) -> Option<[f64; 2]> {
     let column = evidence.table.truth(position);
     let mut values: Vec<f64> = (0..column.len())

@@ -1,4 +1,4 @@
-//! TAC021: what was there when a recording was imported, and is not in it.
+//! TAC021: data of an imported folder that is not in the recording.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Names that a message lists.
+/// Maximum names that a message lists.
 const NAMED: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -83,7 +83,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect()
 }
 
-/// The names with their counts, the first few.
+/// The first names, with their counts.
 fn named(counts: &BTreeMap<String, u64>) -> String {
     let some = counts.iter().take(NAMED);
     let some = some.map(|(name, count)| format!("{} {count}", shown(name)));

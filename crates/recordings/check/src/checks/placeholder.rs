@@ -1,4 +1,4 @@
-//! TAC005: zeros that stand for "not measured".
+//! TAC005: zeros that mean "not measured".
 
 use taceva_core::Unit;
 

@@ -14,7 +14,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Samples below which a rank correlation says nothing.
+/// Minimum number of samples for a rank correlation.
 const LEAST: usize = 10;
 /// Rank correlation of load and distance below which the reference is suspected; for a true one it is clearly positive.
 pub(super) const SUSPECT: f64 = -0.3;
@@ -43,7 +43,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![Found::overall(Severity::Warning, message)]
 }
 
-/// Spearman's rank correlation, ties by their order.
+/// Spearman's rank correlation; ties are ranked by their order.
 pub(super) fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
     let ranks = |values: Vec<f64>| -> Vec<usize> {
         let mut order: Vec<usize> = (0..values.len()).collect();

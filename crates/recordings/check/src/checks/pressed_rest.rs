@@ -1,4 +1,4 @@
-//! TAC018: rows that are said to be without contact, and are not.
+//! TAC018: rows that are declared as without contact but have contact.
 
 use taceva_core::Field;
 
@@ -16,9 +16,9 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// The share of the greatest load above which a row counts as pressed.
+/// Share of the greatest load above which a row counts as pressed.
 const SHARE: f64 = 0.1;
-/// Samples below which a rank correlation says nothing.
+/// Minimum number of samples for a rank correlation.
 const LEAST: usize = 10;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -34,7 +34,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     .collect()
 }
 
-/// Rows without contact by what the map says, and with it by their label.
+/// Finds rows without contact by the map but with a load by their label.
 fn loaded(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<Found> {
     let column = evidence.table.truth(load);
     let all = (0..column.len()).filter_map(|row| column.get(row));
@@ -60,7 +60,7 @@ fn loaded(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<F
     ))
 }
 
-/// A mean of rest that is nearer to samples of more load.
+/// Finds a mean of rest that is nearer to samples of more load.
 fn resembling(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<Found> {
     let column = evidence.table.truth(load);
     let rows = facts.distance.iter().enumerate();

@@ -1,4 +1,4 @@
-//! TAC036: labels that were joined by times that repeat: whole seconds, or a clock that did not run.
+//! TAC036: labels joined by repeated times: whole seconds, or a stopped clock.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! TAC004: pixels at full scale, where light can rise and the number cannot.
+//! TAC004: saturated pixels, at full scale.
 
 use taceva_core::Field;
 
@@ -14,9 +14,9 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Share of a frame's numbers at full scale that is worth a word.
+/// Share of a frame's values at full scale from which it is reported.
 const SHARE: f64 = 0.02;
-/// A frame in which so many numbers are either zero or full was made black and white on purpose.
+/// Share of zero or full values from which a frame was binarised on purpose.
 const BINARISED: f64 = 0.98;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

@@ -1,4 +1,4 @@
-//! TAC012: the facts that labs forget to write down.
+//! TAC012: sensor facts that labs often omit.
 
 use taceva_core::Clock;
 

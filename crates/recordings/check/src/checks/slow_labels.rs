@@ -1,4 +1,4 @@
-//! TAC037: labels of a slow table that serve many pictures each.
+//! TAC037: labels of a slow table that apply to many pictures each.
 
 use std::collections::BTreeMap;
 
@@ -18,15 +18,15 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Stretches of one label below which their length says nothing.
+/// Minimum number of stretches for their length.
 const LEAST: usize = 5;
-/// A stretch serves so many rows in the middle of all, and nine in ten are at most so many times as long: held levels are not alike.
+/// Median length of a stretch, rows, and the factor that nine in ten stretches stay below: levels held on purpose vary more.
 const ROWS: usize = 2;
 const ALIKE: usize = 2;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let (header, table) = (evidence.header, evidence.table);
-    // Of rows without times of their own nothing can be interpolated, and TAC036 says so.
+    // Rows with repeated times cannot be interpolated; TAC036 reports them.
     if repeated(table).is_some() {
         return Vec::new();
     }
@@ -35,7 +35,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     held.filter_map(|join| of_join(evidence, join)).collect()
 }
 
-/// The labels that one joined table gives.
+/// Checks the labels of one joined table.
 fn of_join(evidence: &Evidence<'_>, join: &MappedJoin) -> Option<Found> {
     let table = evidence.table;
     let prefix = format!("{}.", join.name);
@@ -77,16 +77,16 @@ fn of_join(evidence: &Evidence<'_>, join: &MappedJoin) -> Option<Found> {
     Some(Found::overall(Severity::Warning, message))
 }
 
-/// Rows on end with one label, clock by clock.
+/// Consecutive rows with one label, clock by clock.
 struct Stretches {
     all: Vec<Vec<usize>>,
-    /// Rows in all of them.
+    /// Total number of rows.
     rows: usize,
     times: Vec<Option<f64>>,
 }
 
 impl Stretches {
-    /// The stretches of the labels of `channels`; `None` where most rows have a label of their own, or where levels were held.
+    /// The stretches of the labels of `channels`; `None` if most rows have their own label, or levels were held on purpose.
     fn of(table: &Table, channels: &[(usize, &Channel)]) -> Option<Stretches> {
         let times = table.t_s();
         let label = |row: usize| -> Option<Vec<u64>> {
@@ -114,7 +114,7 @@ impl Stretches {
             stretch.push(row);
         }
         all.extend(open.into_values().map(|(_, stretch)| stretch));
-        // What is zero on end is not measured, or at rest.
+        // Continuous zeros are not measured, or at rest.
         let is_zero = |row: usize| {
             let mut values = channels.iter();
             values.all(|(position, _)| {
@@ -146,7 +146,7 @@ impl Stretches {
         self.times[row].unwrap_or_default()
     }
 
-    /// Greatest age of a label, s: half of a stretch for `nearest`, all of it for `before`.
+    /// Greatest age of a label, s: half a stretch for `nearest`, a whole one for `before`.
     fn oldest_s(&self, pick: Option<&str>) -> f64 {
         let spans = self.all.iter().map(|stretch| {
             let (first, last) = (stretch[0], stretch[stretch.len() - 1]);

@@ -1,4 +1,4 @@
-//! TAC009: a channel that never changes, and a force that stands still or ends at a limit.
+//! TAC009: a constant channel, and a force that freezes or is cut at a limit.
 
 use taceva_core::{Channel, Unit};
 
@@ -14,18 +14,18 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// A force that stands still does so in at least so many samples on end, and in one of so many.
+/// Minimum length of a frozen stretch: a number of samples, and one in `STILL_SHARE` of all.
 const STILL: usize = 20;
 const STILL_SHARE: usize = 10;
-/// Steps beside those, of which at most one in so many is to the same value: what is held from sample to sample anyway is not stuck.
+/// Minimum steps outside the stretch, of which at most one in `HELD` repeats its value: a channel that is often held is not stuck.
 const BESIDE: usize = 10;
 const HELD: usize = 10;
-/// At most one in so many of the pictures of those samples is the one before it once more: where pictures stand still too, the recording does.
+/// At most one in this many pictures of the stretch repeats the previous one: if pictures freeze too, the recording does.
 const SAME_PICTURES: usize = 10;
-/// A force that is cut has its end in at least so many samples, and in one of so many,
+/// Minimum samples at the limit of a cut force: a number, and one in `CUT_SHARE` of all.
 const CUT: usize = 10;
 const CUT_SHARE: usize = 20;
-/// more than so many times as often as any other value, of which there are so many at least: levels that somebody set are no limit.
+/// The limit occurs this many times as often as any other of at least `VALUES` values: commanded levels are no limit.
 const TIMES: usize = 3;
 const VALUES: usize = 20;
 
@@ -40,7 +40,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
                 let message = format!("{channel} is {value} {} in every sample", channel.unit());
                 return Some(Found::overall(Severity::Warning, message));
             }
-            // Places and angles are commanded, and may well be held.
+            // Positions and angles are commanded, and may be held.
             if !matches!(channel.unit(), Unit::Newton | Unit::NewtonMillimetre) {
                 return None;
             }
@@ -49,7 +49,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect()
 }
 
-/// The value of every sample, of two or more.
+/// The common value of all samples, if there are at least two.
 fn only_value(labels: &[(usize, f64)]) -> Option<f64> {
     let (first, others) = labels.split_first()?;
     let is_only = !others.is_empty() && others.iter().all(|label| is_same(label, first));
@@ -60,10 +60,10 @@ fn is_same(one: &(usize, f64), other: &(usize, f64)) -> bool {
     one.1.to_bits() == other.1.to_bits()
 }
 
-/// A force that stands still while the pictures do not.
+/// Finds a force that freezes while the pictures change.
 fn still(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> Option<Found> {
     let runs = labels.chunk_by(is_same);
-    // A force that is not measured is zero on end.
+    // A force that is not measured is zero throughout.
     let runs = runs.filter(|run| run[0].1.abs() > 0.0);
     let longest = runs.max_by_key(|run| run.len())?;
     let held = labels.windows(2).filter(|pair| is_same(&pair[0], &pair[1]));
@@ -96,7 +96,7 @@ fn still(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) ->
     Some(Found::about(Severity::Warning, message, names))
 }
 
-/// A force that is cut at its greatest or least value, away from zero: at rest a least number is none.
+/// Finds a force that is cut at its greatest or least value, away from zero, which is normal at rest.
 fn cut(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> Option<Found> {
     let mut sorted = labels.to_vec();
     sorted.retain(|(_, value)| value.abs() > 0.0);

@@ -14,9 +14,9 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Samples below which a number that stays says nothing.
+/// Minimum number of samples for a constant value to count.
 const LEAST: u64 = 10;
-/// Taxels named in a message; the rest are counted.
+/// Maximum taxels named in a message; the rest are counted.
 const NAMED: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

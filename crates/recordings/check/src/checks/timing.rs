@@ -1,4 +1,4 @@
-//! TAC008: the true rate, and times that cannot be.
+//! TAC008: the true rate, and impossible times.
 
 use super::dropped_frames::{Missing, missing};
 use crate::evidence::Evidence;
@@ -14,14 +14,14 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Samples below which a rate says nothing.
+/// Minimum number of samples for a rate.
 const LEAST: usize = 10;
-/// The longest median step, in s, of frames that are a stream; the metric `intrinsic` has the same limit.
+/// Maximum median step of a stream, s; the metric `intrinsic` has the same limit.
 const STREAM_S: f64 = 1.0;
-/// A step of more than so many usual steps is a gap, and how far rounding takes one of just so many above that.
+/// Length above which a step is a gap, in usual steps, with a tolerance for rounding.
 const GAP: f64 = 3.0;
 const ROUNDING: f64 = 1e-6;
-/// How far, as a share, the mean of the other steps is from the usual one where they are alike.
+/// Maximum relative difference of the mean of the other steps from the usual one in a regular stream.
 const ALIKE: f64 = 0.05;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -33,13 +33,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     if timed.len() < LEAST {
         return Vec::new();
     }
-    // Another unit of the sensor is another recording, whose clock begins anew.
+    // Another unit of the sensor is another recording with its own clock.
     let steps: Vec<(usize, f64)> = by_clock(table, timed.iter().copied())
         .into_iter()
         .filter_map(|(before, row)| Some((row, times[row]? - times[before]?)))
         .collect();
     let mut found = Vec::new();
-    // Between presses there is no rate, and nothing to say of one.
+    // There is no rate between presses.
     if !is_of_presses(evidence) {
         found.push(rate(&steps, missing(evidence).as_ref()));
     }
@@ -70,7 +70,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     if let Some(sessions) = evidence.sessions {
         found.push(Found::overall(Severity::Note, sessions.note.clone()));
     }
-    // The clock of a machine begins anew with every boot.
+    // The clock of a machine restarts with every boot.
     let boots = evidence.sessions.map_or(1, |sessions| sessions.boots);
     if backwards.len() >= boots {
         found.push(warn(
@@ -93,7 +93,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// The usual step is the median of the forward steps: pauses between presses do not move it.
+/// The usual step is the median of the forward steps, so that pauses between presses do not change it.
 fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
     let mut forward: Vec<f64> = steps.iter().map(|(_, seconds)| *seconds).collect();
     forward.retain(|seconds| *seconds > 0.0);

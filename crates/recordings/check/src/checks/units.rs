@@ -1,4 +1,4 @@
-//! TAC001: labels whose size contradicts the unit they are declared in.
+//! TAC001: labels whose magnitude contradicts their declared unit.
 
 use taceva_import::magnitude_suspicion;
 

@@ -1,4 +1,4 @@
-//! TAC014: columns of the imported table that were left behind, above all those that rate their rows.
+//! TAC014: columns of the imported table that were not used, above all those that rate their rows.
 
 use taceva_core::shown;
 use taceva_dataset::names_quality;
@@ -15,7 +15,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Columns that a note names.
+/// Maximum columns that a note names.
 const NAMED: usize = 12;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -42,7 +42,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// What a column is that may rate its rows, and the line of the map that would use it.
+/// Note on a column that may rate its rows, with the map entry that would use it.
 fn unread(name: &str) -> String {
     let name = shown(name);
     format!(

@@ -1,4 +1,4 @@
-//! TAC035: a transducer whose zero moves: pictures without contact carry forces that step or drift.
+//! TAC035: a drifting zero of the transducer: forces of pictures without contact step or drift.
 
 use taceva_core::{Channel, Field, Unit};
 
@@ -15,14 +15,14 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Samples on each side of a step, and on a drift.
+/// Minimum number of samples on each side of a step, and in total.
 const SIDE: usize = 4;
 const LEAST: usize = 8;
-/// A shift is at least this share of what 95 % of the labels stay below,
+/// Minimum shift as a share of the 95th percentile of the labels.
 const SHARE: f64 = 0.02;
-/// and so many of its own standard errors, which are many because the place of a step is sought.
+/// Minimum shift in its own standard errors; large because the position of a step is searched.
 const CLEAR: f64 = 6.0;
-/// Rounding of labels with few decimals, as a share of the greatest, that is no scatter.
+/// Rounding of labels with few decimals, as a share of the greatest; it is no scatter.
 const ROUNDING: f64 = 1e-4;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -108,21 +108,21 @@ fn first_time(evidence: &Evidence<'_>) -> f64 {
     times.copied().fold(f64::INFINITY, f64::min)
 }
 
-/// The step that leaves the least scatter.
+/// The step with the least residual scatter.
 #[derive(Clone, Copy, Debug)]
 struct Step {
-    /// The first value behind it.
+    /// Index of the first value after it.
     at: usize,
     before: f64,
     after: f64,
     /// Standard error of the difference of both means.
     error: f64,
-    /// Sum of squares that it leaves.
+    /// Residual sum of squares.
     residual: f64,
 }
 
 impl Step {
-    /// The step of `values` in their order; `least` is the scatter that rounding alone gives.
+    /// The best step of `values` in order; `least` is the scatter by rounding alone.
     fn of(values: &[f64], least: f64) -> Option<Step> {
         let mut sums = vec![(0.0, 0.0)];
         for value in values {
@@ -155,7 +155,7 @@ impl Step {
 /// The straight line through the values.
 #[derive(Clone, Copy, Debug)]
 struct Drift {
-    /// Rise from the first time to the last.
+    /// Change from the first time to the last.
     change: f64,
     error: f64,
     residual: f64,

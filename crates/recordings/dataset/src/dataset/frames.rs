@@ -1,4 +1,4 @@
-//! Frames of a dataset: read, verified and decoded when asked for.
+//! Frames of a dataset: read, verified and decoded on request.
 
 use std::sync::{Arc, PoisonError};
 
@@ -20,7 +20,7 @@ impl Dataset {
     /// The frame of a row, verified and decoded; `None` if the row has none.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if its file is not the one recorded; [`DatasetError::Image`] if it does not decode;
+    /// [`DatasetError::Digest`] if its file differs from the recorded one; [`DatasetError::Image`] if it cannot be decoded;
     /// [`DatasetError::Request`] if there is no such row; [`DatasetError::View`] if rows have several pictures and no view was named;
     /// [`DatasetError::Io`].
     pub fn frame(&self, row: usize) -> Result<Option<Frame>, DatasetError> {
@@ -38,12 +38,12 @@ impl Dataset {
         }
     }
 
-    /// What is wrong inside the picture of a row although it decodes, in words; `None` if nothing is, or the row has no frame.
+    /// Message about damage inside the picture of a row although it decodes; `None` if it is intact, or the row has no frame.
     ///
-    /// A JPEG is read to its end, code by code. Imports refuse what is found so; datasets of before they did may hold it.
+    /// A JPEG is read to its end, code by code. Imports reject such damage, but older datasets may contain it.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if its file is not the one recorded; [`DatasetError::Request`] if there is no such row;
+    /// [`DatasetError::Digest`] if its file differs from the recorded one; [`DatasetError::Request`] if there is no such row;
     /// [`DatasetError::Io`].
     pub fn damage_inside(&self, row: usize) -> Result<Option<String>, DatasetError> {
         self.check_row(row)?;
@@ -64,7 +64,7 @@ impl Dataset {
         Ok(None)
     }
 
-    /// The frame without contact, if the lab knew one; of joined recordings none, because each has its own.
+    /// The frame without contact, if known; `None` for joined recordings, because each has its own.
     ///
     /// # Errors
     /// As [`frame`](Dataset::frame).
@@ -80,7 +80,7 @@ impl Dataset {
         frame.transpose()
     }
 
-    /// The bytes of the picture without contact as they were recorded, verified; of views side by side there are none.
+    /// The original bytes of the picture without contact, verified; `None` for views side by side.
     pub fn reference_bytes(&self) -> Result<Option<Vec<u8>>, DatasetError> {
         let entry = self.reference_entry();
         entry.map(|entry| self.frame_bytes(&entry)).transpose()
@@ -116,10 +116,10 @@ impl Dataset {
         Ok(frame)
     }
 
-    /// The bytes of a frame as they were recorded, verified.
+    /// The original bytes of a frame, verified.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if they are not those recorded; [`DatasetError::Io`].
+    /// [`DatasetError::Digest`] if they differ from the recorded ones; [`DatasetError::Io`].
     pub fn frame_bytes(&self, entry: &FrameEntry) -> Result<Vec<u8>, DatasetError> {
         if let Some((recording, entry)) = self.entry_of(entry) {
             return recording.frame_bytes(&entry);
@@ -150,7 +150,7 @@ impl Dataset {
         })
     }
 
-    /// The same decoded, once a pack.
+    /// The first frame of a pack, decoded once for each pack.
     fn first_of_pack(
         &self,
         entry: &FrameEntry,
@@ -166,7 +166,7 @@ impl Dataset {
     }
 
     pub(super) fn reference_entry(&self) -> Option<FrameEntry> {
-        // Of views side by side no file is the picture.
+        // Views side by side have no single file.
         if !self.joined.is_empty() || self.seen.len() > 1 {
             return None;
         }

@@ -8,7 +8,7 @@ use super::Dataset;
 use crate::error::DatasetError;
 use crate::parallel::ordered_map;
 
-/// Which rows a pass goes through, in which order, on how many threads, and what receives its progress.
+/// Rows of a pass in order, with its threads and its progress receiver.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -45,11 +45,11 @@ use crate::parallel::ordered_map;
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct Pass<'a> {
-    /// The rows, from 0, in the order in which they are wanted.
+    /// The rows, from 0, in the order of the pass.
     pub rows: &'a [usize],
     /// Threads that read and decode.
     pub jobs: NonZeroUsize,
-    /// Receives each row that is done, and may cancel the pass.
+    /// Receives each finished row, and may cancel the pass.
     pub progress: &'a dyn Progress,
 }
 
@@ -64,7 +64,7 @@ impl<'a> Pass<'a> {
     }
 }
 
-/// What a pass over samples did.
+/// Counts of a pass over samples.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -106,20 +106,20 @@ impl<'a> Pass<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct StreamReport {
-    /// Samples handed to the sink.
+    /// Samples given to the sink.
     pub samples: u64,
-    /// Frames that were read and decoded: none, if the sink reads none.
+    /// Frames that were read and decoded; 0 if the sink reads none.
     pub frames_decoded: u64,
 }
 
 impl Dataset {
-    /// Decodes the frame of each row, calls `work` with it on one of the threads and `take` with the results, in order, on this one.
+    /// Decodes the frame of each row, calls `work` with it on one of the threads, and `take` with the results in order on this one.
     ///
-    /// At most a few frames a thread are in memory. The outcome does not depend on the number of threads.
+    /// Memory holds at most a few frames for each thread. The result does not depend on the number of threads.
     ///
     /// # Errors
-    /// Those of [`frame`](Dataset::frame), for the first row in order that has one; [`DatasetError::Request`] if a row has no
-    /// frame; [`DatasetError::Sink`] if `take` refuses; [`DatasetError::Cancelled`].
+    /// Those of [`frame`](Dataset::frame), for the first row in order that has one; [`DatasetError::Request`] if a row has no frame;
+    /// [`DatasetError::Sink`] if `take` fails; [`DatasetError::Cancelled`].
     pub fn map_frames<T: Send>(
         &self,
         pass: Pass<'_>,
@@ -138,8 +138,8 @@ impl Dataset {
         })
     }
 
-    /// Calls `work` with each row on one of the threads and `take` with the results, in order, on this one; `stage` names the work
-    /// where its progress is reported.
+    /// Calls `work` with each row on one of the threads, and `take` with the results in order on this one; `stage` names the work in
+    /// progress reports.
     ///
     /// # Errors
     /// Those of `work` and `take`, for the first row in order that has one; [`DatasetError::Cancelled`].
@@ -156,7 +156,7 @@ impl Dataset {
     /// Pushes the sample of each row into `sink`, in order; frames are decoded and signals read only if the sink reads them.
     ///
     /// # Errors
-    /// Those of [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink refuses a sample; [`DatasetError::Cancelled`].
+    /// Those of [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink rejects a sample; [`DatasetError::Cancelled`].
     pub fn stream(
         &self,
         pass: Pass<'_>,
@@ -178,7 +178,7 @@ impl Dataset {
             };
             Ok((frame, signals))
         };
-        // Without frames there is nothing to share among threads.
+        // Without frames there is no work to share among threads.
         let jobs = if wants_frames {
             pass.jobs
         } else {

@@ -1,4 +1,4 @@
-//! Signals of a dataset: their file is opened and verified when the first row of them is asked for.
+//! Signals of a dataset: their file is opened and verified on the first request.
 
 use std::sync::{Arc, PoisonError};
 
@@ -10,7 +10,7 @@ use crate::layout;
 use crate::signals::SignalsReader;
 
 impl Dataset {
-    /// The fields that at least one sample carries: those of the table, and signals, which are beside it.
+    /// The fields of at least one sample: those of the table, and signals, which have their own file.
     pub fn fields(&self) -> FieldSet {
         let fields = self.table.fields();
         match self.header.signals {
@@ -19,10 +19,10 @@ impl Dataset {
         }
     }
 
-    /// The signals of a row; `None` if the recording has none. The first row that is asked for has their whole file verified.
+    /// The signals of a row; `None` if the recording has none. The first request verifies their whole file.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if the file is not the one recorded, [`DatasetError::Damaged`] if it is not what its header says;
+    /// [`DatasetError::Digest`] if the file differs from the recorded one, [`DatasetError::Damaged`] if it contradicts its header;
     /// [`DatasetError::Request`] if there is no such row; [`DatasetError::Io`].
     pub fn signals(&self, row: usize) -> Result<Option<Signals>, DatasetError> {
         self.check_row(row)?;
@@ -35,7 +35,7 @@ impl Dataset {
         }
     }
 
-    /// The signals without contact: the mean over the rows that are known to be without contact; `None` if there is no such row, and of joined
+    /// The signals without contact: the mean over the rows marked as without contact. `None` if there is no such row, and for joined
     /// recordings, because each has its own.
     ///
     /// # Errors
@@ -70,11 +70,11 @@ impl Dataset {
         })
     }
 
-    /// The rows that are known to be without contact, by their taxels.
+    /// The rows marked as without contact, by their taxels.
     pub fn rest_rows(&self) -> impl Iterator<Item = usize> + '_ {
         let info = self.header.signals.iter();
         let runs = info.flat_map(|info| &info.spec.rest);
-        // Of a header that was not compared with the file yet a run may reach beyond the rows.
+        // The header is not compared with the file yet, so a run may reach beyond the rows.
         let rows = self.table.rows();
         runs.flat_map(move |[first, last]| {
             let bound = |row: u64| usize::try_from(row).unwrap_or(rows).min(rows);
@@ -82,7 +82,7 @@ impl Dataset {
         })
     }
 
-    /// Reads all signals and checks that they are those recorded.
+    /// Reads all signals and compares them with the recorded ones.
     pub(super) fn verify_signals(&self) -> Result<(), DatasetError> {
         match self.signals_reader()? {
             Some(reader) => reader.verify(),

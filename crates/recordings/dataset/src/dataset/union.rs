@@ -1,4 +1,4 @@
-//! Several recordings of one kind of sensor, read as one: their labels stand in one table, their frames and signals where they are.
+//! Several recordings of one kind of sensor read as one: one table of labels, with frames and signals in their original files.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
@@ -19,10 +19,10 @@ mod agreement;
 use agreement::differences;
 pub use agreement::{Difference, differences_of_added};
 
-/// Separates the name of a recording from the name of a sample, a contact point or a frame in it; no name of a recording contains it.
+/// Separator between the name of a recording and that of a sample, a contact point or a frame in it; no name of a recording contains it.
 const SEPARATOR: char = '/';
 
-/// One of the recordings that [`Dataset::joined`] read as one.
+/// A recording within [`Dataset::joined`].
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
@@ -53,7 +53,7 @@ pub struct JoinedRecording {
 }
 
 impl JoinedRecording {
-    /// The name of its folder; of several with one name the second is `NAME#2`.
+    /// Name of its folder; the second of one name is `NAME#2`.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -63,22 +63,22 @@ impl JoinedRecording {
         self.rows.clone()
     }
 
-    /// The recording itself, whose rows begin at 0.
+    /// The recording itself, with rows from 0.
     pub fn dataset(&self) -> &Dataset {
         &self.dataset
     }
 }
 
 impl Dataset {
-    /// `recordings` as one, in their order; a single one is returned as it is.
+    /// Joins `recordings` in their order; a single one is returned unchanged.
     ///
-    /// Samples and contact points carry the name of their recording in front (`monday/p3`), so that those of different recordings never merge.
-    /// Frames and signals are read from where they are; nothing is copied but labels. The digest is a function of the digests in their order.
-    /// Gel, serial number, camera settings, attributes, pictures without contact and clocks may differ from recording to recording.
+    /// Samples and contact points are prefixed with the name of their recording (`monday/p3`), so that those of different recordings never
+    /// merge. Frames and signals are read from their original files; only labels are copied. The digest is a function of the digests in
+    /// order. Gel, serial number, camera settings, attributes, pictures without contact and clocks may differ between recordings.
     ///
     /// # Errors
-    /// [`DatasetError::Unlike`] naming two recordings that hold the same samples, or differ in source, sensor model, opacity, footprint,
-    /// channels, their units, or the kind and size of frames or signals; [`DatasetError::Request`] for no recording.
+    /// [`DatasetError::Unlike`] for two recordings that share samples, or differ in source, sensor model, opacity, footprint, channels,
+    /// their units, or the kind and size of frames or signals; [`DatasetError::Request`] for no recording.
     pub fn joined(recordings: Vec<Dataset>) -> Result<Dataset, DatasetError> {
         let mut recordings = recordings;
         if recordings.len() < 2 {
@@ -117,19 +117,19 @@ impl Dataset {
         })
     }
 
-    /// The recordings that were joined, in the order of their rows; none where this is one recording.
+    /// The joined recordings, in the order of their rows; empty for a single recording.
     pub fn recordings(&self) -> &[JoinedRecording] {
         &self.joined
     }
 
-    /// The recording that holds `row`, and which of its rows that is; `None` where this is one recording.
+    /// The recording that contains `row`, and the row in it; `None` for a single recording.
     pub fn recording_of(&self, row: usize) -> Option<(&Dataset, usize)> {
         let at = self.joined.partition_point(|own| own.rows.end <= row);
         let own = self.joined.get(at)?;
         Some((&own.dataset, row - own.rows.start))
     }
 
-    /// The recording that the frame at `entry` belongs to, and the entry of the frame in that recording.
+    /// The recording of the frame at `entry`, and the entry in that recording.
     pub(super) fn entry_of(&self, entry: &FrameEntry) -> Option<(&Dataset, FrameEntry)> {
         let (name, path) = entry.path.split_once(SEPARATOR)?;
         let own = self.joined.iter().find(|own| own.name == name)?;
@@ -141,7 +141,7 @@ impl Dataset {
     }
 }
 
-/// Refuses a recording that comes twice: by its path, by its content, or as a part of one that was extended since.
+/// Rejects a recording that occurs twice: by its path, by its content, or as an earlier state of an extended one.
 fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
     let place = |dataset: &Dataset| dataset.path().canonicalize().ok();
     for (at, other) in recordings.iter().enumerate() {
@@ -162,14 +162,14 @@ fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
     check_no_overlap(recordings)
 }
 
-/// The digest of a frame, and its labels by the names of their channels, bit for bit.
+/// The digest of a frame, and its labels by channel name, bit for bit.
 type Shared = (Digest, Vec<Option<u64>>);
 
-/// So many different pictures that two recordings share under other labels are no chance: no camera takes a picture twice.
+/// Number of different pictures shared under other labels from which two recordings overlap: no camera takes a picture twice.
 const SAME_PICTURES: usize = 3;
 
-/// Refuses recordings that share a sample: the bytes of a frame and all of its labels; or some pictures under other labels, as two imports of one
-/// recording do. One would be learnt and the other tested.
+/// Rejects recordings that share a sample: the bytes of a frame and all of its labels, or some pictures under other labels, as two imports
+/// of one recording do. One would be learnt and the other tested.
 fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
     let mut known: HashMap<Shared, (usize, usize)> = HashMap::new();
     let mut pictures: HashMap<Digest, (usize, usize)> = HashMap::new();
@@ -237,7 +237,7 @@ fn unlike(one: &Dataset, other: &Dataset, problem: String) -> DatasetError {
     }
 }
 
-/// The names of the folders at `paths`, made distinct by a number.
+/// The names of the folders at `paths`, with a number if not unique.
 fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
     let mut taken: Vec<String> = Vec::new();
     for path in paths {
@@ -252,7 +252,7 @@ fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
     taken
 }
 
-/// The labels of all, each sample, contact point and frame called by its recording first.
+/// The labels of all recordings; names of samples, contact points and frames are prefixed with their recording.
 fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
     let attributes = recordings
         .iter()
@@ -282,7 +282,7 @@ fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
     table
 }
 
-/// The header of all of them. Where they differ, the clock is unknown, and serial number and gel are `several`.
+/// The joint header. If they differ, the clock is unknown, and serial number and gel are `several`.
 fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 of several recordings");

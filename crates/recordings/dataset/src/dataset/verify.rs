@@ -1,4 +1,4 @@
-//! Whether the files of a dataset are those that its header describes.
+//! Comparison of the files of a dataset with its header.
 
 use std::io::{Seek, SeekFrom};
 use std::path::Path;
@@ -15,10 +15,10 @@ use crate::samples::from_parquet;
 use crate::table::{FrameEntry, Table};
 
 impl Dataset {
-    /// Reads every frame, and the one without contact, all signals and predictions, and checks that they are those recorded; no frame is decoded.
+    /// Reads all frames, signals and predictions, and compares them with the recorded digests; decodes no frame.
     ///
     /// # Errors
-    /// As [`frame_bytes`](Dataset::frame_bytes), for the first that is not.
+    /// As [`frame_bytes`](Dataset::frame_bytes), for the first that differs.
     pub fn verify_frames(&self) -> Result<(), DatasetError> {
         if !self.joined.is_empty() {
             let mut joined = self.joined.iter();
@@ -38,7 +38,7 @@ impl Dataset {
         self.verify_signals()
     }
 
-    /// Checks that the table of predictions beside the recording, if there is one, is as it was written.
+    /// Checks that the table of predictions beside the recording, if there is one, is unchanged.
     fn verify_predictions(&self) -> Result<(), DatasetError> {
         let Some(predictions) = &self.header.predictions else {
             return Ok(());
@@ -49,7 +49,7 @@ impl Dataset {
         check_digest(path, predictions.sha256, found)
     }
 
-    /// Whether header and table agree. Paths are checked here once, so that reading a frame only joins them.
+    /// Checks that header and table agree. Paths are checked here once, so that reading a frame only joins them.
     pub(super) fn check_consistency(&self) -> Result<(), DatasetError> {
         let damaged = |name: &str, problem: String| DatasetError::Damaged {
             path: self.path().join(name),

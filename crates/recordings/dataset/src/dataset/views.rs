@@ -1,4 +1,4 @@
-//! Datasets whose samples have several pictures each, seen by one view or by several side by side.
+//! Datasets with several pictures for each sample, seen in one view or in several side by side.
 
 use std::sync::Mutex;
 
@@ -12,7 +12,7 @@ use crate::table::{FrameEntry, digest_of};
 use crate::view_names::BESIDE;
 
 impl Dataset {
-    /// The names of the views, in the order in which `dataset.toml` lists them; none where a sample has one picture at most.
+    /// The names of the views, in the order of `dataset.toml`; empty if a sample has at most one picture.
     pub fn views(&self) -> Vec<&str> {
         self.header
             .views
@@ -21,7 +21,7 @@ impl Dataset {
             .collect()
     }
 
-    /// The view by which the dataset is seen, such as `left` or `left+right`; `None` where none was named.
+    /// The chosen view, such as `left` or `left+right`; `None` if none was chosen.
     pub fn view(&self) -> Option<String> {
         (!self.seen.is_empty()).then(|| {
             let names = self
@@ -32,14 +32,14 @@ impl Dataset {
         })
     }
 
-    /// The same dataset, whose frames are those of the view `view`, or of several side by side: `left+right`.
+    /// The same dataset with the frames of the view `view`, or of several side by side: `left+right`.
     ///
-    /// The digest is a function of that of the dataset and of the view. Labels are the same. Of several views no file is the picture: entries of
-    /// the table then have no bytes.
+    /// The digest is a function of that of the dataset and of the view. Labels stay the same. Several views have no common file, so that
+    /// entries of the table then have no bytes.
     ///
     /// # Errors
-    /// [`DatasetError::View`] if there is no such view; [`DatasetError::Request`] if one is named twice, or pictures of unlike height or
-    /// format would stand side by side; [`DatasetError::Io`].
+    /// [`DatasetError::View`] if there is no such view; [`DatasetError::Request`] if one is named twice, or if pictures side by side differ
+    /// in height or format; [`DatasetError::Io`].
     pub fn seen(&self, view: &str) -> Result<Dataset, DatasetError> {
         if !self.joined.is_empty() {
             let recordings = self.joined.iter();
@@ -69,10 +69,10 @@ impl Dataset {
         })
     }
 
-    /// Checks that it is known which picture of a sample is meant.
+    /// Checks that the picture of a sample is unambiguous.
     ///
     /// # Errors
-    /// [`DatasetError::View`] listing the views, where there are several and none was named.
+    /// [`DatasetError::View`] with the list of views, if there are several and none was chosen.
     pub fn require_view(&self) -> Result<(), DatasetError> {
         match self.header.views.is_empty() || !self.seen.is_empty() {
             true => Ok(()),
@@ -88,7 +88,7 @@ impl Dataset {
         }
     }
 
-    /// The positions of the views that `view` names.
+    /// The indices of the views in `view`.
     fn positions(&self, view: &str) -> Result<Vec<usize>, DatasetError> {
         let mut seen = Vec::new();
         for name in view.split(BESIDE) {
@@ -106,7 +106,7 @@ impl Dataset {
         Ok(seen)
     }
 
-    /// The frames of a row in the views that stand side by side, as one; `None` if the row lacks one of them.
+    /// The frames of a row in the chosen views side by side, as one; `None` if the row lacks one of them.
     pub(super) fn frame_beside(&self, row: usize) -> Result<Option<Frame>, DatasetError> {
         let frames = self.seen.iter().map(|at| {
             let entry = self.table.views()[*at].frames()[row].as_ref();
@@ -146,7 +146,7 @@ impl Dataset {
         Frame::new(info, bytes).map_err(|error| damaged(error.to_string()))
     }
 
-    /// Every picture of every view, and those without contact.
+    /// All pictures of all views, and those without contact.
     pub(super) fn entries_of_views(&self) -> Vec<FrameEntry> {
         let frames = self.table.views().iter();
         let frames = frames.flat_map(|view| view.frames().iter().flatten().cloned());
@@ -156,7 +156,7 @@ impl Dataset {
     }
 }
 
-/// Place of the picture without contact.
+/// The entry of the picture without contact.
 pub(super) fn reference_entry(reference: &ReferenceInfo) -> FrameEntry {
     FrameEntry {
         path: reference.path.clone(),
@@ -165,7 +165,7 @@ pub(super) fn reference_entry(reference: &ReferenceInfo) -> FrameEntry {
     }
 }
 
-/// Size and format of the pictures of `views` side by side, or why they cannot stand so.
+/// Size and format of the pictures of `views` side by side, or a message if they do not fit.
 fn info_of(views: &[&ViewInfo]) -> Result<FrameInfo, String> {
     let Some((first, others)) = views.split_first() else {
         return Err("no view is named".to_owned());
@@ -187,7 +187,7 @@ fn info_of(views: &[&ViewInfo]) -> Result<FrameInfo, String> {
     Ok(info)
 }
 
-/// Facts that all frames of `views` share once they stand side by side.
+/// Properties of the frames of `views` side by side.
 fn frames_of(views: &[&ViewInfo], info: FrameInfo, count: u64) -> FramesInfo {
     let (first, others) = views.split_first().expect("at least one view");
     let mut frames = FramesInfo {
@@ -213,7 +213,7 @@ fn frames_of(views: &[&ViewInfo], info: FrameInfo, count: u64) -> FramesInfo {
     frames
 }
 
-/// Makes `header` that of a dataset seen by `view`.
+/// Changes `header` to that of a dataset seen in `view`.
 fn see(header: &mut Header, frames: FramesInfo, view: &str) {
     header.frames = Some(frames);
     header.digest = seen_digest(header.digest, view);
@@ -222,7 +222,7 @@ fn see(header: &mut Header, frames: FramesInfo, view: &str) {
     }
 }
 
-/// The digest of a dataset seen by `view`: other pictures are other numbers.
+/// The digest of a dataset seen in `view`, because other pictures give other numbers.
 fn seen_digest(dataset: Digest, view: &str) -> Digest {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 seen by");

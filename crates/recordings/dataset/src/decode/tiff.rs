@@ -1,4 +1,4 @@
-//! TIFF: one picture of 8 or 16 bits, gray or RGB, plain or packed by LZW, Deflate or PackBits.
+//! TIFF: one picture of 8 or 16 bits, gray or RGB, uncompressed or with LZW, Deflate or PackBits.
 
 use std::io::Cursor;
 
@@ -10,10 +10,10 @@ use tiff::{ColorType, TiffError};
 use super::{checked_length, most_of, without_alpha};
 use crate::limits;
 
-/// The picture in a TIFF file: what it is, and its pixels, colours side by side, numbers of 16 bits little-endian.
+/// Decodes a TIFF file: its format, and its pixels with interleaved colours, 16-bit numbers little-endian.
 ///
-/// Other numbers (signed, floating point, fewer or more bits), colours (palettes, CMYK, YCbCr) and packings (JPEG, fax) are refused by name,
-/// and so are several pictures in one file.
+/// Other number types (signed, floating point, other bit depths), colours (palettes, CMYK, YCbCr) and compressions (JPEG, fax) are rejected
+/// by name, and so are several pictures in one file.
 pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let mut allowed = Limits::default();
     let most = most_of(bytes);
@@ -77,7 +77,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-/// What the decoder says; what it does not read, with what would be read.
+/// The message of the decoder; for unsupported content with the supported alternatives.
 fn text(error: TiffError) -> String {
     match error {
         TiffError::UnsupportedError(what) => format!(
@@ -87,7 +87,7 @@ fn text(error: TiffError) -> String {
     }
 }
 
-/// Whether every strip or tile lies within the file: a decoder of Deflate has enough before the last bytes.
+/// Checks that every strip or tile lies within the file: a Deflate decoder may need fewer bytes than the stated length.
 fn check_pieces(decoder: &mut Decoder<Cursor<&[u8]>>, length: u64) -> Result<(), String> {
     for (offsets, lengths) in [
         (Tag::StripOffsets, Tag::StripByteCounts),

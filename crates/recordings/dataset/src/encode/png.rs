@@ -1,8 +1,8 @@
-//! PNG files of noisy pictures: the five filters of the format, then Huffman codes alone.
+//! PNG encoder for noisy pictures: the five filters of the format, then Huffman codes only.
 //!
-//! What is left of a camera's picture after a filter is mostly noise. In noise nothing repeats, so that looking for repeats (what costs time
-//! in deflate) finds only accidents and makes files larger: those of pictures of the simulated cameras by a fifth. An even picture
-//! takes an eighth of its bytes at best.
+//! The residue of a camera picture after a filter is mostly noise, which has no repetitions. The search for them, the slow part of deflate,
+//! finds only accidents and makes files larger: by a fifth for pictures of the simulated cameras. An even picture shrinks to an eighth of
+//! its bytes at best.
 
 use miniz_oxide::deflate::core::{
     CompressionStrategy, CompressorOxide, TDEFLFlush, TDEFLStatus, compress_to_output,
@@ -12,7 +12,7 @@ use taceva_core::{Frame, PixelFormat};
 
 const SIGNATURE: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
 
-/// The PNG file of `frame`.
+/// Encodes `frame` as a PNG file.
 pub(super) fn file(frame: &Frame) -> Result<Vec<u8>, String> {
     let info = frame.info();
     let (bits, color, pixel) = match info.format {
@@ -44,7 +44,7 @@ pub(super) fn file(frame: &Frame) -> Result<Vec<u8>, String> {
     Ok(file)
 }
 
-/// The samples with the high byte of each first, as PNG has them.
+/// The samples in the byte order of PNG, high byte first.
 fn samples(frame: &Frame) -> Vec<u8> {
     match frame.info().format.bytes_per_sample() {
         1 => frame.bytes().to_vec(),
@@ -52,7 +52,7 @@ fn samples(frame: &Frame) -> Vec<u8> {
     }
 }
 
-/// Each row behind the number of its filter: of all filters, the one that leaves the smallest sum of magnitudes.
+/// Each row after the number of its filter: the filter with the smallest sum of magnitudes.
 fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
     let mut filtered = Vec::with_capacity(samples.len() + samples.len() / row.max(1) + 1);
     let nothing = vec![0; row];
@@ -77,10 +77,10 @@ fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
     filtered
 }
 
-/// None, left, above, the mean of both, and Paeth's choice of three, in the order of the format.
+/// Number of filters: none, left, above, the mean of both, and Paeth's choice of three, in the order of the format.
 const FILTERS: u8 = 5;
 
-/// Writes what `filter` leaves of a row under `above`, whose pixels have `pixel` bytes.
+/// Writes the residue of a row under `above` after `filter`, for pixels of `pixel` bytes.
 fn apply(filter: u8, current: &[u8], above: &[u8], pixel: usize, into: &mut [u8]) {
     for (at, into) in into.iter_mut().enumerate() {
         let left = at.checked_sub(pixel);
@@ -97,7 +97,7 @@ fn apply(filter: u8, current: &[u8], above: &[u8], pixel: usize, into: &mut [u8]
     }
 }
 
-/// Of three neighbours the one nearest to left + above − corner; the earlier where two are as near.
+/// The neighbour nearest to left + above − corner; the earlier one of equals.
 fn paeth(left: u8, above: u8, corner: u8) -> u8 {
     let [a, b, c] = [left, above, corner].map(i16::from);
     let plane = a + b - c;
@@ -113,7 +113,7 @@ fn paeth(left: u8, above: u8, corner: u8) -> u8 {
 
 /// `bytes` as a zlib stream of Huffman codes.
 fn zlib(bytes: &[u8]) -> Result<Vec<u8>, String> {
-    /// Any level that compresses: it only says how far repeats are looked for.
+    /// Any level that compresses: it only limits the search for repetitions.
     const LEVEL: i32 = 1;
     /// The largest window, and a stream with the header of zlib.
     const WINDOW_BITS: i32 = 15;
@@ -177,7 +177,7 @@ mod tests {
     fn noise_of_two_bits_takes_little_more_than_that() {
         let frame = noisy(160, 120, PixelFormat::Gray8);
         let length = file(&frame).expect("written").len();
-        // The difference of two even numbers of four has 2.66 bits.
+        // The difference of two uniform numbers of four has 2.66 bits.
         let bits = 8.0 * length as f64 / (160.0 * 120.0);
         assert!((2.0..3.1).contains(&bits), "{bits}");
     }

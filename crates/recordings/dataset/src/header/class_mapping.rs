@@ -1,8 +1,8 @@
-//! The closed list by which a map read a column of classes.
+//! Closed list of classes of a map.
 
 use serde::{Deserialize, Serialize};
 
-/// How the map of an import read a column of classes: a number in a column is another class by another list.
+/// Mapping of a column of classes by an import: with another list, a number is another class.
 ///
 /// ```
 /// let text = "name = \"texture\"\nfrom = \"c\"\nnames = [\"smooth\", \"rough\"]\n";
@@ -17,7 +17,7 @@ pub struct MappedClass {
     pub name: String,
     /// The column.
     pub from: String,
-    /// The list; of a long one the first names, and a digest of the others.
+    /// The list; for a long one the first names, and a digest of the others.
     pub names: Vec<String>,
 }
 
@@ -31,7 +31,7 @@ impl MappedClass {
         }
     }
 
-    /// The first position that means another class in `known`; a list that goes on where the other ends means the same.
+    /// The first position with another class in `known`; a longer list with the same beginning is compatible.
     pub(super) fn other_position(&self, known: &MappedClass) -> Option<usize> {
         let mut pairs = self.names.iter().zip(&known.names);
         pairs.position(|(own, known)| own != known)

@@ -1,11 +1,11 @@
-//! Which column of a lab's table each label was read from, and in which unit and sign.
+//! Source column, unit and sign of each label.
 
 use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Misread, differing, number, quoted};
 
-/// How the map of an import read a label: what a dataset must know before rows by another map are added to it, since a column of the same name in
-/// another unit, with another sign or through another matrix gives numbers that nothing tells from the others.
+/// Mapping of a label by an import. A dataset needs it before rows by another map are added: the same column in another unit, with another
+/// sign or through another matrix gives wrong numbers without a sign of it.
 ///
 /// ```
 /// let text = "label = \"Fz\"\nfrom = [\"force_z\"]\nunit = \"mN\"\nsign = -1\n";
@@ -16,40 +16,40 @@ use super::map_conflict::{Misread, differing, number, quoted};
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MappedColumn {
-    /// The channel; `t_s` of the time, and `signals` of the numbers of taxels.
+    /// The channel; `t_s` for the time, and `signals` for the taxels.
     pub label: String,
-    /// The column; those that a matrix is multiplied with, or that hold the numbers of taxels, in order.
+    /// The column; for a matrix or for taxels the columns in order.
     pub from: Vec<String>,
-    /// The unit of the cells, or of what a matrix gives.
+    /// Unit of the cells, or of the result of a matrix.
     pub unit: String,
-    /// 1, or -1 of a column whose sign is inverted.
+    /// 1, or -1 for an inverted sign.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub sign: i8,
-    /// What is subtracted from the cells of each column first, in their unit; empty where nothing is.
+    /// Offsets that are subtracted from the cells of each column first, in their unit; empty for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub offset: Vec<f64>,
-    /// What the differences are then multiplied by, one a column and the sum taken; empty where they are not.
+    /// Factors of the offset-corrected columns, which are then summed; empty for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub factors: Vec<f64>,
-    /// The number in it that stands for "not measured": a row in which all columns with one hold it is left out.
+    /// The value that means "not measured": a row with it in all columns that have one is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placeholder: Option<f64>,
-    /// `place-first` or `channel-first`, of taxels.
+    /// Order of taxels: `place-first` or `channel-first`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub order: Option<String>,
-    /// The mean that is subtracted from it as its zero, in words.
+    /// The mean that is subtracted as the zero, in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub zero: Option<String>,
-    /// The weight that is subtracted from it, in words.
+    /// The weight that is subtracted, in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<String>,
 }
 
-/// What to do where a column was recorded otherwise.
+/// Remedy for a column that was recorded otherwise.
 const OTHER_COLUMN: &str = "if the column was recorded otherwise this time, rename it in the table";
 
 impl MappedColumn {
-    /// `label`, read from `from` in `unit`, as the cells are.
+    /// `label`, read from `from` in `unit`, without conversion.
     pub fn new(label: &str, from: Vec<String>, unit: &str) -> MappedColumn {
         MappedColumn {
             label: label.to_owned(),
@@ -65,7 +65,7 @@ impl MappedColumn {
         }
     }
 
-    /// The key of a map that says what differs.
+    /// The key of a map for the setting `word`.
     fn key(&self, word: &str) -> String {
         let is_matrix = self.from.len() > 1 && !self.factors.is_empty();
         match (self.label.as_str(), word) {
@@ -85,7 +85,7 @@ impl MappedColumn {
         other.from.iter().any(|column| self.from.contains(column))
     }
 
-    /// What of `self`, of a new map, is otherwise than in `known`, which read the same column for the same label.
+    /// The first setting of `self`, from a new map, that differs from `known`, which read the same column for the same label.
     fn differs_from(&self, known: &MappedColumn) -> Option<Misread> {
         let facts = |column: &MappedColumn| {
             let order = column.order.clone();
@@ -108,7 +108,7 @@ impl MappedColumn {
     }
 }
 
-/// The first of `new`, the columns of another map, that reads a column of `known` otherwise. A column of another name says nothing.
+/// The first column in `new`, from another map, that is read otherwise than in `known`. Columns of other names are ignored.
 pub(super) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Misread> {
     new.iter().find_map(|column| {
         let same_label = known.iter().filter(|known| known.label == column.label);
@@ -119,7 +119,7 @@ pub(super) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Mi
         if let Some(known) = shared.next() {
             return column.differs_from(known);
         }
-        // Of a matrix every column gives a part of several labels.
+        // With a matrix every column contributes to several labels.
         let of_one = |column: &MappedColumn| column.from.len() == 1;
         let other = known.iter().filter(|known| of_one(known)).find(|known| {
             of_one(column) && known.label != column.label && known.from == column.from
@@ -219,7 +219,7 @@ mod tests {
                 },
                 Some("time.unit"),
             ),
-            // Axes that were exchanged.
+            // Exchanged axes.
             (column("Fy", &["f0"]), Some("columns.Fy.from")),
             (
                 MappedColumn {

@@ -1,11 +1,11 @@
-//! Digest of everything that decides a number computed from a dataset.
+//! Digest of everything that affects a number computed from a dataset.
 
 use super::{Extension, FramesInfo, ViewInfo};
 use crate::digest::{Digest, PartsDigest};
 use crate::signals::SignalsInfo;
 
-/// The digest of a dataset: of its table, which holds the digest of each frame in order, of what else decides what a frame looks like
-/// when decoded, of its signals, and of what it was before rows were added, which decides its parts.
+/// The digest of a dataset. It covers the table with the digests of frames, the settings of frame decoding, and the signals. The states
+/// before rows were added count too, because they decide the parts.
 pub(crate) fn dataset_digest(
     table: Digest,
     frames: Option<&FramesInfo>,

@@ -1,11 +1,11 @@
-//! That rows were added to a recording after it was imported.
+//! Rows added to a recording after its import.
 
 use serde::{Deserialize, Serialize};
 
 use super::Header;
 use crate::digest::Digest;
 
-/// What a recording was before rows were added to it, and where they came from.
+/// State of a recording before rows were added, and the source of the rows.
 ///
 /// ```
 /// let text = "rows = 120\ndigest = \"sha256:e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855\"\ndate = \"2026-11-23\"\nfrom = \"tuesday\"\n";
@@ -16,13 +16,13 @@ use crate::digest::Digest;
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Extension {
-    /// Samples before: those that were added begin at this row, counted from 0.
+    /// Number of samples before: the added ones begin at this row, counted from 0.
     pub rows: u64,
     /// The digest of the dataset before.
     pub digest: Digest,
-    /// The day on which they were added, in UTC: `2026-11-23`.
+    /// The day of the addition, UTC: `2026-11-23`.
     pub date: String,
-    /// The folder that they were imported from, as it was named.
+    /// The folder of the import, as typed.
     pub from: String,
 }
 
@@ -44,7 +44,7 @@ impl Extension {
 }
 
 impl Header {
-    /// Every digest that the recording had, with the number of its samples then: those before each extension, and the present one last.
+    /// All digests of the recording, each with the number of samples then: those before each extension, and the present one last.
     pub fn stages(&self) -> impl Iterator<Item = (Digest, u64)> + '_ {
         let before = self.extended.iter();
         let before = before.map(|extension| (extension.digest, extension.rows));

@@ -1,4 +1,4 @@
-//! What a header says of the sensor, the frames and the table.
+//! Facts of the sensor, the frames and the table in a header.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use taceva_core::FrameInfo;
@@ -7,8 +7,8 @@ use super::reduction::ReducedFrames;
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
 
-/// Where the samples come from; carried into every report. It gets no further variant in a compatible version, because every reader must say
-/// what it makes of each.
+/// Origin of the samples; stated in every report. It gets no further variant in a compatible version, because every reader must handle
+/// each.
 ///
 /// ```
 /// use taceva_dataset::Source;
@@ -27,7 +27,7 @@ pub enum Source {
     Synthetic,
 }
 
-/// A fact that a lab may not know. It gets no further variant: a fact is known or it is not.
+/// A fact that may be unknown. It gets no further variant.
 ///
 /// ```
 /// use taceva_dataset::Known;
@@ -37,9 +37,9 @@ pub enum Source {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Known<T> {
-    /// The lab wrote it down.
+    /// Stated by the lab.
     Is(T),
-    /// Nobody wrote it down; reports carry `unknown`.
+    /// Not stated; reports show `unknown`.
     #[default]
     Unknown,
 }
@@ -88,7 +88,7 @@ impl<'de> Deserialize<'de> for Known<bool> {
     }
 }
 
-/// Which sensor it was. A file must state each fact; `"unknown"` is accepted, a missing key is not.
+/// Facts of the sensor. A file must state each of them; `"unknown"` is accepted, a missing key is not.
 ///
 /// ```
 /// use taceva_dataset::{Known, SensorFacts};
@@ -107,12 +107,12 @@ pub struct SensorFacts {
     pub serial: String,
     /// The id of the gel, or `unknown`.
     pub gel: String,
-    /// Whether ambient light cannot reach the camera.
+    /// True if ambient light cannot reach the camera.
     pub opaque: Known<bool>,
 }
 
 impl SensorFacts {
-    /// A sensor of `model`; its serial number, its gel and whether it is opaque are unknown.
+    /// A sensor of `model` with unknown serial number, gel and opacity.
     pub fn new(model: impl Into<String>) -> SensorFacts {
         SensorFacts {
             model: model.into(),
@@ -140,7 +140,7 @@ impl SensorFacts {
         }
     }
 
-    /// The same, where it is known whether ambient light cannot reach the camera.
+    /// The same sensor with known opacity: true if ambient light cannot reach the camera.
     #[must_use]
     pub fn with_opaque(self, opaque: bool) -> SensorFacts {
         SensorFacts {
@@ -150,7 +150,7 @@ impl SensorFacts {
     }
 }
 
-/// What all frames of a recording share.
+/// Properties that all frames of a recording share.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -172,29 +172,29 @@ impl SensorFacts {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FramesInfo {
-    /// How many frames there are, that without contact aside.
+    /// Number of frames, without the one without contact.
     pub count: u64,
-    /// Width and height, pixels, and the pixel format of every frame once it is decoded.
+    /// Width and height, pixels, and the pixel format of every decoded frame.
     #[serde(flatten)]
     pub info: FrameInfo,
     /// The order of the colours in the files.
     pub channel_order: ChannelOrder,
-    /// How the frames were coded and decoded, if they came as a clip; of several clips, how those of the first were.
+    /// Coding of the frames, if they came as a clip; for several clips that of the first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub codec: Option<FrameCodec>,
-    /// How the frames of other clips were coded and decoded, where that differs, each way once.
+    /// Other codings of frames of further clips, each once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub other_codecs: Vec<FrameCodec>,
-    /// From what frames were reduced before they were recorded; absent where they are as they came.
+    /// The original form of reduced frames; `None` if they were recorded unchanged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedFrames>,
-    /// The frame without contact; absent if the lab does not know one.
+    /// The frame without contact; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<ReferenceInfo>,
 }
 
 impl FramesInfo {
-    /// So many frames, neither coded as a clip nor reduced, without a frame without contact.
+    /// `count` frames, neither coded as a clip nor reduced, without a frame without contact.
     pub fn new(count: u64, info: FrameInfo, channel_order: ChannelOrder) -> FramesInfo {
         FramesInfo {
             count,
@@ -207,7 +207,7 @@ impl FramesInfo {
         }
     }
 
-    /// A frame as the camera gave it: what was reduced, or what is there.
+    /// The form of a frame from the camera: before reduction, or as recorded.
     pub fn of_camera(&self) -> FrameInfo {
         self.reduced
             .as_ref()
@@ -215,7 +215,7 @@ impl FramesInfo {
     }
 }
 
-/// How frames were coded in the clips that they came in, and what decoded them.
+/// Coding of frames in their clips, and the decoder.
 ///
 /// ```
 /// let codec: taceva_dataset::FrameCodec = toml::from_str("name = \"H.264 High\"\npixel_format = \"yuv420p\"\nlossy = true\n")?;
@@ -225,22 +225,22 @@ impl FramesInfo {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FrameCodec {
-    /// The codec, with its profile where that is known.
+    /// The codec, with its profile if known.
     pub name: String,
-    /// How its pixels are stored, by the names of FFmpeg.
+    /// Pixel format by the names of FFmpeg.
     pub pixel_format: String,
-    /// Whether it loses detail; absent where it can do either.
+    /// True if it loses detail; `None` if it can be either.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lossy: Option<bool>,
-    /// What decoded it, with its version where it says one; absent where frames are kept as they came.
+    /// The decoder, with its version if known; `None` if frames are stored as they came.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub decoder: Option<String>,
-    /// The bits of a sample in the clip, where they are more than 8: luma keeps its numbers in 16 bits and is not scaled up to their full range.
+    /// Bits of a sample in the clip, if above 8: luma keeps its numbers in 16 bits and is not scaled up to their full range.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<u8>,
 }
 
-/// The bits of a sample by the name of a pixel format of FFmpeg, where they are more than 8: 10 of `yuv420p10le`.
+/// Bits of a sample by the name of an FFmpeg pixel format, if above 8: 10 for `yuv420p10le`.
 fn bits_of(pixel_format: &str) -> Option<u8> {
     let name = pixel_format.strip_suffix("le");
     let name = name.or_else(|| pixel_format.strip_suffix("be"))?;
@@ -251,7 +251,7 @@ fn bits_of(pixel_format: &str) -> Option<u8> {
 }
 
 impl FrameCodec {
-    /// The codec `name` with this pixel format, in the words of FFmpeg.
+    /// The codec `name` with this pixel format, by the names of FFmpeg.
     pub fn new(name: &str, pixel_format: &str) -> FrameCodec {
         FrameCodec {
             name: name.to_owned(),
@@ -286,14 +286,14 @@ impl FrameCodec {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReferenceInfo {
-    /// Its file, relative to the folder of the dataset.
+    /// File, relative to the folder of the dataset.
     pub path: String,
     /// The SHA-256 of the bytes of its file.
     pub sha256: Digest,
 }
 
 impl ReferenceInfo {
-    /// The file at `path`, relative to the folder of the dataset, whose bytes have this digest.
+    /// The file at `path`, relative to the folder of the dataset, with the digest of its bytes.
     pub fn new(path: impl Into<String>, sha256: Digest) -> ReferenceInfo {
         ReferenceInfo {
             path: path.into(),
@@ -302,7 +302,7 @@ impl ReferenceInfo {
     }
 }
 
-/// What `samples.parquet` must be.
+/// Rows and digests of `samples.parquet`.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -328,9 +328,9 @@ impl ReferenceInfo {
 pub struct TableInfo {
     /// Number of samples.
     pub rows: u64,
-    /// The digest of what the table says, whatever bytes it is written as.
+    /// The digest of the content of the table, independent of its encoding.
     pub digest: Digest,
-    /// The SHA-256 of the bytes of `samples.parquet`, which is checked before it is read.
+    /// The SHA-256 of the bytes of `samples.parquet`, checked before it is parsed.
     pub sha256: Digest,
 }
 

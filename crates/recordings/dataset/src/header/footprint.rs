@@ -1,8 +1,8 @@
-//! Where a sensor senses, as files write it.
+//! Sensing area of a sensor, as in files.
 
 use serde::{Deserialize, Serialize};
 
-/// The part of the gel that the sensor can sense with.
+/// The area of the gel that the sensor can sense.
 ///
 /// # Units
 /// mm.
@@ -19,23 +19,23 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Footprint {
-    /// The form of its outline, which says which of the lengths below are stated.
+    /// Shape of its outline, which decides the lengths below.
     pub shape: Shape,
-    /// The radius of a disc, mm; absent of a rectangle.
+    /// Radius of a disc, mm; `None` for a rectangle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_mm: Option<f64>,
-    /// Half the width of a rectangle along x, mm; absent of a disc.
+    /// Half the width of a rectangle along x, mm; `None` for a disc.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half_x_mm: Option<f64>,
-    /// Half the width of a rectangle along y, mm; absent of a disc.
+    /// Half the width of a rectangle along y, mm; `None` for a disc.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half_y_mm: Option<f64>,
-    /// The deepest indentation that the gel bears, mm; absent if nobody knows.
+    /// Maximum indentation of the gel, mm; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_max_mm: Option<f64>,
 }
 
-/// An outline.
+/// Shape of an outline.
 ///
 /// ```
 /// use taceva_dataset::{Footprint, Shape};
@@ -53,7 +53,7 @@ pub enum Shape {
 }
 
 impl Footprint {
-    /// A disc.
+    /// A disc of this radius, mm.
     pub fn disc(radius_mm: f64) -> Footprint {
         Footprint {
             shape: Shape::Disc,
@@ -64,7 +64,7 @@ impl Footprint {
         }
     }
 
-    /// A rectangle, by half of its width along x and along y.
+    /// A rectangle, by half of its width along x and along y, mm.
     pub fn rectangle(half_x_mm: f64, half_y_mm: f64) -> Footprint {
         Footprint {
             shape: Shape::Rect,
@@ -75,7 +75,7 @@ impl Footprint {
         }
     }
 
-    /// The same with the deepest indentation that the gel bears.
+    /// The same area with the maximum indentation of the gel, mm.
     #[must_use]
     pub fn with_depth_max(self, depth_max_mm: f64) -> Footprint {
         Footprint {
@@ -84,10 +84,10 @@ impl Footprint {
         }
     }
 
-    /// The same surface in whole nanometres, as metrics bin it.
+    /// The same area in whole nanometres, as metrics bin it.
     ///
     /// # Errors
-    /// In words, if a length is missing, too much, not positive or beyond 10 m.
+    /// A message if a length is missing, superfluous, not positive or beyond 10 m.
     pub fn to_core(&self) -> Result<taceva_core::Footprint, String> {
         if let Some(problem) = self.problem() {
             return Err(problem);
@@ -104,7 +104,7 @@ impl Footprint {
         .map_err(|error| error.to_string())
     }
 
-    /// What is missing, too much or not positive.
+    /// A message if a length is missing, superfluous or not positive.
     pub fn problem(&self) -> Option<String> {
         let is_disc = self.shape == Shape::Disc;
         let sides = [

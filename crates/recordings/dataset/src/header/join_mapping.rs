@@ -1,10 +1,10 @@
-//! How a map found the rows of another table that belong to those of the main one.
+//! Mapping of a joined table to the rows of the main one.
 
 use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Fact, number, or_none, quoted};
 
-/// How the map of an import joined a table: with another lag or another pick the same columns give the readings of other instants.
+/// Join of a table by an import: with another lag or pick the same columns give readings of other instants.
 ///
 /// ```
 /// let text = "name = \"ft\"\nby = \"time\"\ncolumn = \"t\"\nunit = \"s\"\npick = \"nearest\"\ntolerance_ms = 5.0\nlag_ms = 12.5\nunmatched = \"drop\"\n";
@@ -15,11 +15,11 @@ use super::map_conflict::{Fact, number, or_none, quoted};
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MappedJoin {
-    /// What stands before the names of its columns.
+    /// Prefix of the names of its columns.
     pub name: String,
     /// `columns`, `row`, `all`, `time` or `until`.
     pub by: String,
-    /// Of a join by columns: `column of the main table = column of this one`.
+    /// For a join by columns: `column of the main table = column of this one`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub on: Vec<String>,
     /// The column of the time, or of the number up to which its rows reach.
@@ -31,24 +31,24 @@ pub struct MappedJoin {
     /// `nearest`, `before` or `linear`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pick: Option<String>,
-    /// The greatest distance in time, ms.
+    /// Maximum distance in time, ms.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance_ms: Option<f64>,
-    /// How much later the clock of this table shows the same instant, ms.
+    /// Lag of the clock of this table, ms: it shows the same instant that much later.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_ms: Option<f64>,
-    /// Source of a lag that differs by row: the column with it, or `file = ms` of each file.
+    /// Source of a lag that differs by row: the column with it, or `file = ms` for each file.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lag_by: Vec<String>,
-    /// What becomes of a row of the main table to which none belongs: `drop` or `refuse`.
+    /// Treatment of a row of the main table without a match: `drop` or `refuse`.
     pub unmatched: String,
-    /// Rows that are no candidates: `column = number`.
+    /// Excluded rows: `column = number`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub skip: Vec<String>,
 }
 
 impl MappedJoin {
-    /// The table `name`, joined by that, where a row to which none belongs is refused.
+    /// The table `name`, joined by `by`; a row without a match is rejected.
     pub fn new(name: &str, by: &str) -> MappedJoin {
         MappedJoin {
             name: name.to_owned(),
@@ -65,7 +65,7 @@ impl MappedJoin {
         }
     }
 
-    /// What decides which rows belong together, by the keys of a map.
+    /// Settings that decide the matching of rows, by the keys of a map.
     pub(super) fn facts(&self) -> Vec<Fact> {
         let name = &self.name;
         let key = |word: &str| format!("join.{name}.{word}");

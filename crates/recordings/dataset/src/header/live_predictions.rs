@@ -1,10 +1,10 @@
-//! Predictions that a model made while a recording was made.
+//! Predictions that a model made during a recording.
 
 use serde::{Deserialize, Serialize};
 
 use crate::digest::Digest;
 
-/// Predictions of a model beside a recording, in `predictions.csv`: made while frames were taken, and no labels.
+/// Predictions of a model beside a recording, in `predictions.csv`: made while frames were taken; they are no labels.
 ///
 /// ```
 /// use taceva_dataset::{Digest, LivePredictions};
@@ -21,14 +21,14 @@ pub struct LivePredictions {
     pub by: String,
     /// The digest of its file.
     pub model: Digest,
-    /// Samples that were predicted.
+    /// Number of predicted samples.
     pub rows: u64,
     /// The digest of the table of predictions.
     pub sha256: Digest,
 }
 
 impl LivePredictions {
-    /// Predictions in `table`, a line of names and a line a sample, by the model called `by` whose file has the digest `model`.
+    /// Predictions in `table`, a header line and one line for each sample, by the model called `by` whose file has the digest `model`.
     pub fn new(by: impl Into<String>, model: Digest, table: &[u8]) -> LivePredictions {
         let lines = table.iter().filter(|byte| **byte == b'\n').count() as u64;
         LivePredictions {

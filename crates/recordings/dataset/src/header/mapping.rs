@@ -1,4 +1,4 @@
-//! How the maps of an import read what is in a dataset, and what of it another map would read otherwise.
+//! Mappings of the imports of a dataset, and conflicts with another map.
 
 use super::class_mapping::MappedClass;
 use super::column_mapping::{MappedColumn, misread};
@@ -6,7 +6,7 @@ use super::join_mapping::MappedJoin;
 use super::map_conflict::{Misread, differing};
 use super::picture_mapping::MappedPictures;
 
-/// What decides the values that an import reads from the cells, the rows and the arrays of a lab.
+/// Settings that decide the values that an import reads from the cells, the rows and the arrays of a lab.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[doc(hidden)]
 pub struct Mapping {
@@ -22,22 +22,22 @@ pub struct Mapping {
     pub rotations: Vec<Vec<String>>,
 }
 
-/// What to do where a join was recorded otherwise.
+/// Remedy for a join that was recorded otherwise.
 const OTHER_JOIN: &str =
     "if that table was recorded otherwise this time, give the join another name in the map";
-/// What to do where a list of classes grew.
+/// Remedy for a longer list of classes.
 const LONGER_LIST: &str = "write the list as it was, with new names at its end";
-/// What to do where an array was written otherwise.
+/// Remedy for an array that was written otherwise.
 const OTHER_ARRAY: &str =
     "if the pictures were written otherwise this time, give their array another name";
 
 impl Mapping {
-    /// Whether no map is known: the dataset was recorded.
+    /// True if no map is known: the dataset was recorded.
     pub fn is_empty(&self) -> bool {
         *self == Mapping::default()
     }
 
-    /// The first key by which `new`, another map, reads what `self` knows otherwise. What has another name says nothing.
+    /// The first key of `new`, another map, that contradicts `self`. Things of other names are ignored.
     pub fn misread(&self, new: &Mapping) -> Option<Misread> {
         let columns = misread(&self.columns, &new.columns);
         let joins = new.joins.iter().find_map(|join| {
@@ -65,7 +65,7 @@ impl Mapping {
         columns.or(joins).or(pictures).or(classes)
     }
 
-    /// What is known once rows by `new` are added.
+    /// The mapping after rows by `new` are added.
     pub fn and(self, new: &Mapping) -> Mapping {
         Mapping {
             columns: united(self.columns, &new.columns),
@@ -77,7 +77,7 @@ impl Mapping {
     }
 }
 
-/// Those of `known` and behind them those of `new` that are not among them.
+/// `known`, then those of `new` that are not in it.
 fn united<T: Clone + PartialEq>(mut known: Vec<T>, new: &[T]) -> Vec<T> {
     for one in new {
         if !known.contains(one) {

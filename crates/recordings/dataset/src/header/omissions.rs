@@ -1,12 +1,12 @@
-//! What an import did not take of what lay in the folder of a lab.
+//! Data in the folder of a lab that an import did not use.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// What an import left out: nothing of it is in the dataset, and a reader of the dataset should know that it was there.
+/// Data that an import left out. It is not in the dataset, but its readers should know of it.
 ///
-/// Files are named relative to the folder of the lab. Of many files the first 64 are named, and the others are counted together under `…`.
+/// Files are named relative to the folder of the lab. The first 64 files are named, and the others are counted together under `…`.
 ///
 /// ```
 /// use taceva_dataset::LeftOut;
@@ -24,38 +24,38 @@ pub struct LeftOut {
     /// Images beside the tables that no row names.
     #[serde(skip_serializing_if = "is_zero")]
     pub images: u64,
-    /// Columns that no key of the map names and whose names the dataset does not keep either: there are more than 256, or they are too long.
+    /// Columns that no key of the map names and whose names are not stored either: there are more than 256, or they are too long.
     #[serde(skip_serializing_if = "is_zero")]
     pub columns: u64,
-    /// Rows of the tables, by the rule that left them out; one row may be left out by several.
+    /// Rows of the tables, by the rule that excluded them; several rules may exclude one row.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub rows: BTreeMap<String, u64>,
-    /// Rows of joined tables that belong to no row of the table, be it kept or left out, by the name of the join.
+    /// Rows of joined tables that match no row of the table, used or not, by the name of the join.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub joined_rows: BTreeMap<String, u64>,
-    /// Rows of joined tables that `skip` says are no candidates, by the name of the join.
+    /// Rows of joined tables that `skip` excludes, by the name of the join.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub skipped_rows: BTreeMap<String, u64>,
     /// Frames in arrays and clips that no row of the dataset uses, by file.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub frames: BTreeMap<String, u64>,
-    /// Chunks of arrays that were never written, so that what is in the dataset instead is their fill value, by file and array.
+    /// Chunks of arrays that were never written and are replaced by their fill value, by file and array.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub absent_chunks: BTreeMap<String, u64>,
 }
 
-/// How many names of one kind are kept.
+/// Maximum stored names of one kind.
 const NAMED: usize = 64;
-/// What the others are counted under.
+/// Name under which the others are counted.
 const OTHERS: &str = "…";
 
 impl LeftOut {
-    /// Whether nothing was left out.
+    /// True if nothing was left out.
     pub fn is_empty(&self) -> bool {
         *self == LeftOut::default()
     }
 
-    /// What this import and `other`, which added rows to it, left out together.
+    /// The sum with `other`, an import that added rows.
     #[must_use]
     pub fn and(mut self, other: LeftOut) -> LeftOut {
         self.images += other.images;
@@ -75,7 +75,7 @@ impl LeftOut {
     }
 }
 
-/// Adds `count` to what is counted under `name`; of many names, under the others.
+/// Adds `count` to the count of `name`, or of the others if there are too many names.
 pub fn add(counts: &mut BTreeMap<String, u64>, name: &str, count: u64) {
     if count == 0 {
         return;

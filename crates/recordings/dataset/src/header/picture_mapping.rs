@@ -1,10 +1,10 @@
-//! How a map found the picture of each row, and what numbers became which pixels.
+//! Mapping of pictures to rows, and of numbers to pixels.
 
 use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Fact, number, or_none};
 
-/// How the map of an import read pictures: the same numbers in another range, or counted by another column, are other pictures.
+/// Mapping of pictures by an import: in another range, or with another index column, the same numbers are other pictures.
 ///
 /// ```
 /// let text = "by = \"array\"\nfrom = \"/rgb\"\nindex = \"n\"\nrange = [0.0, 1.0]\nbits = 8\n";
@@ -15,30 +15,30 @@ use super::map_conflict::{Fact, number, or_none};
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MappedPictures {
-    /// The key that says where they are: `column`, `pattern`, `array`, `bytes` or `video`.
+    /// The key of their source: `column`, `pattern`, `array`, `bytes` or `video`.
     pub by: String,
-    /// The column, the pattern, the array in its file, or the clip; empty of the only array of a file.
+    /// The column, the pattern, the array in its file, or the clip; empty for the only array of a file.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub from: String,
-    /// The column of the position in an array or a clip; absent where it is that of the row in its table.
+    /// The column of the index in an array or a clip; `None` for the row number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub index: Option<String>,
-    /// `nhwc`, `nhw` or `nchw`, where the map says what the axes of an array are.
+    /// Axes of an array: `nhwc`, `nhw` or `nchw`, if the map states them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layout: Option<String>,
-    /// The numbers of black and of full.
+    /// The numbers of black and of full scale.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
-    /// The bits of a pixel that numbers in a range became.
+    /// Bits of the pixels that numbers in a range are converted to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<u8>,
-    /// The view that they are of, where samples have several pictures.
+    /// The view, if samples have several pictures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
 }
 
 impl MappedPictures {
-    /// Pictures that the key `by` names by `from`, each with the number of its row.
+    /// Pictures by the key `by` and the source `from`, indexed by row number.
     pub fn new(by: &str, from: &str) -> MappedPictures {
         MappedPictures {
             by: by.to_owned(),
@@ -51,7 +51,7 @@ impl MappedPictures {
         }
     }
 
-    /// Whether both read the same: arrays of one name, or clips, which are called otherwise in every recording.
+    /// True if both have the same source: arrays of one name, or clips, whose names differ between recordings.
     pub(super) fn is_of(&self, known: &MappedPictures) -> bool {
         self.by == known.by
             && self.view == known.view
@@ -62,9 +62,9 @@ impl MappedPictures {
             }
     }
 
-    /// What decides the pixels and whose they are, by the keys of a map.
+    /// Settings that decide the pixels and their rows, by the keys of a map.
     pub(super) fn facts(&self) -> Vec<Fact> {
-        // Of the others the lengths of the axes tell which it is.
+        // Other layouts are distinguished by the lengths of the axes.
         let layout = match self.layout.as_deref() {
             Some("nchw") => "nchw",
             _ => "nhwc or nhw",

@@ -6,7 +6,7 @@ use taceva_core::Clock;
 
 use super::{Footprint, SensorFacts, Source};
 
-/// What is known about a recording before its first sample.
+/// Facts of a recording that are known before its first sample.
 ///
 /// ```
 /// use taceva_core::Clock;
@@ -19,15 +19,15 @@ use super::{Footprint, SensorFacts, Source};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RecordingFacts {
-    /// Whether the samples are measured, simulated or made up.
+    /// Origin of the samples: measured, simulated or synthetic.
     pub source: Source,
-    /// The clock that stamps the samples: what `t_s` counts from.
+    /// The clock that stamps the samples, which defines the origin of `t_s`.
     pub clock: Clock,
     /// Model, serial number and gel of the sensor.
     pub sensor: SensorFacts,
-    /// Where the sensor senses, if it is known.
+    /// The sensing area, if known.
     pub footprint: Option<Footprint>,
-    /// The settings of the camera that were set and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows.
+    /// Camera settings that were set and read back, by name: `exposure_ms` is `15.7`; empty if unknown.
     pub settings: BTreeMap<String, String>,
 }
 
@@ -43,13 +43,13 @@ impl RecordingFacts {
         }
     }
 
-    /// The same with the settings of the camera that were set and read back.
+    /// The same facts with camera settings that were set and read back.
     #[must_use]
     pub fn with_settings(self, settings: BTreeMap<String, String>) -> RecordingFacts {
         RecordingFacts { settings, ..self }
     }
 
-    /// The same with the part of the gel that the sensor senses with.
+    /// The same facts with the sensing area.
     #[must_use]
     pub fn with_footprint(self, footprint: Footprint) -> RecordingFacts {
         RecordingFacts {

@@ -1,9 +1,9 @@
-//! That the frames of a recording are not as the camera gave them.
+//! Reduction of frames before recording.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::FrameInfo;
 
-/// From what, and how, the frames of a recording were reduced before they were recorded.
+/// Original form and method of frames that were reduced before recording.
 ///
 /// ```
 /// use taceva_core::{FrameInfo, PixelFormat};
@@ -16,10 +16,10 @@ use taceva_core::FrameInfo;
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReducedFrames {
-    /// A frame of the camera.
+    /// Form of a frame of the camera.
     #[serde(flatten)]
     pub from: FrameInfo,
-    /// How, in words.
+    /// The method in words.
     pub by: String,
 }
 
@@ -32,7 +32,7 @@ impl ReducedFrames {
         }
     }
 
-    /// Whether frames of `info` can be what was left of those of the camera.
+    /// True if frames of `info` can result from this reduction.
     pub(crate) fn may_give(&self, info: FrameInfo) -> bool {
         let from = self.from;
         info.width <= from.width

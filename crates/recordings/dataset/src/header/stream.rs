@@ -1,8 +1,8 @@
-//! What became of the frames of a stream that was recorded as it came.
+//! Losses of a recorded stream.
 
 use serde::{Deserialize, Serialize};
 
-/// Frames of a stream that are not in its recording, counted while it was made.
+/// Frames of a stream that are not in its recording, counted during it.
 ///
 /// ```
 /// use taceva_dataset::StreamFacts;
@@ -13,16 +13,16 @@ use serde::{Deserialize, Serialize};
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StreamFacts {
-    /// Whether the device or its link numbers frames, so that a frame which was not taken is noticed.
+    /// True if the device or its link numbers frames, so that missing ones are detected.
     pub numbered: bool,
-    /// Frames for which there was no room when they came, and, of a device that numbers them, those that were not taken in time.
+    /// Frames dropped for lack of buffer space and, if the device numbers them, those not fetched in time.
     pub dropped: u64,
-    /// Frames that came damaged.
+    /// Frames that arrived damaged.
     pub damaged: u64,
 }
 
 impl StreamFacts {
-    /// A stream of which nothing was lost yet.
+    /// A stream without losses.
     pub fn new(numbered: bool) -> StreamFacts {
         StreamFacts {
             numbered,
@@ -30,7 +30,7 @@ impl StreamFacts {
         }
     }
 
-    /// The same with so many frames lost.
+    /// The same stream with these losses.
     #[must_use]
     pub fn with_lost(self, dropped: u64, damaged: u64) -> StreamFacts {
         StreamFacts {
@@ -40,7 +40,7 @@ impl StreamFacts {
         }
     }
 
-    /// Frames that are not in the recording.
+    /// Number of frames that are not in the recording.
     pub fn lost(self) -> u64 {
         self.dropped.saturating_add(self.damaged)
     }

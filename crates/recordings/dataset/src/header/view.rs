@@ -1,10 +1,10 @@
-//! One of several pictures that every sample has.
+//! A view: one of several pictures that every sample has.
 
 use serde::{Deserialize, Serialize};
 
 use super::FramesInfo;
 
-/// Frames of one view, of a finger, an eye or a camera, and what they share.
+/// Frames of one view (a finger, an eye or a camera), and their common properties.
 ///
 /// ```
 /// let text = "name = \"left\"\ncount = 2\nwidth = 32\nheight = 24\nformat = \"gray8\"\nchannel_order = \"gray\"\n";
@@ -15,7 +15,7 @@ use super::FramesInfo;
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ViewInfo {
-    /// The name: a letter, then letters, digits or `_`.
+    /// Name: a letter, then letters, digits or `_`.
     pub name: String,
     /// Size, colours and number of its frames, and its frame without contact.
     #[serde(flatten)]

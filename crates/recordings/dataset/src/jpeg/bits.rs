@@ -1,15 +1,15 @@
-//! Entropy-coded data, bit by bit, up to the next marker and never beyond.
+//! Bit reader of entropy-coded data up to the next marker.
 
-/// Reads the bits between two markers.
+/// Reader of the bits between two markers.
 #[derive(Debug)]
 pub(super) struct Bits<'a> {
     bytes: &'a [u8],
-    /// The next byte that was not taken into `buffer`.
+    /// Offset of the next byte that is not in `buffer`.
     position: usize,
-    /// Bits that were taken and not used yet, in the low end.
+    /// Bits read but not yet used, in the low end.
     buffer: u64,
     count: u32,
-    /// Whether `position` is that of a marker, or of the end of the file.
+    /// True if `position` is at a marker, or at the end of the file.
     is_at_marker: bool,
 }
 
@@ -27,7 +27,7 @@ impl<'a> Bits<'a> {
         }
     }
 
-    /// Takes bytes while there is room and no marker.
+    /// Fills the buffer until it is full or at a marker.
     fn fill(&mut self) {
         while self.count <= 56 && !self.is_at_marker {
             let Some(byte) = self.bytes.get(self.position).copied() else {
@@ -41,7 +41,7 @@ impl<'a> Bits<'a> {
                     self.is_at_marker = true;
                     return;
                 }
-                // A stuffed zero: the byte before is data.
+                // A stuffed zero: the byte before it is data.
                 self.position += fills + 1;
             }
             self.position += 1;
@@ -50,7 +50,7 @@ impl<'a> Bits<'a> {
         }
     }
 
-    /// The next 16 bits, with zeros where the data has ended, and how many of them are there.
+    /// The next 16 bits, padded with zeros at the end of the data, and the number of valid bits.
     #[inline]
     pub(super) fn peek(&mut self) -> (u32, u32) {
         if self.count < 16 {
@@ -64,7 +64,7 @@ impl<'a> Bits<'a> {
         (bits, self.count.min(16))
     }
 
-    /// Goes past bits that [`peek`](Bits::peek) said are there.
+    /// Skips bits that [`peek`](Bits::peek) reported as valid.
     #[inline]
     pub(super) fn skip(&mut self, count: u32) {
         self.count -= count;
@@ -84,7 +84,7 @@ impl<'a> Bits<'a> {
         Ok(bits >> (16 - count))
     }
 
-    /// The position of the marker that must follow, but for bits that fill up a byte.
+    /// The position of the marker that must follow, after padding bits.
     pub(super) fn end(mut self) -> Result<usize, String> {
         self.fill();
         if self.count < 8 && self.is_at_marker {
@@ -95,7 +95,7 @@ impl<'a> Bits<'a> {
     }
 }
 
-/// The number that bytes make, the greatest first.
+/// The number in `bytes`, big-endian.
 pub(super) fn big_endian(bytes: &[u8]) -> usize {
     bytes
         .iter()

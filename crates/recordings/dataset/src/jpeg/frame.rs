@@ -1,4 +1,4 @@
-//! The header of a frame, and which bits of its coefficients its scans have coded so far.
+//! Frame header of a JPEG, and the coefficient bits coded by its scans so far.
 
 use super::bits::big_endian;
 
@@ -6,17 +6,17 @@ use super::bits::big_endian;
 #[derive(Clone, Debug)]
 pub(super) struct Component {
     pub(super) id: u8,
-    /// Blocks side by side, and one above the other, in a unit of an interleaved scan.
+    /// Blocks across and down in a unit of an interleaved scan.
     pub(super) sampling: [usize; 2],
     /// The number of its quantisation table.
     pub(super) quantiser: u8,
-    /// Blocks side by side and one above the other, those that fill up the last unit too.
+    /// Blocks across and down, including padding of the last unit.
     pub(super) padded: [usize; 2],
-    /// The same without those.
+    /// Blocks across and down without padding.
     pub(super) blocks: [usize; 2],
-    /// Of each block of a progressive frame, the coefficients that are not zero, a bit each.
+    /// For each block of a progressive frame, a bit mask of its nonzero coefficients.
     pub(super) nonzero: Vec<u64>,
-    /// Of each coefficient, how many of its low bits have not been coded yet; `None` of one that no scan coded.
+    /// For each coefficient, the number of its low bits not coded yet; `None` if no scan coded it.
     pub(super) missing: [Option<u8>; 64],
 }
 
@@ -24,13 +24,13 @@ pub(super) struct Component {
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     pub(super) is_progressive: bool,
-    /// Units of an interleaved scan, side by side and one above the other.
+    /// Units of an interleaved scan, across and down.
     pub(super) units: [usize; 2],
     pub(super) components: Vec<Component>,
 }
 
 impl Frame {
-    /// The frame that the segment `body` describes.
+    /// Parses the frame from the segment `body`.
     pub(super) fn parse(body: &[u8], is_progressive: bool) -> Result<Frame, String> {
         let cut = || "a frame header that is cut".to_owned();
         let [precision, _, _, _, _, count, rest @ ..] = body else {
@@ -96,7 +96,7 @@ impl Frame {
         })
     }
 
-    /// Whether every coefficient was coded to its last bit.
+    /// Checks that every coefficient was coded to its last bit.
     pub(super) fn check_complete(&self) -> Result<(), String> {
         let mut missing = self
             .components

@@ -1,18 +1,18 @@
-//! The codes of a table, and what each stands for.
+//! Huffman codes of a table, and their symbols.
 
 use super::bits::{Bits, ENDS_EARLY};
 
-/// Codes of up to this many bits are found in one step.
+/// Maximum length of codes that are found in one step, bits.
 const QUICK: u32 = 9;
 
-/// A Huffman table, ready to decode.
+/// A Huffman table for decoding.
 #[derive(Clone, Debug)]
 pub(super) struct Huffman {
-    /// By the next [`QUICK`] bits: the length of the code and its symbol; length 0 where the code is longer or there is none.
+    /// By the next [`QUICK`] bits: the length of the code and its symbol; length 0 if the code is longer or invalid.
     quick: Vec<(u8, u8)>,
-    /// By length: the first code beyond those of that length, moved to the left end of 16 bits.
+    /// By length: the first code after those of that length, shifted to the left end of 16 bits.
     beyond: [u32; 17],
-    /// By length: what is added to a code to find its symbol.
+    /// By length: the offset from a code to the index of its symbol.
     offset: [i64; 17],
     symbols: Vec<u8>,
 }

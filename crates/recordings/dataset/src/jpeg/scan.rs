@@ -1,34 +1,34 @@
-//! The blocks of a scan, each read as a decoder reads it, but for what it would make of the numbers.
+//! Blocks of a scan, parsed like a decoder but without computing pixels.
 
 use super::bits::Bits;
 use super::frame::{Component, Frame};
 use super::huffman::Huffman;
 
-/// The tables and settings that the segments before a scan have defined for it.
+/// The tables and settings from the segments before a scan.
 #[derive(Debug, Default)]
 pub(super) struct Tables {
-    /// Those of DC coefficients, then those of AC coefficients.
+    /// Tables of DC coefficients, then of AC coefficients.
     pub(super) huffman: [[Option<Huffman>; 4]; 2],
-    /// Of each quantisation table, the divisor of the DC coefficient.
+    /// For each quantisation table, the divisor of the DC coefficient.
     pub(super) quantisers: [Option<usize>; 4],
-    /// Units between restart markers; 0 without.
+    /// Units between restart markers; 0 for none.
     pub(super) restart_interval: usize,
 }
 
-/// What the header of a scan says.
+/// Header of a scan.
 #[derive(Debug)]
 pub(super) struct Scan {
-    /// Position in the frame, and the numbers of both Huffman tables.
+    /// Index in the frame, and the numbers of both Huffman tables.
     components: Vec<(usize, [usize; 2])>,
-    /// The coefficients, first and last.
+    /// First and last coefficient.
     band: [usize; 2],
-    /// The bits that were coded before; 0 in the first scan of a band.
+    /// Bit position coded before; 0 in the first scan of a band.
     before: u8,
-    /// The bits that are left to later scans.
+    /// Number of bits left to later scans.
     later: u8,
 }
 
-/// The greatest coefficient that 8-bit pixels can have, twice over: some encoders overshoot on purpose.
+/// Twice the greatest coefficient of 8-bit pixels: some encoders overshoot on purpose.
 const GREATEST: i64 = 2_048;
 
 impl Scan {
@@ -67,7 +67,7 @@ impl Scan {
         Ok(scan)
     }
 
-    /// Notes which bits it codes, which must be the next ones.
+    /// Records the bits that it codes, which must be the next ones.
     fn note_bits(&self, frame: &mut Frame) -> Result<(), String> {
         let wrong = || Err("a scan that codes bits out of order".to_owned());
         let [first, last] = self.band;
@@ -98,7 +98,7 @@ impl Scan {
         Ok(())
     }
 
-    /// Reads every block of the data that begins at `start`; returns where the marker behind it is.
+    /// Parses every block of the data that begins at `start`; returns the position of the marker after it.
     pub(super) fn read(
         &self,
         frame: &mut Frame,
@@ -138,7 +138,7 @@ impl Scan {
             }
         }
         let end = state.finish(bits)?;
-        // Some encoders close the last part as they close the others.
+        // Some encoders end the last interval with a restart marker, too.
         let is_closed = interval > 0 && (wide * high).is_multiple_of(interval);
         let closed = is_closed.then(|| restarted(bytes, end, restarts).ok());
         Ok(closed.flatten().unwrap_or(end))
@@ -164,7 +164,7 @@ impl Scan {
         coders.collect()
     }
 
-    /// A block of a scan that codes some bits of some coefficients.
+    /// Parses a block of a scan of some bits of some coefficients.
     fn progressive(
         &self,
         coder: &Coder<'_>,
@@ -182,7 +182,7 @@ impl Scan {
         }
     }
 
-    /// The first bits of a band.
+    /// Parses the first bits of a band.
     fn first_of_band(
         &self,
         bits: &mut Bits<'_>,
@@ -214,7 +214,7 @@ impl Scan {
         Ok(())
     }
 
-    /// One more bit of a band.
+    /// Parses one more bit of a band.
     fn refined(
         &self,
         bits: &mut Bits<'_>,
@@ -231,7 +231,7 @@ impl Scan {
                         state.empty_blocks = run_of_blocks(bits, run)?;
                         break;
                     }
-                    // The sign of a coefficient that begins here.
+                    // The sign of a coefficient that becomes nonzero here.
                     (_, 1) => drop(bits.take(1)?),
                     (15, 0) => {}
                     _ => {
@@ -240,7 +240,7 @@ impl Scan {
                         );
                     }
                 }
-                // Past as many zeros as the run says, each coefficient that was coded before gets one more bit.
+                // While the run of zeros is skipped, each nonzero coefficient gets one more bit.
                 let mut zeros = run;
                 while at <= last {
                     if *nonzero >> at & 1 == 1 {
@@ -274,7 +274,7 @@ impl Scan {
 
 const OVERFLOW: &str = "the entropy-coded data has a run beyond the end of a block";
 
-/// What the blocks of a component are read with.
+/// Tables and settings for the blocks of a component.
 struct Coder<'a> {
     place: usize,
     first: Option<&'a Huffman>,
@@ -282,12 +282,12 @@ struct Coder<'a> {
     quantiser: i64,
 }
 
-/// What one block leaves to the next, between restart markers.
+/// State that one block passes to the next, between restart markers.
 #[derive(Default)]
 struct State {
-    /// By place in the frame, the last DC coefficient.
+    /// By component of the frame, the last DC coefficient.
     previous: [i64; 4],
-    /// Blocks that follow without a code of their own.
+    /// Number of following blocks without a code of their own.
     empty_blocks: u32,
 }
 
@@ -326,7 +326,7 @@ impl State {
     }
 }
 
-/// A block of a scan that codes everything at once.
+/// Parses a block of a sequential scan.
 #[inline]
 fn sequential(coder: &Coder<'_>, bits: &mut Bits<'_>, state: &mut State) -> Result<(), String> {
     let (Some(first), Some(others)) = (coder.first, coder.others) else {
@@ -348,7 +348,7 @@ fn sequential(coder: &Coder<'_>, bits: &mut Bits<'_>, state: &mut State) -> Resu
     Ok(())
 }
 
-/// The number of blocks, this one included, that have no further coefficient.
+/// The number of blocks, including this one, without further coefficients.
 fn run_of_blocks(bits: &mut Bits<'_>, size: u8) -> Result<u32, String> {
     Ok((1 << size) + bits.take(u32::from(size))?)
 }
@@ -357,7 +357,7 @@ fn halves(symbol: u8) -> (u8, u8) {
     (symbol >> 4, symbol & 15)
 }
 
-/// As many ones as `count` says, at the low end.
+/// A mask of `count` ones at the low end.
 fn mask(count: usize) -> u64 {
     if count < 64 {
         (1 << count) - 1
@@ -366,7 +366,7 @@ fn mask(count: usize) -> u64 {
     }
 }
 
-/// The position behind the restart marker of a number, which must be at `position`.
+/// The position after restart marker `number`, which must be at `position`.
 fn restarted(bytes: &[u8], position: usize, number: u8) -> Result<usize, String> {
     let rest = bytes.get(position..).unwrap_or_default();
     let fills = rest.iter().take_while(|byte| **byte == 0xFF).count();

@@ -1,11 +1,11 @@
-//! The segments of a JPEG, one after the other, and the state that they leave to the scans.
+//! Segments of a JPEG in order, and the state that they set for the scans.
 
 use super::bits::big_endian;
 use super::frame::Frame;
 use super::huffman::Huffman;
 use super::scan::{Scan, Tables};
 
-/// Goes through the segments of a file.
+/// Reader of the segments of a file.
 pub(super) struct Reader<'a> {
     bytes: &'a [u8],
     position: usize,
@@ -59,7 +59,7 @@ impl<'a> Reader<'a> {
         frame.check_complete()
     }
 
-    /// The kind of the marker that must be here.
+    /// The type of the marker that must be here.
     fn marker(&mut self) -> Result<u8, String> {
         let rest = self.bytes.get(self.position..).unwrap_or_default();
         let fills = rest.iter().take_while(|byte| **byte == 0xFF).count();
@@ -76,7 +76,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What a segment holds behind its length.
+    /// The content of a segment after its length.
     fn body(&mut self) -> Result<&'a [u8], String> {
         let rest = self.bytes.get(self.position..).unwrap_or_default();
         let cut = || format!("the segment at byte {} is cut", self.position);

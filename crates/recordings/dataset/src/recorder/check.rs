@@ -1,4 +1,4 @@
-//! Which samples can be recorded: others are refused before anything is written.
+//! Checks of samples before anything is written.
 
 use taceva_core::{Frame, MAGNITUDE_MAX, Sample, SignalInfo, Signals, is_scorable};
 

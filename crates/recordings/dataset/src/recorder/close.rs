@@ -14,10 +14,10 @@ use crate::signals::{SignalsInfo, SignalsReader, SignalsWriter};
 use crate::store::{Beside, write_table_and_header};
 
 impl Recorder {
-    /// Makes the recording a dataset. Until its header is in place the journal stays and the recording can be resumed.
+    /// Closes the recording to a dataset. Until its header is written the journal stays and the recording can be resumed.
     ///
     /// # Errors
-    /// [`DatasetError::Damaged`] if what was written does not read back; [`DatasetError::Io`].
+    /// [`DatasetError::Damaged`] if the written files do not read back; [`DatasetError::Io`].
     pub fn close(mut self) -> Result<Header, DatasetError> {
         let signals = self.signals.take().map(SignalsWriter::finish).transpose()?;
         let predictions = self.predictions.take();

@@ -9,7 +9,7 @@ use crate::journal::Journal;
 use crate::layout;
 use crate::lock::lock_folder;
 
-/// A locked folder in which nothing was recorded: a new one, or one whose creation was interrupted.
+/// Locks a folder without a recording: a new one, or one whose creation was interrupted.
 pub(super) fn empty_folder(path: &Path) -> Result<File, DatasetError> {
     match fs::create_dir(path) {
         Ok(()) => return lock_folder(path),

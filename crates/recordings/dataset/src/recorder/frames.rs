@@ -1,4 +1,4 @@
-//! The frames of a recording: each frame, and the name of its pack, is durable before the journal names it.
+//! Frames of a recording: each frame, and the name of its pack, is durable before the journal names it.
 
 use taceva_core::{Frame, FrameError, Sample};
 use taceva_files::parent_of;
@@ -16,7 +16,7 @@ use crate::pack::{PackWriter, cut_behind, read_span};
 use crate::table::FrameEntry;
 
 impl Recorder {
-    /// Appends the frames of `samples` to the pack, and returns once all of them are durable; an entry a sample.
+    /// Appends the frames of `samples` to the pack, and returns once all of them are durable; one entry for each sample.
     pub(super) fn write_frames(
         &mut self,
         samples: &[Sample],
@@ -25,7 +25,7 @@ impl Recorder {
         self.write_each(frames.collect())
     }
 
-    /// As [`write_frames`](Recorder::write_frames); what a camera sent as a file is kept as it is.
+    /// As [`write_frames`](Recorder::write_frames), but files sent by a camera are stored unchanged.
     pub(super) fn write_streamed(
         &mut self,
         stream: &[Streamed],
@@ -43,7 +43,7 @@ impl Recorder {
         if frames.iter().all(|(frame, _)| frame.is_none()) {
             return Ok(vec![None; frames.len()]);
         }
-        // After an error it is opened anew, and what nobody acknowledged is cut.
+        // After an error the pack is reopened, and unacknowledged bytes are cut.
         let mut pack = match self.pack.take() {
             Some(pack) => pack,
             None => {
@@ -65,7 +65,7 @@ impl Recorder {
         Ok(entries)
     }
 
-    /// Appends a frame, or its difference to the first of the pack where that is smaller.
+    /// Appends a frame, or its difference to the first of the pack if that is smaller.
     fn append_frame(
         &mut self,
         pack: &mut PackWriter,
@@ -75,7 +75,7 @@ impl Recorder {
         let whole = self.png(frame, layout::FRAMES)?;
         let is_first = pack.end().length == 0;
         let difference = match &self.first {
-            // One that is the first again is stored again: equal frames have equal digests.
+            // A frame equal to the first is stored whole: equal frames have equal digests.
             Some((digest, first)) if !is_first && frame != first => {
                 let damaged = |error: FrameError| self.damaged(error.to_string());
                 let difference = difference::less(frame, first).map_err(damaged)?;
@@ -101,7 +101,7 @@ impl Recorder {
         })
     }
 
-    /// Appends the file that a camera sent.
+    /// Appends a file sent by a camera.
     fn append_sent(
         &mut self,
         pack: &mut PackWriter,
@@ -109,7 +109,7 @@ impl Recorder {
     ) -> Result<FrameEntry, DatasetError> {
         pack.roll()?;
         if pack.end().length == 0 {
-            // A frame that is encoded in this pack is stored whole: nobody decodes this one just to differ from it.
+            // The next encoded frame of this pack is stored whole, because this one is not decoded for a difference.
             self.first = None;
         }
         let (path, span) = pack.append(sent, false)?;
@@ -120,7 +120,7 @@ impl Recorder {
         })
     }
 
-    /// The first frame of the pack that is gone on with, and its digest.
+    /// The first frame of the current pack, and its digest.
     fn first_of_pack(&self) -> Result<Option<(Digest, Frame)>, DatasetError> {
         let path = layout::pack_path(self.pack_end.number);
         let mut frames = self.table.frames().iter().flatten();
@@ -149,7 +149,7 @@ impl Recorder {
         }
     }
 
-    /// Writes a frame as a file of its own; its bytes and its name are durable.
+    /// Writes a frame as its own file; its bytes and its name are durable.
     pub(super) fn write_image(
         &self,
         relative: &str,
@@ -170,7 +170,7 @@ impl Recorder {
         })
     }
 
-    /// What all frames recorded so far share.
+    /// Properties that all frames recorded so far share.
     pub(super) fn frames_info(&self) -> Option<FramesInfo> {
         let info = self.frame_info?;
         let is_gray = info.format.samples() == 1;

@@ -1,4 +1,4 @@
-//! The payloads of a journal: TOML, so that a person can read what a broken recording holds.
+//! Payloads of a journal: TOML, so that a broken recording can be read by eye.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,7 +18,7 @@ use crate::signals::WrittenSignals;
 use crate::table::{FrameEntry, Row};
 use crate::toml_file::{parse_toml, toml_error};
 
-/// What a recording is of.
+/// Facts and channels of a recording.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenStart {
     source: Source,
@@ -84,10 +84,10 @@ impl WrittenStart {
     }
 }
 
-/// What a sample of a journal was: its row, the kind of its frame, the numbers of its taxels.
+/// A sample of a journal: its row, the kind of its frame, its taxel values.
 type Taken = (Row, Option<FrameInfo>, Option<Vec<f32>>);
 
-/// One sample; absent values are not written.
+/// One sample; missing values are not written.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenSample {
     sample: String,
@@ -125,7 +125,7 @@ pub(super) struct WrittenSample {
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenPress {
     pub(super) press: String,
-    /// Not written of a complete press.
+    /// Not written for a complete press.
     #[serde(default = "complete", skip_serializing_if = "is_complete")]
     pub(super) outcome: PressOutcome,
     pub(super) samples: Vec<WrittenSample>,
@@ -141,7 +141,7 @@ impl WrittenPress {
     }
 }
 
-/// Frames of a stream, and what was lost of it so far.
+/// Frames of a stream, and its losses so far.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenStream {
     pub(super) stream: StreamFacts,
@@ -185,7 +185,7 @@ impl WrittenFrame {
 }
 
 impl WrittenSample {
-    /// A row with the kind of its frame and the numbers of its taxels, as far as it has such.
+    /// A row with the kind of its frame and its taxel values, as far as present.
     pub(super) fn new(
         row: &Row,
         channels: &Channels,
@@ -230,7 +230,7 @@ impl WrittenSample {
         from_toml(payload)
     }
 
-    /// The row, the kind of its frame, and the numbers of its taxels, which are not compared with those that the recording has.
+    /// The row, the kind of its frame, and its taxel values, which are not compared with the taxels of the recording.
     pub(super) fn into_row(self, channels: &Channels) -> Result<Taken, String> {
         let stranger = self
             .truth

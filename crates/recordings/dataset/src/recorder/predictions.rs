@@ -1,4 +1,4 @@
-//! Predictions beside a recording, never among its labels.
+//! Predictions beside a recording, separate from its labels.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::file::write_durable;
 use crate::header::LivePredictions;
 use crate::layout;
 
-/// A table of predictions, and what the header says of it.
+/// A table of predictions, with its facts for the header.
 #[derive(Debug)]
 pub(super) struct PredictedTable {
     text: Vec<u8>,
@@ -17,9 +17,9 @@ pub(super) struct PredictedTable {
 }
 
 impl Recorder {
-    /// Keeps `table`, CSV with a line a sample, as what the model called `by` predicted; it is written when the recording is closed.
+    /// Stores the predictions `table`, CSV with one line for each sample, of the model called `by`, until the recording is closed.
     ///
-    /// The last one counts. An interruption before that loses it; frames and labels are kept, and `taceva predict` makes it anew.
+    /// The last one is used. An earlier interruption loses it, but frames and labels are kept, and `taceva predict` can make it again.
     pub fn keep_predictions(&mut self, by: &str, model: Digest, table: Vec<u8>) {
         self.predictions = Some(PredictedTable {
             facts: LivePredictions::new(by, model, &table),
@@ -29,7 +29,7 @@ impl Recorder {
 }
 
 impl PredictedTable {
-    /// Writes the table into a file beside its place in `folder`.
+    /// Writes the table into a temporary file in `folder`.
     pub(super) fn write(&self, folder: &Path) -> Result<(), DatasetError> {
         write_durable(&partial(folder, layout::PREDICTIONS), &self.text)
     }

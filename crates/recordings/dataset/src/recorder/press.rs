@@ -1,4 +1,4 @@
-//! A press of a protocol: one record of the journal, so that after any interruption either all of its samples are there or none.
+//! A press of a protocol: one record of the journal, so that an interruption keeps either all of its samples or none.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,12 +10,12 @@ use crate::error::DatasetError;
 use crate::journal::RecordKind;
 
 impl Recorder {
-    /// Whether a press of this name is recorded.
+    /// True if a press of this name is recorded.
     pub fn has_press(&self, press: &str) -> bool {
         self.presses.contains_key(press)
     }
 
-    /// How many presses ended in which way.
+    /// Number of presses by outcome.
     pub(super) fn press_counts(&self) -> BTreeMap<PressOutcome, u64> {
         let mut counts = BTreeMap::new();
         for outcome in self.presses.values() {
@@ -24,11 +24,11 @@ impl Recorder {
         counts
     }
 
-    /// Records a press, how it ended and all its samples, which may be none, and returns its number in the journal once it is durable.
+    /// Records a press, its outcome and all its samples, which may be none. Returns its number in the journal once it is durable.
     ///
     /// # Errors
-    /// As [`append`](Recorder::append), for the first sample that is refused; [`DatasetError::Sample`] if the name of the press is
-    /// empty or taken; [`DatasetError::Request`] for more samples than one record holds, some thousands. Nothing is recorded then.
+    /// As [`append`](Recorder::append), for the first rejected sample; [`DatasetError::Sample`] if the name of the press is empty or taken;
+    /// [`DatasetError::Request`] for more samples than one record holds, some thousands. Nothing is recorded then.
     pub fn append_press(
         &mut self,
         press: &str,
@@ -85,7 +85,7 @@ impl Recorder {
         self.check_together(samples)
     }
 
-    /// Whether `samples` can be recorded at once.
+    /// Checks that `samples` can be recorded at once.
     pub(super) fn check_together<'a>(
         &self,
         samples: impl IntoIterator<Item = &'a Sample>,

@@ -5,11 +5,11 @@ use super::payload::{WrittenFrame, WrittenPress, WrittenSample, WrittenStream};
 use crate::error::DatasetError;
 use crate::journal::{JournalRecord, RecordKind};
 
-/// Why a record of a journal cannot be restored.
+/// Error of restoring a record of a journal.
 pub(super) enum ReplayError {
-    /// What is wrong with it.
+    /// A damaged record, with the fault.
     Damaged(String),
-    /// An error of the operating system meanwhile.
+    /// An error of the operating system.
     Io(DatasetError),
 }
 

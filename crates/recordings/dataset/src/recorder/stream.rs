@@ -1,4 +1,4 @@
-//! Frames of a stream: several are recorded together, so that the disk is waited for once for all of them.
+//! Frames of a stream: several are recorded together, to sync the disk once for all of them.
 
 use taceva_core::{Frame, Sample};
 
@@ -9,7 +9,7 @@ use crate::error::DatasetError;
 use crate::header::StreamFacts;
 use crate::journal::RecordKind;
 
-/// A sample of a stream, and the file that its frame was sent as, where a camera sends files.
+/// A sample of a stream, with the file of its frame if the camera sends files.
 ///
 /// ```
 /// use taceva_core::Sample;
@@ -21,9 +21,9 @@ use crate::journal::RecordKind;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Streamed {
-    /// What is known, with the frame.
+    /// The sample, with its frame.
     pub sample: Sample,
-    /// The PNG, JPEG or TIFF file of which the frame was decoded: it is kept as it is, and not encoded again.
+    /// The PNG, JPEG or TIFF file from which the frame was decoded: it is stored unchanged.
     pub sent: Option<Vec<u8>>,
 }
 
@@ -33,10 +33,10 @@ impl Streamed {
         Streamed { sample, sent: None }
     }
 
-    /// The same with the file that its frame was sent as.
+    /// The same sample with the file that its frame was sent as.
     ///
     /// # Errors
-    /// What is wrong with the file, in words: neither PNG nor JPEG nor TIFF, cut, or damaged inside.
+    /// A message: the file is neither PNG nor JPEG nor TIFF, truncated, or damaged inside.
     pub fn with_sent(self, sent: Vec<u8>) -> Result<Streamed, String> {
         let kind = kind_of_whole(&sent)?;
         check_to_the_end(&sent, kind)?;
@@ -48,10 +48,10 @@ impl Streamed {
 }
 
 impl Recorder {
-    /// Records frames of a stream, and what was lost of it so far; returns their number in the journal once all of them are durable.
+    /// Records frames of a stream, and its losses so far; returns their number in the journal once all of them are durable.
     ///
     /// # Errors
-    /// As [`append_press`](Recorder::append_press): nothing is recorded then.
+    /// As [`append_press`](Recorder::append_press); nothing is recorded then.
     pub fn append_stream(
         &mut self,
         stream: &[Streamed],

@@ -10,7 +10,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use crate::limits;
 
-/// The cells of a column as they stand in the file.
+/// The cells of a column in their stored type.
 pub(super) enum Stored {
     Text(Vec<Option<String>>),
     Number(Vec<Option<f64>>),

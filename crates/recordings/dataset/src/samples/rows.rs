@@ -1,4 +1,4 @@
-//! From the columns of a file to the rows of a table.
+//! Conversion of the columns of a file to rows of a table.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::read::Stored;
 use crate::digest::Digest;
 use crate::table::{FrameEntry, Row, RowFrame, Table, column_of};
 
-/// Takes the columns of a file apart by name.
+/// The columns of a file, by name.
 struct Columns(BTreeMap<String, Stored>);
 
 impl Columns {
@@ -131,7 +131,7 @@ pub(super) fn assemble(
     Ok(table)
 }
 
-/// What a name in a cell says; `None` of a name that says nothing here.
+/// Parses the name in a cell; `None` if it is unknown.
 fn known<T>(name: Option<String>, of: impl Fn(&str) -> Option<T>) -> Option<Option<T>> {
     name.map_or(Some(None), |name| of(&name).map(Some))
 }

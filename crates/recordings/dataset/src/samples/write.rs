@@ -33,7 +33,7 @@ pub(super) fn write(table: &Table) -> Result<Vec<u8>, ParquetError> {
     writer.into_inner()
 }
 
-/// The unit of each channel, beside the data of a file.
+/// The unit of each channel, as metadata of a file.
 fn units(table: &Table) -> Vec<KeyValue> {
     let units = table.channels().iter().map(|channel| {
         KeyValue::new(
@@ -44,7 +44,7 @@ fn units(table: &Table) -> Vec<KeyValue> {
     units.collect()
 }
 
-/// How files are written: the same table is the same bytes.
+/// Writer settings: the same table gives the same bytes.
 fn properties(metadata: Vec<KeyValue>) -> WriterProperties {
     WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
@@ -65,7 +65,7 @@ fn field(column: &NamedColumn<'_>) -> Result<Type, ParquetError> {
         .build()
 }
 
-/// Writes those rows of a column.
+/// Writes some rows of a column.
 fn write_column<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &Cells<'_>,
@@ -92,7 +92,7 @@ fn write_column<W: Write + Send>(
     }
 }
 
-/// Writes the next column; a value that is there is at the definition level `level`.
+/// Writes the next column; a non-null value is at the definition level `level`.
 fn write_values<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: impl Iterator<Item = Option<T::T>>,

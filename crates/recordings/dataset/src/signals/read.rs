@@ -1,4 +1,4 @@
-//! Reading signals: their file is verified once, then some row groups are in memory at a time.
+//! Reader of signals: their file is verified once, then some row groups are in memory at a time.
 
 use std::collections::VecDeque;
 use std::fs::File;
@@ -16,23 +16,23 @@ use crate::decoder_panic::guarded;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 
-/// Row groups that are kept: 64 MiB at most.
+/// Maximum cached row groups: 64 MiB.
 const GROUPS: usize = 16;
 
-/// A file of signals, verified; shared between threads.
+/// A verified file of signals, shared between threads.
 #[doc(hidden)]
 pub struct SignalsReader {
     path: PathBuf,
     info: SignalsInfo,
     file: SerializedFileReader<File>,
-    /// The first row of each group, and behind the last one the number of rows.
+    /// The first row of each group, then the number of rows.
     starts: Vec<u64>,
-    /// The groups that were read last, the newest last, each place first.
+    /// Recently used groups, the newest last, each place first.
     groups: Mutex<VecDeque<(usize, Arc<Vec<f32>>)>>,
 }
 
 impl SignalsReader {
-    /// The signals of `rows` samples in `file`, which is at `path` and must be the one that `info` describes.
+    /// The signals of `rows` samples in `file`, which is at `path` and must match `info`.
     pub fn open(
         path: &Path,
         mut file: File,
@@ -63,7 +63,7 @@ impl SignalsReader {
         })
     }
 
-    /// The signals of `row`, which is one of them.
+    /// The signals of row `row`.
     pub fn row(&self, row: usize) -> Result<Signals, DatasetError> {
         let at = self.starts.partition_point(|start| *start <= row as u64);
         let number = at.saturating_sub(1);
@@ -78,7 +78,7 @@ impl SignalsReader {
         signals.map_err(|error| damaged(&self.path, format!("row {row}: {error}")))
     }
 
-    /// Reads every row, and checks that they are what was recorded, however they are stored.
+    /// Reads every row, and compares them with the recorded digest, whatever their storage.
     pub fn verify(&self) -> Result<(), DatasetError> {
         let mut digest = self.info.spec.digest();
         for number in 0..self.starts.len() - 1 {
@@ -98,7 +98,7 @@ impl SignalsReader {
         }
     }
 
-    /// The numbers of a row group, kept or read now; who waits for the same one does not read it again.
+    /// The values of a row group, cached or read now; concurrent requests for one group read it once.
     fn group(&self, number: usize) -> Result<Arc<Vec<f32>>, DatasetError> {
         let mut groups = self.groups.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(position) = groups.iter().position(|(kept, _)| *kept == number) {
@@ -131,7 +131,7 @@ impl std::fmt::Debug for SignalsReader {
     }
 }
 
-/// The first row of each group, if schema and sizes are those that `info` promises: nothing is allocated by what a file says before.
+/// The first row of each group, after a check of schema and sizes against `info`: nothing is allocated by unchecked sizes.
 fn starts(
     file: &SerializedFileReader<File>,
     info: &SignalsInfo,
@@ -165,7 +165,7 @@ fn starts(
     }
 }
 
-/// The numbers of a row group, place first.
+/// The values of a row group, place first.
 fn read_group(group: &dyn RowGroupReader, length: usize) -> Result<Vec<f32>, ParquetError> {
     let rows = usize::try_from(group.metadata().num_rows())?;
     let mut values = vec![0.0; rows * length];

@@ -1,4 +1,4 @@
-//! Which taxels a recording has, and what the header says of their file.
+//! Taxels of a recording, and the facts of their file in the header.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{Channel, SignalInfo, Unit};
@@ -22,17 +22,17 @@ use crate::digest::{Digest, PartsDigest};
 pub struct SignalsSpec {
     /// The grid and the unit.
     pub info: SignalInfo,
-    /// What each number of a place is called, in order.
+    /// Names of the numbers of a place, in order.
     pub channels: Vec<String>,
     /// Runs of rows without contact, each by its first and its last row, from 0.
     pub rest: Vec<[u64; 2]>,
 }
 
 impl SignalsSpec {
-    /// Taxels of `info`, whose numbers are called `channels`; no row is known to be without contact.
+    /// Taxels of `info`, with numbers called `channels`; no rows are marked as without contact.
     ///
     /// # Errors
-    /// What is wrong with the names, in words: not one for each number of a place, one twice, or one that is no name of a column.
+    /// A message if there is not one name for each number of a place, or a name is duplicate or invalid for a column.
     pub fn new<N: Into<String>>(
         info: SignalInfo,
         channels: impl IntoIterator<Item = N>,
@@ -46,7 +46,7 @@ impl SignalsSpec {
         Ok(spec)
     }
 
-    /// The same with the runs of rows without contact, each by its first and its last row, from 0.
+    /// The same taxels with the runs of rows without contact, each by its first and its last row, from 0.
     #[must_use]
     pub fn with_rest(self, rest: impl IntoIterator<Item = [u64; 2]>) -> SignalsSpec {
         SignalsSpec {
@@ -55,7 +55,7 @@ impl SignalsSpec {
         }
     }
 
-    /// What its columns are called, in the order of the numbers: `taxel_ROW_COLUMN_CHANNEL`.
+    /// Names of its columns, in the order of the numbers: `taxel_ROW_COLUMN_CHANNEL`.
     pub fn column_names(&self) -> impl Iterator<Item = String> + '_ {
         let SignalInfo { rows, columns, .. } = self.info;
         let places = (0..rows).flat_map(move |row| (0..columns).map(move |column| (row, column)));
@@ -65,7 +65,7 @@ impl SignalsSpec {
         })
     }
 
-    /// What is wrong with it, in words: it may come of a file.
+    /// Checks values that may come from a file; the error is a message.
     pub(super) fn check(&self) -> Result<(), String> {
         let info = self.info;
         if !info.is_valid() {
@@ -95,7 +95,7 @@ impl SignalsSpec {
         Ok(())
     }
 
-    /// What is wrong with the rows without contact of a recording of `rows`, in words.
+    /// Checks the rows without contact of a recording of `rows`; the error is a message.
     pub(super) fn check_rest(&self, rows: u64) -> Result<(), String> {
         let wrong = |run: &&[u64; 2]| run[0] > run[1] || run[1] >= rows;
         match self.rest.iter().find(wrong) {
@@ -106,7 +106,7 @@ impl SignalsSpec {
         }
     }
 
-    /// The beginning of the digest of what the file says: everything but its numbers.
+    /// The beginning of the digest of the file's content: everything but its numbers.
     pub(super) fn digest(&self) -> PartsDigest {
         let mut digest = PartsDigest::default();
         digest.part(b"taceva.signals/1");
@@ -125,7 +125,7 @@ impl SignalsSpec {
     }
 }
 
-/// What a header says of the taxels of a recording.
+/// Facts of the taxels of a recording in a header.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Readings, Sample, SignalInfo, Signals, Unit};
@@ -152,13 +152,13 @@ impl SignalsSpec {
 pub struct SignalsInfo {
     /// The taxels.
     pub spec: SignalsSpec,
-    /// The digest of what the file says, however it is stored.
+    /// The digest of the content of the file, independent of its storage.
     pub digest: Digest,
     /// The SHA-256 of the bytes of the file.
     pub sha256: Digest,
 }
 
-/// As it stands in `dataset.toml`.
+/// The taxels in the form of `dataset.toml`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenSignals {
@@ -175,7 +175,7 @@ pub(crate) struct WrittenSignals {
 }
 
 impl WrittenSignals {
-    /// Of a recording that is not closed.
+    /// The form for a recording that is not closed.
     pub(crate) fn of(spec: &SignalsSpec) -> WrittenSignals {
         WrittenSignals {
             rows: spec.info.rows,
@@ -188,7 +188,7 @@ impl WrittenSignals {
         }
     }
 
-    /// The taxels, or what is wrong with them, in words.
+    /// The taxels; the error is a message.
     pub(crate) fn spec(&self) -> Result<SignalsSpec, String> {
         let channels = u32::try_from(self.channels.len()).unwrap_or(u32::MAX);
         let info = SignalInfo::new(self.rows, self.columns, channels, self.unit);

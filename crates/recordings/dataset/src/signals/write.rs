@@ -1,4 +1,4 @@
-//! Writing signals row by row: no more than a row group is in memory.
+//! Writer of signals, row by row: memory holds at most a row group.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -18,20 +18,20 @@ use crate::decoder_panic::guarded;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 
-/// A file of signals while it is written.
+/// A file of signals that is being written.
 #[doc(hidden)]
 pub struct SignalsWriter {
     path: PathBuf,
     spec: SignalsSpec,
     writer: SerializedFileWriter<BufWriter<File>>,
-    /// Rows that no group holds yet, place first.
+    /// Rows that are in no group yet, place first.
     held: Vec<f32>,
     rows: u64,
     digest: PartsDigest,
 }
 
 impl SignalsWriter {
-    /// Begins the file at `path`; one that is there is written anew.
+    /// Creates the file at `path`; an existing one is overwritten.
     pub fn create(path: &Path, spec: &SignalsSpec) -> Result<SignalsWriter, DatasetError> {
         let damaged = |problem| damaged(path, problem);
         spec.check().map_err(damaged)?;
@@ -85,7 +85,7 @@ impl SignalsWriter {
         }
     }
 
-    /// Ends the file; its bytes are on the disk, its name is not.
+    /// Ends the file; its bytes are synced, its name is not.
     pub fn finish(mut self) -> Result<SignalsInfo, DatasetError> {
         let problem = self.spec.check_rest(self.rows);
         problem.map_err(|problem| damaged(&self.path, problem))?;

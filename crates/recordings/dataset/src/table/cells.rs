@@ -1,11 +1,11 @@
-//! The columns of a table, whatever they hold, seen in one way: to be digested, stored and exported.
+//! Columns of a table in one form for digests, storage and export.
 
 use taceva_core::{Channel, Column, GratingKind, Limit, Nanometre, Phase, Unit};
 
 use super::FrameEntry;
 use crate::digest::PartsDigest;
 
-/// The names of the columns on disk that are no channels; no channel and no attribute may be called so.
+/// The names of the columns on disk that are no channels; channels and attributes must have other names.
 pub const RESERVED: [&str; 18] = [
     "sample",
     "point_id",
@@ -27,17 +27,17 @@ pub const RESERVED: [&str; 18] = [
     "frame_sha256",
 ];
 
-/// Whether a text column may be called `name`.
+/// True if a text column may be called `name`.
 pub fn is_attribute_name(name: &str) -> bool {
     !RESERVED.contains(&name) && Channel::named(name, Unit::One).is_ok()
 }
 
-/// A column with the name it has on disk.
+/// A column with its name on disk.
 #[doc(hidden)]
 pub struct NamedColumn<'a> {
-    /// Its name.
+    /// Name.
     pub name: &'a str,
-    /// Its cells.
+    /// Cells.
     pub cells: Cells<'a>,
 }
 
@@ -73,12 +73,12 @@ impl Cells<'_> {
         }
     }
 
-    /// Whether the cells are texts in which anything may stand.
+    /// True if the cells are free texts.
     pub fn is_text(&self) -> bool {
         matches!(self, Cells::Name(_) | Cells::Text(_))
     }
 
-    /// The number in a row, of a column of numbers.
+    /// The number in a row of a column of numbers.
     pub fn number(&self, row: usize) -> Option<f64> {
         match self {
             Cells::Spacing(cells) => cells[row].map(Nanometre::to_millimetres),

@@ -8,7 +8,7 @@ use crate::digest::Digest;
 use crate::layout;
 use crate::pack::Span;
 
-/// Where a frame lies within the dataset, and what its bytes must be.
+/// Location of a frame in the dataset, with the digest of its bytes.
 ///
 /// ```
 /// use taceva_dataset::{Digest, FrameEntry};
@@ -19,21 +19,21 @@ use crate::pack::Span;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FrameEntry {
-    /// Its file, or the pack that it is in, relative to the folder of the dataset, with `/`.
+    /// Its file, or its pack, relative to the folder of the dataset, with `/`.
     pub path: String,
-    /// Which bytes of that file it is; all of them if absent.
+    /// The bytes within that file; `None` for all of them.
     pub span: Option<Span>,
-    /// The digest of its bytes; of a difference, of these and of the digest of the frame that it is a difference to.
+    /// The digest of its bytes; for a difference, of these and of the digest of the frame it is relative to.
     pub digest: Digest,
 }
 
 impl FrameEntry {
-    /// The frame at `place`: a path, and behind that of a pack `@OFFSET+LENGTH`, as tables write it.
+    /// The frame at `place`: a path, and after that of a pack `@OFFSET+LENGTH`, as tables write it.
     pub fn at(place: impl Into<String>, digest: Digest) -> FrameEntry {
         let place = place.into();
         let found = place.rfind('@').and_then(|at| {
             let (path, span) = place.split_at(at);
-            // Another file may have such a name.
+            // Another file may have a name of this form.
             layout::pack_number(path)?;
             Some((path.to_owned(), span.parse().ok()?))
         });
@@ -44,17 +44,17 @@ impl FrameEntry {
         FrameEntry { path, span, digest }
     }
 
-    /// Whether it is stored as the difference to the first frame of its pack.
+    /// True if it is stored as the difference to the first frame of its pack.
     pub fn is_difference(&self) -> bool {
         self.span.is_some_and(|span| span.is_difference)
     }
 
-    /// Whether it is the first frame of the pack at `path`.
+    /// True if it is the first frame of the pack at `path`.
     pub(crate) fn begins(&self, path: &str) -> bool {
         self.path == path && self.span.is_some_and(|span| span.offset == 0)
     }
 
-    /// Where it lies, as tables and journals write it: a path, and behind that of a pack the bytes.
+    /// Location in the form of tables and journals: a path, and after that of a pack the bytes.
     pub(crate) fn place(&self) -> Cow<'_, str> {
         match self.span {
             Some(span) => format!("{}{span}", self.path).into(),
@@ -75,7 +75,7 @@ impl FrameEntry {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct RowFrame {
-    /// The picture as it came, relative to the folder of its lab.
+    /// The original picture, relative to the folder of its lab.
     pub source_frame: Option<String>,
     /// Mean luma, in steps of an 8-bit camera.
     pub intensity: Option<f64>,
@@ -83,7 +83,7 @@ pub struct RowFrame {
     pub frame: Option<FrameEntry>,
 }
 
-/// One row of a [`Table`](super::Table); what is absent is `None`.
+/// One row of a [`Table`](super::Table); missing values are `None`.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels};
@@ -99,9 +99,9 @@ pub struct RowFrame {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Row {
-    /// Its name, once in a table.
+    /// Name, unique in a table.
     pub sample: String,
-    /// The contact point: what repeats share.
+    /// The contact point, which repeats share.
     pub point_id: Option<String>,
     /// The sensor unit.
     pub unit_id: Option<String>,
@@ -113,19 +113,19 @@ pub struct Row {
     pub repeat: Option<u32>,
     /// Load or unload.
     pub phase: Option<Phase>,
-    /// The limit of the gel that kept the tip from where it was sent.
+    /// The limit of the gel that stopped the tip before its target.
     pub limited_by: Option<Limit>,
-    /// The table that it was imported from, relative to the folder of the lab, or the file that was the row.
+    /// The table of the import, relative to the folder of the lab, or the file that was the row.
     pub source_table: Option<String>,
-    /// Which row of that table it was, from 0.
+    /// The row in that table, from 0.
     pub source_row: Option<u32>,
-    /// The picture that it came with, relative to the folder of its lab: a file, or a file and the number of the picture in it, from 0, `clip.mp4#12`.
+    /// The original picture, relative to the folder of its lab: a file, or a file and the index in it, from 0: `clip.mp4#12`.
     pub source_frame: Option<String>,
-    /// The part of a declared split it belongs to.
+    /// The part of a declared split.
     pub part: Option<String>,
-    /// The time in seconds of the recording's clock.
+    /// The time by the recording's clock, s.
     pub t_s: Option<f64>,
-    /// The relief of the grating that is touched.
+    /// The relief of the grating touched.
     pub kind: Option<GratingKind>,
     /// The spacing of that grating.
     pub spacing: Option<Nanometre>,
@@ -137,12 +137,12 @@ pub struct Row {
     pub attributes: Vec<Option<String>>,
     /// The picture.
     pub frame: Option<FrameEntry>,
-    /// One picture for each view of the table, whose rows then have no other.
+    /// One picture for each view of the table; rows then have no other.
     pub views: Vec<RowFrame>,
 }
 
 impl Row {
-    /// The row of the sample called `sample`, of which nothing else is known.
+    /// The row of the sample called `sample`, without other values.
     pub fn new(sample: impl Into<String>) -> Row {
         Row {
             sample: sample.into(),

@@ -1,4 +1,4 @@
-//! Rows of one table in another, and what makes two rows the same.
+//! Copying rows between tables, and identity of rows.
 
 use taceva_core::Channel;
 
@@ -6,19 +6,19 @@ use super::views::{ViewFrames, column_kind};
 use super::{FrameEntry, Row, Table};
 use crate::digest::{Digest, PartsDigest};
 
-/// What a row of another table is called here, and where its frame lies.
+/// Names of a row of another table in this one, and the location of its frame.
 #[doc(hidden)]
 pub struct RowNames {
     /// Name of the sample.
     pub sample: String,
     /// Contact point.
     pub point_id: Option<String>,
-    /// Place of the frame.
+    /// Location of the frame.
     pub frame: Option<FrameEntry>,
 }
 
 impl Table {
-    /// Adds the row at `row` of `other`, a table of the same channels in any order; an attribute that only one of both has is absent in the rows
+    /// Adds the row at `row` of `other`, a table of the same channels in any order. An attribute of only one table is missing in the rows
     /// of the other.
     ///
     /// # Panics
@@ -58,7 +58,7 @@ impl Table {
         self.push(row);
     }
 
-    /// For each row the digest of what it says, however it is called and wherever it came from: its labels, its time, and the digest of its frame.
+    /// The digest of each row's content, independent of its names and origin: its labels, its time, and the digest of its frame.
     pub fn row_digests(&self) -> Vec<Digest> {
         const NAMES: [&str; 6] = [
             "sample",

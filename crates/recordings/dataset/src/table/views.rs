@@ -1,12 +1,12 @@
-//! The pictures of a table whose rows have several: a column of them for each view.
+//! Pictures of a table with several views: one column for each view.
 
 use super::{Cells, FrameEntry, NamedColumn, RowFrame, Table};
 use crate::digest::{Digest, PartsDigest};
 
-/// Separates the name of a column on disk from the view that it is of; no attribute and no channel contains it.
+/// Separator between the name of a column on disk and its view; no attribute or channel contains it.
 const SEPARATOR: char = ':';
 
-/// The pictures of one view, a row each.
+/// The pictures of one view, one for each row.
 ///
 /// ```
 /// use taceva_core::Channels;
@@ -26,12 +26,12 @@ pub struct ViewFrames {
     frames: Vec<Option<FrameEntry>>,
 }
 
-/// The column on disk that is called `column`, of the view called `view`.
+/// The name on disk of the column `column` of the view `view`.
 pub fn column_of(column: &str, view: &str) -> String {
     format!("{column}{SEPARATOR}{view}")
 }
 
-/// Kind of a column on disk, whichever view it is of.
+/// Kind of a column on disk, without its view.
 pub fn column_kind(column: &str) -> &str {
     column.split(SEPARATOR).next().unwrap_or(column)
 }
@@ -63,7 +63,7 @@ impl ViewFrames {
         &self.intensity
     }
 
-    /// The picture that each row came with in the folder of its lab.
+    /// The original picture of each row in the folder of its lab.
     pub fn source_frame(&self) -> &[Option<String>] {
         &self.source_frame
     }
@@ -99,7 +99,7 @@ impl ViewFrames {
 }
 
 impl Table {
-    /// The same without rows, each of which will have a picture in every one of the views called so.
+    /// The same table without rows; each row will have a picture in every one of these views.
     ///
     /// # Panics
     /// If there are rows.
@@ -110,7 +110,7 @@ impl Table {
         self
     }
 
-    /// The views, in the order in which the dataset lists them; none where a row has one picture at most.
+    /// The views, in the order of the dataset; empty if a row has at most one picture.
     pub fn views(&self) -> &[ViewFrames] {
         &self.views
     }
@@ -120,7 +120,7 @@ impl Table {
         self.views.iter().find(|view| view.name == name)
     }
 
-    /// Says where the file of a row's frame in the view at position `view` lies, and how bright it is.
+    /// Sets the file and the brightness of a row's frame in the view at index `view`.
     ///
     /// # Panics
     /// If there is no such view or row.
@@ -130,8 +130,8 @@ impl Table {
         view.intensity[row] = Some(intensity);
     }
 
-    /// The same table, whose frames are those of the views at `positions`. Of several the entry has the place of the first and a digest of all.
-    /// Their intensity is the mean by `widths`.
+    /// The same table with the frames of the views at `positions`. Several views have the location of the first, a digest of all, and the
+    /// mean intensity weighted by `widths`.
     pub(crate) fn seen_by(&self, positions: &[usize], widths: &[u32]) -> Table {
         let mut seen = self.clone();
         let views: Vec<&ViewFrames> = positions.iter().map(|at| &self.views[*at]).collect();
@@ -175,7 +175,7 @@ fn beside(rows: &[RowFrame], widths: &[u32]) -> RowFrame {
     }
 }
 
-/// The digest of pictures that stand side by side.
+/// The digest of pictures side by side.
 pub(crate) fn digest_of(pictures: impl Iterator<Item = Digest>) -> Digest {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.frames/1 side by side");

@@ -1,4 +1,4 @@
-//! Features of frames and signals that are kept for the next model; beyond a total size the oldest are removed.
+//! Features of frames and signals, stored for the next model; the oldest are removed beyond a total size.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -16,21 +16,21 @@ use super::{ABANDONED, Cache, CachedStage, Key, remove};
 use crate::claim::{Claim, Watch};
 use crate::error::EvaluateError;
 
-/// What is kept of features altogether, in bytes.
+/// Size limit of all stored features, bytes.
 const ALL_MAX: u64 = 2 << 30;
-/// How often it is looked whether somebody else is done.
+/// Interval at which a waiting task checks whether another has finished.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
-/// What is kept of one set of them.
+/// Size limit of one set of features, bytes.
 pub(crate) const ONE_MAX: u64 = ALL_MAX / 4;
 
-/// Features of whole recordings in memory, by their key.
+/// Features of whole recordings in memory, by key.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     kept: Mutex<BTreeMap<String, Arc<Features>>>,
 }
 
 impl Cache {
-    /// The features of `rows`, all of `dataset` that any fold may want: those in memory, or what `make` gives, which stays there from then on.
+    /// The features of `rows`, all rows of `dataset` that any fold may need, from memory or from `make`; they then stay in memory.
     pub(crate) fn whole_features(
         &self,
         dataset: &Dataset,
@@ -51,14 +51,14 @@ impl Cache {
         Ok(made)
     }
 
-    /// True if features of whole recordings stay in memory, so that their size is no reason to make them twice.
+    /// True if features of whole recordings stay in memory, so that size does not force computing them twice.
     pub(crate) fn is_in_memory(&self) -> bool {
         self.memory.is_some()
     }
 
-    /// The features of `rows` of `dataset` by `extractor`: those kept, or what `make` gives, which is kept from then on.
+    /// The features of `rows` of `dataset` by `extractor`: those stored, or the result of `make`, which is then stored.
     ///
-    /// Features are a function of frames and reference frame, or of signals and those at rest, which the digest of a dataset covers.
+    /// Features are a function of frames and reference frame, or of signals and those at rest; the digest of a dataset covers both.
     pub(crate) fn features(
         &self,
         dataset: &Dataset,
@@ -73,7 +73,7 @@ impl Cache {
         let key = features_key(dataset, extractor, rows);
         if let Some(found) = self.take_value(&key) {
             let entry = File::open(self.entry(&key));
-            // Of those that are not looked at any more the oldest goes first; a folder that may only be read is as good.
+            // Marks the entry as used, because the longest unused goes first; a read-only folder works as well.
             drop(entry.and_then(|entry| entry.set_modified(SystemTime::now())));
             return Ok(found);
         }
@@ -88,7 +88,7 @@ impl Cache {
         self.keep_value(&key, &made);
         drop(turn);
         if let Some(folder) = self.entry(&key).parent() {
-            // What cannot be dropped now is when the next is kept.
+            // Entries that cannot be dropped now are dropped with the next one.
             drop(trim(folder, ALL_MAX));
             drop(self.sweep());
         }
@@ -97,7 +97,7 @@ impl Cache {
 }
 
 impl Cache {
-    /// Waits until nobody else makes what `key` names. Without a claim, as in a folder that cannot be written, the work is done twice at worst.
+    /// Waits until no other task computes the result of `key`. Without a claim, as in a read-only folder, work may be done twice.
     fn turn(&self, key: &Key) -> Option<Claim> {
         let partial = self.partial();
         fs::create_dir_all(&partial).ok()?;
@@ -115,7 +115,7 @@ impl Cache {
         }
     }
 
-    /// Removes what was being written by runs that were stopped long ago.
+    /// Removes partial entries of runs that stopped long ago.
     fn sweep(&self) -> io::Result<()> {
         for entry in fs::read_dir(self.partial())? {
             let entry = entry?;
@@ -128,9 +128,8 @@ impl Cache {
     }
 }
 
-/// Key of the features of `rows`.
 fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key {
-    // Principal components are found by the model, of all features.
+    // The model computes principal components from all features.
     let spec = FeatureSpec {
         pca: None,
         ..*extractor.spec()
@@ -143,7 +142,7 @@ fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key
         .finish()
 }
 
-/// Removes the files of `folder` that were not looked at for longest, until the others come to no more than `most` bytes.
+/// Removes the longest unused files of `folder` until the others total at most `most` bytes.
 fn trim(folder: &Path, most: u64) -> io::Result<()> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -163,8 +162,8 @@ fn trim(folder: &Path, most: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// Height, width and depth as 32-bit numbers, then the features as they are in memory, all with the least byte first. They are read and written a
-/// piece at a time, so that the matrix is in memory once.
+/// Height, width and depth as 32-bit numbers, then the features as in memory, all little-endian. They are read and written in pieces, so
+/// that memory holds the matrix once.
 impl Kept for Features {
     fn to_kept(&self) -> Option<impl Read> {
         let FeatureShape {
@@ -217,15 +216,15 @@ impl Kept for Features {
     }
 }
 
-/// Bytes that are read at once.
+/// Bytes read at once.
 const BLOCK: usize = 1 << 16;
 
 /// Numbers as bytes, a block of them at a time.
 struct Bytes<'a> {
-    /// Those behind the block.
+    /// The values after the block.
     values: &'a [f32],
     block: Vec<u8>,
-    /// How much of the block was read.
+    /// Number of bytes of the block already read.
     read: usize,
 }
 
@@ -264,7 +263,7 @@ mod tests {
         read.expect("it is in memory");
         let found = |bytes: &[u8]| Features::from_kept(bytes, bytes.len());
         assert_eq!(found(&kept), Some(features));
-        // Without any sample they are whole, which the digest of the file knows better.
+        // Twelve bytes are a complete matrix without samples; the digest of the file detects that truncation.
         for length in (0..kept.len()).filter(|length| *length != 12) {
             assert_eq!(found(&kept[..length]), None, "{length} bytes");
         }

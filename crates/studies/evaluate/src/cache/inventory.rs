@@ -1,4 +1,4 @@
-//! What is kept in a folder of a cache, and what of it may go.
+//! Entries in a folder of a cache, and which of them may be removed.
 
 use std::fs::{self, Metadata};
 use std::io;
@@ -11,51 +11,51 @@ use super::{ABANDONED, LAYOUT, PARTIAL, remove};
 /// The digits of a key.
 const DIGITS: usize = 64;
 
-/// Something that is kept: the result of one stage, or what a stopped run left half written.
+/// An entry: the result of one stage, or a partial entry of a stopped run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CacheEntry {
-    /// The stage that it is a result of; none of what is half written.
+    /// The stage of the result; `None` for a partial entry.
     pub stage: Option<CachedStage>,
-    /// The digits of its key, or the name of what is half written.
+    /// The digits of its key, or the name of a partial entry.
     pub name: String,
-    /// Where it lies.
+    /// Path of the entry.
     pub path: PathBuf,
-    /// What it holds, in bytes.
+    /// Size, bytes.
     pub bytes: u64,
-    /// What removing it frees, in bytes: files that a run shares stay where the run has them.
+    /// Bytes that removing it frees: files shared with a run stay there.
     pub own_bytes: u64,
-    /// Its files.
+    /// Number of files.
     pub files: u64,
-    /// When it was made, or looked at for the last time.
+    /// Time of creation or last use.
     pub used: SystemTime,
 }
 
 impl CacheEntry {
-    /// The word for its kind: that of its stage, or `partial`.
+    /// The word for its kind: the name of the stage, or `partial`.
     pub fn kind(&self) -> &'static str {
         self.stage.map_or(PARTIAL, CachedStage::name)
     }
 
-    /// How long nobody has looked at it; zero for what is from the future.
+    /// Time since the last use; zero for a time in the future.
     pub fn age(&self, now: SystemTime) -> Duration {
         now.duration_since(self.used).unwrap_or_default()
     }
 }
 
-/// What is to go.
+/// Rules for removal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Pruning {
-    /// Only results of these stages; all of none.
+    /// Results of only these stages; empty for all.
     pub stages: Vec<CachedStage>,
-    /// What nobody has looked at for longer.
+    /// Removes entries unused for longer.
     pub older_than: Option<Duration>,
-    /// What is beyond so many bytes altogether, of those not looked at for longest first.
+    /// Removes the longest unused entries until the total is at most this many bytes.
     pub keep: Option<u64>,
 }
 
-/// Everything that is kept in `folder`, by kind, the longest unused first; a folder that is not there holds nothing.
+/// All entries in `folder`, by kind, the longest unused first; empty if the folder does not exist.
 ///
-/// Only what this program writes is listed: other files there are ignored.
+/// Only files of this program are listed; others are ignored.
 ///
 /// # Errors
 /// If the folder cannot be read.
@@ -88,7 +88,7 @@ fn gather(
             Some(_) => name.len() == DIGITS && name.bytes().all(|byte| byte.is_ascii_hexdigit()),
             None => is_partial(&name),
         };
-        // A run may have finished or swept it meanwhile.
+        // A run may have finished or removed it meanwhile.
         if is_ours && let Ok(facts) = fs::symlink_metadata(entry.path()) {
             let mut sum = Sum::default();
             sum.add(&entry.path(), &facts)?;
@@ -106,7 +106,7 @@ fn gather(
     Ok(())
 }
 
-/// Whether a run writes under that name: the number of a process and a counter.
+/// True if the name has the form of a partial entry: process number and counter.
 fn is_partial(name: &str) -> bool {
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     name.split_once('-')
@@ -138,7 +138,7 @@ impl Sum {
     }
 }
 
-/// Whether a file has another name, which keeps it.
+/// True if a file has another hard link, which keeps its content.
 fn is_shared(facts: &Metadata) -> bool {
     #[cfg(unix)]
     let links = std::os::unix::fs::MetadataExt::nlink(facts);
@@ -150,9 +150,9 @@ fn is_shared(facts: &Metadata) -> bool {
     links > 1
 }
 
-/// Those of `entries` that go by `pruning`, as they stand at `now`: what is too old, then what is too much.
+/// The entries of `entries` to remove by `pruning` at the time `now`: the too old, then the excess.
 ///
-/// What is half written goes once nobody can be writing it any more, whatever is asked for.
+/// Partial entries are removed once no run can still write them, whatever the rules.
 pub fn pruned<'a>(
     entries: &'a [CacheEntry],
     pruning: &Pruning,
@@ -188,7 +188,7 @@ pub fn pruned<'a>(
     going
 }
 
-/// Removes `entry` from the cache in `folder`; a run that looks for it meanwhile finds all of it or nothing.
+/// Removes `entry` from the cache in `folder`; a concurrent run finds all of it or nothing.
 ///
 /// # Errors
 /// If it cannot be moved away or removed.
@@ -198,13 +198,13 @@ pub fn remove_entry(folder: &Path, entry: &CacheEntry) -> io::Result<()> {
     }
     let partial = folder.join(LAYOUT).join(PARTIAL);
     fs::create_dir_all(&partial)?;
-    // Names of this form are swept by later runs, should this be stopped here.
+    // Later runs remove names of this form if this call is interrupted.
     let beside = (0..u32::MAX)
         .map(|number| partial.join(format!("{}-{number}", std::process::id())))
         .find(|beside| fs::symlink_metadata(beside).is_err())
         .ok_or_else(|| io::Error::other("no name is free"))?;
     match fs::rename(&entry.path, &beside) {
-        // Somebody was faster.
+        // Another process was faster.
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
         moved => moved.and_then(|()| remove(&beside)),
     }

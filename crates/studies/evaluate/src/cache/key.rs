@@ -1,17 +1,17 @@
-//! The name of a stage's result: the digest of everything that it was made from.
+//! The key of a stage's result: the digest of all its inputs.
 
 use std::fmt::{self, Debug};
 
 use taceva_dataset::Digest;
 
-/// A stage of a run whose result is kept in the cache.
+/// A stage of a run whose result is stored in the cache.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum CachedStage {
     /// The presses of a study: a recording.
     Acquire,
-    /// The features of their frames.
+    /// The features of the frames of a recording.
     Features,
     /// The fitted model.
     Fit,
@@ -42,27 +42,27 @@ impl CachedStage {
         }
     }
 
-    /// Counted on when the result of the same parts becomes another one within a version of this program.
+    /// Version of the result; incremented when the same inputs give another result within a version of this program.
     const fn version(self) -> u32 {
         match self {
-            // 2: the recording says how its presses ended.
+            // 2: the recording states how its presses ended.
             // 3: the recording has a picture of the untouched gel.
             CachedStage::Acquire => 3,
             // 2: standard deviations follow the predictions.
-            // 3: predictions are as the model gives them, beyond its bounds too.
+            // 3: predictions are unclipped.
             CachedStage::Predict => 3,
-            // 2: elastic nets end their descent earlier, Gaussian processes reach as far as they say.
-            // 3: the card says the mean of the labels.
-            // 4: residual networks train with Winograd's convolutions, and their cards say in which form they predict.
+            // 2: elastic nets stop their descent earlier, Gaussian processes extend as far as they state.
+            // 3: the card states the mean of the labels.
+            // 4: residual networks train with Winograd's convolutions, and their cards state the form in which they predict.
             CachedStage::Fit => 4,
-            // 2: likewise.
+            // 2: the same change.
             CachedStage::Classify => 2,
             CachedStage::Features => 1,
         }
     }
 }
 
-/// The name of a stage's result.
+/// The key of a stage's result.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Key {
     stage: CachedStage,
@@ -70,7 +70,7 @@ pub struct Key {
 }
 
 impl Key {
-    /// The key of a result of `stage`, of which parts are to be named.
+    /// Starts the key of a result of `stage`; its parts follow.
     pub fn of(stage: CachedStage) -> KeyBuilder {
         let builder = KeyBuilder {
             stage,
@@ -87,7 +87,7 @@ impl Key {
         self.stage
     }
 
-    /// The 64 digits by which its entry is called.
+    /// The 64 digits that name its entry.
     pub fn digits(&self) -> String {
         let bytes = self.digest.as_bytes().iter();
         bytes.map(|byte| format!("{byte:02x}")).collect()

@@ -1,8 +1,8 @@
-//! Recordings in the folders of runs: the cache notes where each is and keeps no copy.
+//! Recordings in the folders of runs: the cache notes their paths and keeps no copy.
 //!
-//! A note lists the folders that hold one recording, the last one first, each behind the digest of its header: a folder of that name may
-//! hold another recording by now. Another run links the files of the first that is still what was
-//! recorded; where none is, for its runs were removed or moved, presses are made anew, from the seed to the same bytes.
+//! A note lists the folders that hold one recording, the last first, each after the digest of its header, because the folder may hold
+//! another recording by now. Another run links the files of the first folder that still holds the recording. If there is none, the presses
+//! are made again from the seed, with the same bytes.
 
 use std::fs;
 use std::io;
@@ -14,11 +14,11 @@ use taceva_files::sync_folder;
 use super::tree::link;
 use super::{Cache, Key, remove};
 
-/// Folders that a note lists.
+/// Maximum folders that a note lists.
 const PLACES: usize = 8;
 
 impl Cache {
-    /// The recording noted under `key`, put at `place`, where nothing is; `None` if nobody has it any more as it was written.
+    /// Links the recording noted under `key` to `place`, which must not exist; `None` if no folder still holds it unchanged.
     pub(super) fn take_recording(&self, key: &Key, place: &Path) -> Option<Dataset> {
         let beside = beside(place)?;
         for Held {
@@ -33,7 +33,7 @@ impl Cache {
                 ));
                 continue;
             }
-            // A run that was removed is no reason for a word.
+            // A run that was removed needs no message.
             let linked = remove(&beside).and_then(|()| link(&held, &beside));
             match linked {
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
@@ -53,7 +53,7 @@ impl Cache {
                 },
             }
         }
-        // Nobody reads a name that begins with a dot, should it stay.
+        // A remaining name that begins with a dot is never read.
         drop(remove(&beside));
         None
     }
@@ -76,7 +76,7 @@ impl Cache {
             other.folder != own.folder && header_digest(&other.folder) == Some(other.header)
         });
         for held in [own.clone()].into_iter().chain(others).take(PLACES) {
-            // A name that is no text, or more than a line, cannot be noted.
+            // A path that is not text, or contains a line break, cannot be noted.
             match held.folder.to_str().filter(|name| !name.contains('\n')) {
                 Some(name) => lines.push_str(&format!("{} {name}\n", held.header)),
                 None if held.folder == own.folder => return,
@@ -103,7 +103,7 @@ impl Cache {
 /// A folder that holds a recording.
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
-    /// Of the bytes of its header.
+    /// Digest of the bytes of its header.
     header: Digest,
     folder: PathBuf,
 }
@@ -113,9 +113,9 @@ fn header_digest(folder: &Path) -> Option<Digest> {
     Some(Digest::of(&header))
 }
 
-/// What is wrong with the recording at `path`, if anything is: header and table as they are opened, and every frame by its digest.
+/// Checks the recording at `path`: header and table on opening, and every frame by its digest. The error is a message.
 ///
-/// Frames would else be read where no stage that reads them is kept, and then it is too late to press again.
+/// Without this check a damaged frame would be found only by a later stage, too late to press again.
 fn check(path: &Path) -> Result<(), String> {
     let dataset = Dataset::open(path).map_err(|error| error.to_string())?;
     dataset.verify_frames().map_err(|error| error.to_string())

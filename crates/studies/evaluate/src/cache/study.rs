@@ -1,4 +1,4 @@
-//! The cache as one study of a run uses it.
+//! The cache as seen by one study of a run.
 
 use std::path::Path;
 
@@ -7,20 +7,20 @@ use taceva_dataset::Dataset;
 use super::value::Kept;
 use super::{Cache, CachedStage, Key};
 
-/// A stage of a study, and whether its result was found rather than made.
+/// A stage of a study, and whether its result was found rather than computed.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct StageRecord {
     /// The study.
     pub study: String,
     /// The stage.
     pub stage: CachedStage,
-    /// The digest of everything that its result is made from.
+    /// The digest of all inputs of its result.
     pub key: String,
-    /// Whether it was found.
+    /// True if the result was found in the cache.
     pub reused: bool,
 }
 
-/// The cache as one study uses it; where there is none, every stage is carried out.
+/// The cache as seen by one study; without a cache, every stage is computed.
 #[derive(Clone, Copy)]
 pub struct StudyCache<'a> {
     /// The cache, if there is one.
@@ -32,7 +32,7 @@ pub struct StudyCache<'a> {
 }
 
 impl StudyCache<'_> {
-    /// What is kept under `key`, or what `make` gives, which is kept from then on.
+    /// The value stored under `key`, or the result of `make`, which is then stored.
     pub fn value<T: Kept, E>(self, key: &Key, make: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
         let Some(cache) = self.cache else {
             return make();
@@ -47,7 +47,7 @@ impl StudyCache<'_> {
         Ok(value)
     }
 
-    /// The recording at `place`: the one kept under `key` if nothing is there yet, or what `make` leaves there, which is kept from then on.
+    /// The recording at `place`: the one stored under `key` if nothing is there yet, or the result of `make`, which is then stored.
     pub fn recording<E>(
         self,
         key: &Key,
@@ -57,7 +57,7 @@ impl StudyCache<'_> {
         let Some(cache) = self.cache else {
             return Ok((make()?, false));
         };
-        // What was begun there goes on.
+        // A recording that was started there is continued.
         let found = (!place.exists()).then(|| cache.take_recording(key, place));
         if let Some(dataset) = found.flatten() {
             self.record(key, true);

@@ -1,4 +1,4 @@
-//! Folders of files that are shared rather than copied.
+//! Folders of files that are linked rather than copied.
 
 use std::fs::{self, File};
 use std::io;
@@ -6,10 +6,10 @@ use std::path::Path;
 
 use taceva_files::sync_folder;
 
-/// Files of fewer bytes are copied: they save nothing, and what somebody edits in one folder stays as it was in another.
+/// Size below which files are copied, bytes: linking saves nothing, and an edit in one folder does not change the other.
 const LINKED: u64 = 1 << 16;
 
-/// Makes the folder `to` with all files of `from`: linked if they are large, or copied where the file system refuses links.
+/// Makes the folder `to` with all files of `from`: large ones linked, or copied if the file system rejects links.
 ///
 /// Names in it are durable when this returns; files are as durable as those of `from`.
 pub(super) fn link(from: &Path, to: &Path) -> io::Result<()> {

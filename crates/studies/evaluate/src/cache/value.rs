@@ -1,4 +1,4 @@
-//! Small results that are kept: one file each, whose first line is the digest of the rest.
+//! Small stored results: one file each, whose first line is the digest of the rest.
 
 use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
@@ -9,16 +9,16 @@ use taceva_models::Model;
 
 use super::{Cache, Key};
 
-/// A result that is kept in a file.
+/// A result that can be stored in a file.
 pub trait Kept: Sized {
-    /// What is kept, as often as it is asked for; `None` where it cannot be written down.
+    /// A reader of the stored form, new at each call; `None` if the value cannot be stored.
     fn to_kept(&self) -> Option<impl Read>;
 
-    /// What was kept in so many bytes; `None` if these are not the bytes of such a result.
+    /// The value from `length` stored bytes; `None` if they do not hold such a value.
     fn from_kept(bytes: impl Read, length: usize) -> Option<Self>;
 }
 
-/// The model of a plugin is not kept: nobody but its plugin can load it.
+/// A plugin's model is not stored: only its plugin can load it.
 impl Kept for Model {
     fn to_kept(&self) -> Option<impl Read> {
         let is_of_plugin = self.card().plugin.is_some();
@@ -31,7 +31,7 @@ impl Kept for Model {
     }
 }
 
-/// A byte that says whether there is a value, and the bits of the value, a row.
+/// For each row, a byte that says whether there is a value, then the bits of the value.
 impl Kept for Column {
     fn to_kept(&self) -> Option<impl Read> {
         let rows = (0..self.len()).map(|row| self.get(row));
@@ -63,11 +63,11 @@ fn all_of(mut bytes: impl Read, length: usize) -> Option<Vec<u8>> {
     Some(all)
 }
 
-/// The bytes of the first line: the digest, and the end of the line.
+/// Length of the first line, bytes: the digest and the line end.
 const FIRST_LINE: usize = 72;
 
 impl Cache {
-    /// The result kept under `key`; `None` if there is none or it is not what was written.
+    /// The result stored under `key`; `None` if there is none or its bytes have changed.
     pub(super) fn take_value<T: Kept>(&self, key: &Key) -> Option<T> {
         let entry = self.entry(key);
         let file = match File::open(&entry) {
@@ -87,7 +87,7 @@ impl Cache {
         None
     }
 
-    /// Keeps `value` under `key`.
+    /// Stores `value` under `key`.
     pub(super) fn keep_value(&self, key: &Key, value: &impl Kept) {
         if value.to_kept().is_none() {
             return;
@@ -97,13 +97,13 @@ impl Cache {
             let mut file = File::create_new(beside)?;
             writeln!(file, "{}", Digest::of_reader(&mut kept()?)?)?;
             io::copy(&mut kept()?, &mut file)?;
-            // A name that outlives a power cut must not stand for an empty file.
+            // A name that survives a power cut must not refer to an empty file.
             file.sync_all()
         });
     }
 }
 
-/// The value in a file, if what follows the first line has the digest that stands there.
+/// The value in a file, if the rest of the file has the digest of the first line.
 fn taken<T: Kept>(mut file: &File) -> io::Result<Option<T>> {
     let length = usize::try_from(file.metadata()?.len()).unwrap_or(usize::MAX);
     let Some(length) = length.checked_sub(FIRST_LINE) else {
@@ -120,7 +120,7 @@ fn taken<T: Kept>(mut file: &File) -> io::Result<Option<T>> {
     Ok(T::from_kept(BufReader::new(file), length))
 }
 
-/// Whether nothing is there, or nothing can be because no folder is.
+/// True if the entry or its folder does not exist.
 fn is_absent(error: &io::Error) -> bool {
     matches!(
         error.kind(),

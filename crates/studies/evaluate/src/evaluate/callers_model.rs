@@ -1,4 +1,4 @@
-//! Predictions of a model that a caller holds, scored by the rules that hold for ours.
+//! Predictions of a model that a caller holds, scored by the rules for our own models.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -16,12 +16,12 @@ use crate::predict::{self, Predictor, Target};
 use crate::rows::{DataPart, Divided, Need, chosen_channels, require_samples, usable};
 use taceva_results::ModelProvenance;
 
-/// What is known of a model whose file and whose learning we have not seen.
+/// Digest and training data of a model that only the caller has.
 const UNKNOWN: &str = "unknown";
 
-/// Rows for a model that a caller holds: what it may learn, and what it is scored on.
+/// Rows for a model that a caller holds: the rows to learn, and the rows to score.
 ///
-/// Whatever it predicts, [`score`](GivenRows::score) is the one way on.
+/// All its predictions are scored by [`score`](GivenRows::score).
 #[derive(Debug)]
 pub struct GivenRows {
     channels: Channels,
@@ -34,31 +34,31 @@ pub struct GivenRows {
     is_unbounded: bool,
 }
 
-/// How rows are chosen for a model that a caller holds.
+/// Choice of rows for a model that a caller holds.
 #[derive(Clone, Debug, Default)]
 pub struct GivenRequest {
     /// Channels by name; empty for all.
     pub channels: Vec<String>,
-    /// Whether the model is fitted on the training part now.
+    /// True if the model is fitted on the training part now.
     pub learns: bool,
-    /// The split as people write it. Of a model that does not learn now, the one that it was fitted by; `None` where nobody knows.
+    /// The split in text form. For a model that does not learn now, the split it was fitted by; `None` if unknown.
     pub split: Option<String>,
     /// The seed of the split.
     pub seed: u64,
-    /// The part that is scored; what the model has not seen, if `None`.
+    /// The part that is scored; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
-    /// Whether the model looks at frames.
+    /// True if the model reads frames.
     pub reads_frames: bool,
-    /// Whether predictions of a model that learns now are scored as they are, and not brought within the bounds of its labels.
+    /// True if predictions of a model that learns now are scored unclipped, not clipped to the bounds of its labels.
     pub is_unbounded: bool,
 }
 
-/// What a model that a caller holds is called.
+/// Name and settings of a model that a caller holds.
 #[derive(Clone, Debug, Default)]
 pub struct GivenModel {
-    /// Its name, such as `sklearn.linear_model.Ridge`.
+    /// Name, such as `sklearn.linear_model.Ridge`.
     pub name: String,
-    /// Its settings by name, that of its features included.
+    /// Settings by name, including that of its features.
     pub settings: BTreeMap<String, String>,
 }
 
@@ -101,12 +101,12 @@ impl GivenRows {
         })
     }
 
-    /// What is predicted.
+    /// The predicted channels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
 
-    /// The rows to learn, ascending, each with a label of every channel; none for a model that does not learn now.
+    /// The rows to learn, ascending, each with a label of every channel; empty for a model that does not learn now.
     pub fn train(&self) -> &[usize] {
         &self.train
     }
@@ -133,14 +133,14 @@ impl GivenRows {
         labels.collect()
     }
 
-    /// The scores of `predictions` of the rows to predict. A model that learnt here is brought within the bounds of its labels, as ours are, and
-    /// its skill is measured by the mean of its labels; of another it is not known what it has learnt, and a note says so.
+    /// The scores of `predictions` for the rows to predict. A model that learnt here is clipped to the bounds of its labels, as ours are.
+    /// Its skill is measured against the mean of its labels. The training data of any other model is unknown, and a note says so.
     ///
     /// # Shapes
     /// `predictions` are `[rows, channels]`, row after row.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`] for as many numbers as are not wanted, or one that is not finite.
+    /// [`EvaluateError::Request`] for the wrong number of values, or one that is not finite.
     pub fn score(
         self,
         dataset: &Dataset,

@@ -1,4 +1,4 @@
-//! Cross-validation: each group of samples, or each recording, is predicted by a model that was fitted on others.
+//! Cross-validation: each group of samples, or each recording, is predicted by a model fitted on others.
 
 use std::collections::BTreeSet;
 
@@ -20,9 +20,9 @@ use crate::rows::{DataPart, Divided};
 use crate::work::Work;
 use taceva_results::ModelProvenance;
 
-/// Folds where nobody says how many.
+/// Default number of folds.
 const COUNT: usize = 5;
-/// Groups below which one division scores too few of them, so that cross-validation is the default.
+/// Number of groups below which one division scores too few of them, so that cross-validation is the default.
 const GROUPS_MANY: usize = 1000;
 
 /// Divisions that together test on every sample.
@@ -40,11 +40,11 @@ struct Fold {
     divided: Divided,
 }
 
-/// The folds that `request` asks for, or that are the default for as few groups as there are; `None` where it asks for one division, or a part
-/// is asked for, which folds have none of.
+/// The folds that `request` names, or the default folds for few groups. `None` if it names one division or a part, because folds have no
+/// parts.
 ///
 /// # Errors
-/// [`EvaluateError::Split`] if there is one recording, fewer groups than folds, or the split means nothing.
+/// [`EvaluateError::Split`] if there is one recording, fewer groups than folds, or the split is not valid.
 pub(crate) fn of<'a>(
     dataset: &'a Dataset,
     request: &FitRequest,
@@ -66,7 +66,7 @@ pub(crate) fn of<'a>(
     }
 }
 
-/// The folds of the cross-validation that `request` names; `None` where it names none.
+/// The folds of the cross-validation that `request` names; `None` if it names none.
 ///
 /// # Errors
 /// As of [`of`].
@@ -98,7 +98,7 @@ fn of_spec<'a>(
     .map(Some)
 }
 
-/// The folds of a recording whose groups are few; not of a run, whose plan divides it, nor of several recordings.
+/// The default folds of a recording with few groups; `None` for a run, which its plan divides, and for joined recordings.
 fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
     if !dataset.recordings().is_empty() || PlannedRows::of(dataset)?.is_some() {
         return Ok(None);
@@ -112,7 +112,7 @@ fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
     let fields = SplitFields::of(dataset, &rows, &kind);
     let groups = spec.groups(&fields.input(rows.len()))?;
     let groups: BTreeSet<&String> = groups.iter().filter(|name| !name.is_empty()).collect();
-    // With two groups a fold there is something to learn from and to choose settings by.
+    // Two groups a fold are enough to learn from and to choose settings by.
     let is_default = (2 * COUNT..GROUPS_MANY).contains(&groups.len());
     Ok(is_default.then_some(spec))
 }
@@ -238,7 +238,7 @@ impl<'a> Folds<'a> {
         })
     }
 
-    /// Refuses a part: what is scored is every sample, by a model that has not seen its group.
+    /// Rejects a part: cross-validation scores every sample, by a model that has not seen its group.
     pub(crate) fn refuse_part(&self, request: &EvaluateRequest) -> Result<(), EvaluateError> {
         match request.part {
             None => Ok(()),
@@ -255,7 +255,7 @@ impl<'a> Folds<'a> {
         }
     }
 
-    /// The split in words, without shares, which say nothing of recordings that are left out.
+    /// The split in words, without shares, which do not apply to left-out recordings.
     fn words(&self) -> String {
         match self.are_recordings {
             true => "leave-one-recording-out".to_owned(),
@@ -263,7 +263,7 @@ impl<'a> Folds<'a> {
         }
     }
 
-    /// Says what is fitted, once for all folds.
+    /// Adds the fit to the plan, once for all folds.
     pub(super) fn explain(&self, plan: &mut Plan) {
         let count = self.folds.len();
         let what = match self.are_recordings {
@@ -281,7 +281,7 @@ impl<'a> Folds<'a> {
         self.plan(request, &self.folds[0])
     }
 
-    /// Fits and predicts fold by fold, and scores all predictions together. Features are made once.
+    /// Fits and predicts fold by fold, and scores all predictions together. Features are computed once.
     pub(crate) fn evaluate(
         &self,
         request: &EvaluateRequest,
@@ -332,7 +332,7 @@ impl<'a> Folds<'a> {
         }
         let predicted = predicted.expect("BUG: there are at least two folds");
         let (rows, mut predicted) = predicted.in_order_of(rows);
-        // Every frame once for each kind of features, whatever number of folds it was in.
+        // Each frame counts once for each kind of features, in any number of folds.
         predicted.frames_decoded = 0;
         let target = Target {
             part: DataPart::Test,
@@ -374,7 +374,7 @@ impl<'a> Folds<'a> {
     }
 }
 
-/// What a result says of the models of all folds: what they have in common, and the digest of their digests.
+/// Combines the models of all folds: their common settings, and the digest of their digests.
 fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
     let mut digests = String::new();
     let mut settings = models[0].1.model.settings.clone();

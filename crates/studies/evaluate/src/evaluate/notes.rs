@@ -1,4 +1,4 @@
-//! What a reader must know of the rows that were predicted, and of the model that predicted them.
+//! Notes on the predicted rows, and on the model that predicted them.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use crate::rows::DataPart;
 use taceva_results::ModelProvenance;
 
 impl Target {
-    /// Whether the model was fitted on the part.
+    /// True if the model was fitted on the part.
     pub(super) fn is_seen(&self) -> bool {
         let divided = self.divided.as_ref();
         let is_fitted = divided.is_some_and(|divided| !divided.rows(DataPart::Train).is_empty());
@@ -31,7 +31,7 @@ impl Target {
         .collect()
     }
 
-    /// Pictures of the test part that are, byte for byte, among those that the model was fitted on.
+    /// Pictures of the test part whose bytes equal a picture of the training part.
     fn copies(&self, dataset: &Dataset) -> Option<Note> {
         let divided = self.divided.as_ref()?;
         if self.part != DataPart::Test {
@@ -48,7 +48,7 @@ impl Target {
     }
 }
 
-/// A fit before rows were added, so that the parts are larger than those that were fitted on.
+/// A fit made before rows were added, so that the parts now exceed the fitted rows.
 fn fitted_before(dataset: &Dataset, fitted_on: &str) -> Option<Note> {
     let mut stages = dataset.header().stages();
     let (_, rows) = stages.find(|(digest, _)| digest.to_string() == fitted_on)?;

@@ -1,4 +1,4 @@
-//! Which metrics read which rows: scores of predictions belong to what the model has not seen, the truth alone to everything.
+//! Rows that each metric reads: metrics of predictions read unseen samples, metrics of the truth alone read all.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -12,21 +12,21 @@ use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::predict::{Predicted, truth};
 
-/// The metrics of a plan by the rows they read.
+/// The metrics of a plan, grouped by the rows they read.
 pub(super) struct Passes<'a> {
     plan: &'a MetricPlan,
-    /// The group of every row, where intervals are by groups.
+    /// The group of every row, if intervals are by groups.
     groups: Option<&'a [String]>,
-    /// Those that compare predictions within the bounds of the model with the truth.
+    /// Metrics that compare clipped predictions with the truth.
     of_predictions: Vec<&'static Metric>,
-    /// Those that compare predictions as the model gives them with the truth.
+    /// Metrics that compare unclipped predictions with the truth.
     of_unbounded: Vec<&'static Metric>,
-    /// Those that look at the truth alone.
+    /// Metrics of the truth alone.
     of_truth: Vec<&'static Metric>,
 }
 
 impl<'a> Passes<'a> {
-    /// Assigns the metrics of `plan` to passes; where a part was asked for, every metric reads that part.
+    /// Assigns the metrics of `plan` to passes; if a part was requested, every metric reads that part.
     pub(super) fn new(
         plan: &'a MetricPlan,
         groups: Option<&'a [String]>,
@@ -47,7 +47,7 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// Accumulates `predicted`, which are the rows `rows` of `dataset`, and of the rest what metrics of the truth alone read.
+    /// Accumulates `predicted`, the rows `rows` of `dataset`, and the other rows for metrics of the truth alone.
     pub(super) fn run(
         &self,
         dataset: &Dataset,
@@ -92,7 +92,7 @@ impl<'a> Passes<'a> {
         Ok(total)
     }
 
-    /// The scores of predictions of one recording alone: of those of `rows` at the positions `own`. Intervals are by its contact points.
+    /// The scores of predictions of one recording: the positions `own` of `rows`. Intervals are by its contact points.
     pub(super) fn of_recording(
         &self,
         dataset: &Dataset,
@@ -126,7 +126,7 @@ impl<'a> Passes<'a> {
         Ok(evaluation.with_bounded_shares(&predicted.bounded(own).shares()))
     }
 
-    /// The metrics that read every row, where others read predictions.
+    /// The note on metrics that read every row, if others read predictions.
     pub(super) fn note(&self, dataset: &Dataset) -> Option<Note> {
         let metrics: Vec<&str> = self.of_truth.iter().map(|metric| metric.id).collect();
         let reads_predictions = !self.of_predictions.is_empty() || !self.of_unbounded.is_empty();
@@ -134,7 +134,7 @@ impl<'a> Passes<'a> {
         (!metrics.is_empty() && reads_predictions).then_some(Note::EveryRow { metrics, rows })
     }
 
-    /// The plan with fewer metrics and everything else alike, so that its states join those of the whole one.
+    /// The plan with fewer metrics and otherwise unchanged, so that its states merge with those of the whole plan.
     fn restricted(&self, metrics: &[&'static Metric]) -> Result<MetricPlan, EvaluateError> {
         let plan = self.plan;
         let restricted = MetricPlan::new(metrics, plan.channels().clone(), plan.available())

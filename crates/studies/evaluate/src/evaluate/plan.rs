@@ -1,4 +1,4 @@
-//! What an evaluation would do, before any frame is read.
+//! Steps of an evaluation, before any frame is read.
 
 use taceva_core::{SkipReason, Skipped, shown};
 use taceva_dataset::Dataset;
@@ -12,7 +12,7 @@ use crate::plan::Plan;
 use crate::predict::Target;
 use crate::rows::{DataPart, Divided};
 
-/// Says what [`evaluate`](super::evaluate) would do; reads no frame.
+/// The steps of [`evaluate`](super::evaluate); reads no frame.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid.

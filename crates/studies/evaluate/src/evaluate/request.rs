@@ -1,4 +1,4 @@
-//! What is to be evaluated, and what comes of it.
+//! Requests and results of an evaluation.
 
 use taceva_dataset::SensorFile;
 use taceva_models::{Model, SplitManifest};
@@ -8,22 +8,22 @@ use crate::rows::DataPart;
 use crate::state_file::StateFile;
 use taceva_results::EvaluationReport;
 
-/// What to evaluate.
+/// Request of an evaluation.
 #[derive(Debug)]
 pub struct EvaluateRequest {
     /// The model, fitted or to be fitted.
     pub model: ModelChoice,
     /// Metrics and groups by name.
     pub metrics: Vec<String>,
-    /// The part that is scored; what the model has not seen, if `None`.
+    /// The part that is scored; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
-    /// What is known of the sensor beyond the dataset's header.
+    /// Facts about the sensor beyond the dataset's header.
     pub sensor: Option<SensorFile>,
-    /// True if the caller says that samples do not depend on each other, so that each is a point of its own in intervals.
+    /// True if the caller states that samples are independent, so that each is a point of its own in intervals.
     pub is_independent: bool,
 }
 
-/// What is asked for beside the model.
+/// The request without its model.
 #[derive(Clone, Copy)]
 pub struct Asked<'a> {
     pub(super) metrics: &'a [String],
@@ -58,8 +58,8 @@ pub enum ModelChoice {
 pub struct Evaluated {
     /// The scores and where they come from.
     pub report: EvaluationReport,
-    /// What was kept, to be joined with that of other recordings.
+    /// The state, to be merged with that of other recordings.
     pub state: StateFile,
-    /// How the dataset was divided, if it was.
+    /// The division of the dataset; `None` if it was not divided.
     pub manifest: Option<SplitManifest>,
 }

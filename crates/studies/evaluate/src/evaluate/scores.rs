@@ -1,4 +1,4 @@
-//! From predictions to scores, with where they come from.
+//! Predictions to scores, with their provenance.
 
 use std::num::NonZeroUsize;
 
@@ -25,7 +25,7 @@ use crate::samples;
 use crate::skill::with_skill;
 use crate::subject;
 
-/// The metrics that are asked for, of what is known of `dataset`.
+/// The requested metrics, given the facts of `dataset`.
 pub(super) fn metrics(
     dataset: &Dataset,
     channels: &Channels,
@@ -37,20 +37,20 @@ pub(super) fn metrics(
     Ok(MetricPlan::new(&with_skill(wanted), channels.clone(), available).with_facts(facts))
 }
 
-/// What a result says of the model, or the models, behind it.
+/// Description in a result of the model, or the models, behind it.
 pub struct Behind {
     pub(super) model: ModelProvenance,
-    /// What a reader must know of it.
+    /// Notes on the model.
     pub(super) notes: Vec<Note>,
-    /// The fit, where it was made for this result.
+    /// The fit, if it was made for this result.
     pub(super) fit: FitFacts,
 }
 
 impl Behind {
-    /// The card of `model` in the words of a report.
+    /// The card of `model` as a report states it.
     ///
     /// # Errors
-    /// [`EvaluateError::ModelFormat`] for a model that cannot be written down.
+    /// [`EvaluateError::ModelFormat`] for a model that cannot be written to a file.
     pub fn of(model: &Model) -> Result<Behind, EvaluateError> {
         Ok(Behind {
             model: provenance::model(model)?,
@@ -60,7 +60,7 @@ impl Behind {
     }
 }
 
-/// The scores of what was predicted, with where they come from.
+/// The scores of predictions, with their provenance.
 pub fn score(
     dataset: &Dataset,
     asked: Asked<'_>,
@@ -156,7 +156,7 @@ pub fn score(
     })
 }
 
-/// The reason why samples of `target` are taken as independent, if they are.
+/// The reason why samples of `target` are treated as independent; `None` if they are not.
 fn independence(asked: Asked<'_>, target: &Target) -> Option<Independence> {
     let found = target.divided.as_ref();
     match (
@@ -169,7 +169,7 @@ fn independence(asked: Asked<'_>, target: &Target) -> Option<Independence> {
     }
 }
 
-/// The scores of each recording alone, where several were joined.
+/// The scores of each recording alone, if several were joined.
 fn by_recording(
     dataset: &Dataset,
     plan: &MetricPlan,

@@ -1,22 +1,20 @@
-//! The input of a model in a recording: its frames or its signals.
+//! Input of a model in a recording: frames or signals.
 
 use taceva_core::{Field, Frame, FrameInfo, Input, InputInfo, SignalInfo, Signals};
 use taceva_dataset::{Dataset, DatasetError};
 use taceva_models::{FeatureSpec, RecordedFrames};
 
-/// The frames or the signals of a recording, and what they are without contact, where that is asked for.
+/// The frames or the signals of a recording, with those without contact if requested.
 pub(crate) enum Sight {
-    /// Frames.
     Frames(FrameInfo, Option<Frame>),
-    /// Signals.
     Signals(SignalInfo, Option<Signals>),
 }
 
 impl Sight {
-    /// The frames or the signals of `dataset` that `spec` asks for, or the name of what the dataset lacks.
+    /// The frames or the signals of `dataset` that `spec` needs, or the name of what the dataset lacks.
     ///
     /// # Errors
-    /// Those of reading what it is without contact.
+    /// Errors of reading the input without contact.
     pub(crate) fn of(
         dataset: &Dataset,
         spec: &FeatureSpec,
@@ -45,7 +43,7 @@ impl Sight {
         }
     }
 
-    /// What it is without contact, where that is asked for and known.
+    /// The input without contact, if requested and known.
     pub(crate) fn reference(&self) -> Option<Input<'_>> {
         match self {
             Sight::Frames(_, reference) => reference.as_ref().map(Input::from),
@@ -54,7 +52,7 @@ impl Sight {
     }
 }
 
-/// What features depend on of the frames of `dataset`; of several recordings, whether all have one without contact.
+/// Facts of the frames of `dataset` that features depend on. For joined recordings, all must have a frame without contact.
 pub(crate) fn recorded_frames(dataset: &Dataset) -> Option<RecordedFrames> {
     let (frame, _) = kinds(dataset);
     let has_reference = |own: &Dataset| {
@@ -71,7 +69,7 @@ pub(crate) fn recorded_frames(dataset: &Dataset) -> Option<RecordedFrames> {
     })
 }
 
-/// The frames and the signals of `dataset`, as far as it has such.
+/// The frames and the signals of `dataset`, as far as present.
 pub(crate) fn kinds(dataset: &Dataset) -> (Option<FrameInfo>, Option<SignalInfo>) {
     let header = dataset.header();
     let frame = header.frames.as_ref().map(|frames| frames.info);

@@ -8,16 +8,16 @@ use super::{extract, extractor, kinds};
 use crate::error::EvaluateError;
 use crate::work::Work;
 
-/// Features of some rows, and what they are.
+/// Features of some rows, with their specification.
 #[derive(Debug)]
 pub struct FeatureTable {
     /// `[rows, height, width, depth]`.
     pub features: Features,
-    /// What was taken of each frame, or of its signals.
+    /// The kind of features of each frame, or of its signals.
     pub spec: FeatureSpec,
 }
 
-/// The features of `rows` that `settings` ask for, in that order: what a model by name sees of them, 32×32 gray where nothing is asked for.
+/// The features of `rows` by `settings`, in that order: the input of a model chosen by name. The default is 32×32 gray.
 ///
 /// # Errors
 /// [`EvaluateError`] for a setting that no feature has, for rows without a frame or without signals, and if the dataset cannot be read.

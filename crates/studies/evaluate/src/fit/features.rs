@@ -1,4 +1,4 @@
-//! The features, chosen by their loss on samples of the training part that are left out.
+//! Choice of features by their loss on left-out samples of the training part.
 
 use std::collections::BTreeSet;
 
@@ -11,14 +11,14 @@ use crate::error::EvaluateError;
 use crate::features::kinds;
 use crate::work::Work;
 
-/// One group of so many is left out.
+/// One group in this many is left out.
 const LEFT_OUT_OF: usize = 3;
-/// Contact points that must be left out for a spread to be estimated; with fewer, neighbouring samples are groups.
+/// Minimum left-out contact points for an estimate of the spread; with fewer, neighbouring samples form groups.
 const POINTS_LEAST: usize = 3;
-/// Groups that neighbouring samples are taken as, where no contact point is known.
+/// Number of groups of neighbouring samples, if no contact point is known.
 const RUNS: usize = 10;
 
-/// The training part in two: positions that are learnt from, and those that are scored with the groups that they are independent by.
+/// The training part in two: positions to learn from, and positions to score with the groups by which they are independent.
 struct Parts {
     learnt: Vec<usize>,
     left_out: Vec<usize>,
@@ -26,9 +26,9 @@ struct Parts {
 }
 
 impl FitPlan<'_> {
-    /// Tries features from the simplest on, and chooses some; grids finer than the default only where the default improved on the coarser ones.
+    /// Tries features from the simplest on and chooses some. Finer grids than the default are tried only if the default improved.
     ///
-    /// Features that no model can be fitted to here are reported with the reason; it is an error only if there are no others.
+    /// Features without a possible model are reported with the reason; it is an error only if all fail.
     pub(super) fn choose_features(
         &mut self,
         open: OpenFeatures,
@@ -48,7 +48,7 @@ impl FitPlan<'_> {
         };
         let candidates = open.candidates(&self.features, input, has_reference);
         let parts = self.parts()?;
-        // Without a checkpoint, which is of one kind of features.
+        // No checkpoint, because a checkpoint belongs to one kind of features.
         let estimator = self.model.estimator(&self.of_model)?;
         let mut tried: Vec<(FeatureSpec, Vec<f64>)> = Vec::new();
         let (mut failed, mut last) = (Vec::new(), None);
@@ -82,7 +82,7 @@ impl FitPlan<'_> {
         Ok(choice)
     }
 
-    /// The loss of each sample that is left out, with features of `spec`.
+    /// The loss of each left-out sample, with features of `spec`.
     fn attempt(
         &self,
         estimator: &dyn ModelEstimator,
@@ -96,7 +96,7 @@ impl FitPlan<'_> {
         self.losses(&model, &left_out, parts)
     }
 
-    /// Every third contact point is left out; where that leaves too few, the last third of the samples.
+    /// Leaves out every third contact point, or the last third of the samples if there are too few points.
     fn parts(&self) -> Result<Parts, EvaluateError> {
         let samples = self.train.len();
         if samples < RUNS * LEFT_OUT_OF {
@@ -127,7 +127,7 @@ impl FitPlan<'_> {
         })
     }
 
-    /// What `model` makes of what was left out.
+    /// The loss of `model` on each left-out sample.
     fn losses(
         &self,
         model: &Model,
@@ -141,7 +141,7 @@ impl FitPlan<'_> {
     }
 }
 
-/// The squared error of each sample, relative to the variance of `all` labels, mean over the channels that vary.
+/// The squared error of each sample relative to the variance of `all` labels, averaged over the channels that vary.
 ///
 /// # Shapes
 /// `[samples, channels]` each; the result `[samples]`.
@@ -151,7 +151,7 @@ fn losses(found: &[f64], labels: &[f64], all: &[f64], channels: usize) -> Vec<f6
     for channel in 0..channels {
         let own = || all.iter().skip(channel).step_by(channels).copied();
         let least = own().fold(f64::INFINITY, f64::min);
-        // Not by the variance: the rounded mean of equal numbers may be another.
+        // Not tested by the variance: the rounded mean of equal numbers may differ from them.
         if own().all(|label| label <= least) {
             continue;
         }
@@ -169,7 +169,7 @@ fn losses(found: &[f64], labels: &[f64], all: &[f64], channels: usize) -> Vec<f6
     losses
 }
 
-/// Whether an error is of the features that were tried, and not of the recording or of somebody who asked to stop.
+/// True if the error comes from the tried features, not from the recording or a cancellation.
 fn is_own(error: &EvaluateError) -> bool {
     match error {
         EvaluateError::Model(error) => error.kind() != ErrorKind::Interrupted,
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_channel_whose_labels_are_all_the_same_takes_no_part() {
-        // Of 102 equal tenths the rounded mean is another number.
+        // The rounded mean of 102 equal tenths is another number.
         let all: Vec<f64> = (0..102).flat_map(|row| [f64::from(row % 2), 0.1]).collect();
         let labels = [0.0, 0.1, 1.0, 0.1];
         let found = [0.5, 0.1 + 1e-14, 1.0, 0.1];

@@ -1,4 +1,4 @@
-//! A fit on a dataset: its channels, its rows, and what it will read.
+//! A fit on a dataset: its channels, its rows, and the frames it will read.
 
 use taceva_core::Channels;
 use taceva_dataset::Dataset;
@@ -21,19 +21,19 @@ pub struct FitPlan<'a> {
     pub(super) estimator: Box<dyn ModelEstimator>,
     /// As typed.
     pub(super) settings: ModelSettings,
-    /// Those of them that are the model's own.
+    /// The settings of the model itself.
     pub(super) of_model: ModelSettings,
     pub(super) features: FeatureSpec,
     pub(super) open: Option<OpenFeatures>,
-    /// Finer features that it looks at too.
+    /// Finer features that the model reads too.
     pub closer: Option<FeatureSpec>,
-    /// The channels that are predicted.
+    /// The predicted channels.
     pub channels: Channels,
     /// The division of the rows.
     pub divided: Divided,
-    /// The rows that are learnt from.
+    /// The rows to learn from.
     pub train: Vec<usize>,
-    /// The rows that settings are chosen by.
+    /// The rows to choose settings by.
     pub validation: Vec<usize>,
     pub(super) left_out: usize,
 }
@@ -50,7 +50,7 @@ impl<'a> FitPlan<'a> {
         FitPlan::on(dataset, request, recipe, divided)
     }
 
-    /// The same of a dataset that was divided elsewhere.
+    /// Plans `request` on a dataset that was divided elsewhere.
     pub fn on(
         dataset: &'a Dataset,
         request: &FitRequest,
@@ -77,15 +77,15 @@ impl<'a> FitPlan<'a> {
         let features = by_recording.on(features, frames);
         let features = match (model_reads, frame, signals) {
             (true, _, _) => features.on(&asked, frame, signals)?,
-            // A model that looks at nothing is of whatever there is.
+            // A model that reads no input takes whatever there is.
             (false, None, Some(info)) => features.of_signals(info),
             (false, _, _) => features,
         };
         let reads_frames = model_reads && features.channels.is_none();
         let mut channels = chosen_channels(dataset, &request.channels)?;
         if request.channels.is_empty() && features.channels.is_none() {
-            // Of a recording of a run: heights of the surface are met without a picture. A model that looks at no picture is compared with
-            // those that do, and no sample carries all channels of a run.
+            // Part of a run may have no picture: heights of the surface are touched without one. A model without pictures is compared with
+            // models of pictures, and no sample has all channels of a run.
             channels = seen_channels(dataset, &channels);
         }
         let need = || Need {
@@ -105,7 +105,7 @@ impl<'a> FitPlan<'a> {
                 && estimator.looks_closer([train.len(), spec.shape().len(), channels.len()])
         };
         let closer = closer.map(|(spec, by_recording)| by_recording.on(spec, frames));
-        // A grid that a person asks for is that of all.
+        // A grid that the user chose applies to all models.
         let closer = closer.filter(|closer| *closer != features && fits(closer));
         Ok(FitPlan {
             dataset,
@@ -124,22 +124,22 @@ impl<'a> FitPlan<'a> {
         })
     }
 
-    /// Whether frames are decoded: not of a model that looks at nothing, or at signals.
+    /// True if frames are decoded: false for a model that reads no input, or signals.
     pub fn reads_frames(&self) -> bool {
         self.model.reads_features() && self.features.channels.is_none()
     }
 
-    /// The features of frames or signals; where some of them are still to be chosen, those that the model asks for.
+    /// The features of frames or signals; if some are still to be chosen, those that the model prefers.
     pub fn features(&self) -> FeatureSpec {
         self.features
     }
 
-    /// Kinds of features for each of which every frame is decoded.
+    /// Kinds of features; every frame is decoded once for each.
     pub(crate) fn passes(&self) -> u64 {
         if self.closer.is_some() { 2 } else { 1 }
     }
 
-    /// How many frames [`run`](FitPlan::run) decodes.
+    /// Number of frames that [`run`](FitPlan::run) decodes.
     pub fn frames_to_decode(&self) -> u64 {
         if self.reads_frames() {
             self.passes() * (self.train.len() + self.validation.len()) as u64
@@ -148,7 +148,7 @@ impl<'a> FitPlan<'a> {
         }
     }
 
-    /// Says what [`run`](FitPlan::run) would do.
+    /// Adds the steps of [`run`](FitPlan::run) to the plan.
     pub fn explain(&self, plan: &mut Plan) {
         let rows = self.train.len() + self.validation.len();
         if self.model.reads_features() {
@@ -180,7 +180,7 @@ impl<'a> FitPlan<'a> {
         );
     }
 
-    /// Keeps checkpoints of a long training from now on, and resumes from one that is there.
+    /// Stores checkpoints of a long training from now on, and resumes from an existing one.
     pub fn keep_checkpoints(&mut self, checkpoints: Checkpoints) {
         self.estimator.keep_checkpoints(checkpoints);
     }

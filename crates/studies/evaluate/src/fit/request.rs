@@ -1,4 +1,4 @@
-//! What is to be fitted, before any data is looked at.
+//! Requests of a fit, before any data is read.
 
 use taceva_models::{
     ChosenModel, FeatureKinds, FeatureSpec, FeaturesByRecording, ModelEstimator, ModelSettings,
@@ -7,7 +7,7 @@ use taceva_models::{
 
 use crate::error::EvaluateError;
 
-/// What to fit.
+/// Request of a fit.
 #[derive(Clone, Debug)]
 pub struct FitRequest {
     /// The model.
@@ -16,14 +16,14 @@ pub struct FitRequest {
     pub settings: ModelSettings,
     /// Channels by name; empty for all.
     pub channels: Vec<String>,
-    /// The split as people write it; by point where points have repeats, else random, if `None`.
+    /// The split in text form; `None` for the default: by point if points have repeats, else random.
     pub split: Option<String>,
-    /// The seed of everything that is drawn.
+    /// The seed of all random draws.
     pub seed: u64,
 }
 
 impl FitRequest {
-    /// Whether its model and settings are valid; no data is read.
+    /// Checks its model and settings; reads no data.
     ///
     /// # Errors
     /// [`EvaluateError`] for a model that does not exist, or a setting that it does not have.
@@ -31,7 +31,7 @@ impl FitRequest {
         Recipe::of(self).map(drop)
     }
 
-    /// The same with `seed` for whatever the model draws; division and everything else stays.
+    /// The same request with `seed` for the random draws of the model; the division and everything else stay.
     pub fn with_seed(self, seed: u64) -> Result<FitRequest, EvaluateError> {
         const SEED: &str = "seed";
         if !self.model.setting_keys().contains(&SEED) {
@@ -50,25 +50,24 @@ impl FitRequest {
     }
 }
 
-/// What a request asks for, before any data is looked at.
+/// The parsed model and feature settings of a request, before any data is read.
 pub struct Recipe {
     pub(super) model: ChosenModel,
     pub(super) estimator: Box<dyn ModelEstimator>,
     pub(super) of_model: ModelSettings,
     pub(super) features: FeatureSpec,
-    /// What of them is left to the frames of the recording.
+    /// Feature settings that the frames of the recording decide.
     pub(super) by_recording: FeaturesByRecording,
-    /// The settings without what is left to the frames.
+    /// The settings without those that the frames decide.
     pub(super) asked: ModelSettings,
-    /// What of the features is to be chosen.
+    /// Feature settings to be chosen.
     pub(super) open: Option<OpenFeatures>,
-    /// Finer features that some of the models see that are chosen from, and what of these is left to the frames.
+    /// Finer features that some of the candidate models read, and their settings that the frames decide.
     pub(super) closer: Option<(FeatureSpec, FeaturesByRecording)>,
 }
 
 impl Recipe {
-    /// The cells of a frame that the model looks at, along x and y; `None` where it looks at none, or the frames or a choice
-    /// decide.
+    /// The cells of a frame that the model reads, along x and y; `None` if it reads none, or if the frames or a choice decide.
     pub fn cells(&self) -> Option<[u32; 2]> {
         let FeatureSpec {
             kinds,
@@ -94,7 +93,7 @@ impl Recipe {
         known.extend(FeatureSpec::SETTINGS.iter().map(|setting| setting.key));
         request.settings.check_names(&known)?;
         let features = model.features().changed_by(&of_features)?;
-        // Components are of one grid.
+        // Principal components belong to one grid.
         let is_whole = features.pca.is_none() && open.is_none();
         let closer = model.closer_features().filter(|_| is_whole);
         let closer = closer.map(|spec| {

@@ -1,4 +1,4 @@
-//! Carrying a fit out: features of frames or signals, then the model.
+//! The fit itself: features of frames or signals, then the model.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::note::Note;
 use crate::recordings;
 use crate::work::Work;
 
-/// Features of the training part and then of the validation part, what they are, and what they are of.
+/// Features of the training part, then of the validation part, with their specification and input.
 pub(super) struct Seen {
     spec: FeatureSpec,
     pub(super) features: Features,
@@ -51,9 +51,9 @@ impl FitPlan<'_> {
         })
     }
 
-    /// What `spec` takes of the frames or signals of the training part, then of the validation part.
+    /// The features by `spec` of the frames or signals of the training part, then of the validation part.
     pub(super) fn see(&self, spec: FeatureSpec, work: Work<'_>) -> Result<Seen, EvaluateError> {
-        // Of both parts whatever is learnt from: what is kept of features is found by its rows.
+        // Both parts, whichever is learnt from: stored features are found by their rows.
         let rows = [&self.train[..], &self.validation].concat();
         if !self.model.reads_features() {
             return Ok(Seen {
@@ -75,7 +75,7 @@ impl FitPlan<'_> {
         })
     }
 
-    /// A model of what was `seen`, and seen closer, fitted on the rows at `positions` of the training part and on the validation part.
+    /// Fits a model on the features `seen`, and on the finer ones, at `positions` of the training part, and on the validation part.
     pub(super) fn learn(
         &self,
         estimator: &dyn ModelEstimator,
@@ -139,7 +139,7 @@ impl FitPlan<'_> {
             .collect()
     }
 
-    /// What the card says of what nobody looks at.
+    /// The input that the card states for a model that reads none.
     fn any_input(&self, spec: FeatureSpec) -> InputInfo {
         let unseen = FrameInfo {
             width: 1,
@@ -179,7 +179,7 @@ impl FitPlan<'_> {
     }
 }
 
-/// A number a row for its contact point, if every row has one.
+/// The number of the contact point of each row; `None` if a row has none.
 pub(super) fn groups(dataset: &Dataset, rows: &[usize]) -> Option<Vec<u32>> {
     let points = dataset.table().point_id();
     let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();

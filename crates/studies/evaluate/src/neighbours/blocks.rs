@@ -1,4 +1,4 @@
-//! Blocks of time, each longer than its samples resemble each other.
+//! Blocks of time, each longer than the distance over which its samples resemble each other.
 
 use taceva_dataset::Dataset;
 
@@ -6,7 +6,7 @@ use super::most_alike;
 use super::sequence::Sequence;
 use crate::recordings;
 
-/// Blocks of time that a recording has at least, where it has samples for it, and at most.
+/// Minimum number of blocks in a recording, if it has enough samples, and maximum.
 const BLOCKS: [usize; 2] = [10, 40];
 
 /// Blocks of time: samples in a row.
@@ -23,8 +23,8 @@ pub(crate) struct Blocks {
 }
 
 impl Blocks {
-    /// Blocks of `rows` of `dataset`, each at least twice as long as samples resemble each other, as far as their number allows it; `None` of too
-    /// few samples. Rows that were added later make blocks of their own, so that those of before stay as they were.
+    /// Blocks of `rows` of `dataset`, each at least twice as long as samples resemble each other, as far as their number allows; `None` if
+    /// there are too few samples. Added rows form their own blocks, so that earlier blocks do not change.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Option<Blocks> {
         if rows.len() < BLOCKS[0] {
             return None;
@@ -37,7 +37,7 @@ impl Blocks {
             let sequence = Sequence::of(dataset, own);
             let lag =
                 most_alike(dataset, own, &sequence).map_or(0, |(_, ranks, _)| sequence.lag(&ranks));
-            // So few rows that there are not several blocks are one.
+            // Too few rows for several blocks form one.
             numbered(&sequence, own.len(), lag).unwrap_or_else(|| NumberedBlocks {
                 numbers: vec![0; own.len()],
                 places: (0..own.len()).collect(),
@@ -48,7 +48,7 @@ impl Blocks {
         Some(Blocks::one_after_the_other(sections.collect()))
     }
 
-    /// Blocks of rows behind each other, which are no neighbours.
+    /// Joins the blocks of consecutive sections, which are no neighbours.
     fn one_after_the_other(sections: Vec<NumberedBlocks>) -> Blocks {
         let gap = sections.iter().map(|own| own.gap).max().unwrap_or(0);
         let mut all = Blocks {
@@ -82,7 +82,7 @@ struct NumberedBlocks {
     count: usize,
 }
 
-/// Blocks of the `rows` rows of `sequence`, which resemble each other for `lag` samples; `None` of too few.
+/// Blocks of the `rows` rows of `sequence`, which resemble each other for `lag` samples; `None` if there are too few.
 fn numbered(sequence: &Sequence, rows: usize, lag: usize) -> Option<NumberedBlocks> {
     let [least, most] = BLOCKS;
     let longest = rows / least;
@@ -98,7 +98,7 @@ fn numbered(sequence: &Sequence, rows: usize, lag: usize) -> Option<NumberedBloc
     };
     let mut place = 0;
     for segment in &sequence.segments {
-        // As long as each other: the last one is no rest.
+        // Blocks of equal length, without a short remainder.
         let own = segment.len().div_ceil(length).max(1);
         for (at, &position) in segment.iter().enumerate() {
             blocks.numbers[position] = blocks.count + at * own / segment.len();
@@ -132,7 +132,7 @@ mod tests {
         let both = Blocks::one_after_the_other(vec![of(900, 90), of(40, 2)]);
         let names = [0, 899, 900, 939].map(|row| both.names[row].as_str());
         assert_eq!(names, ["block 1", "block 10", "block 11", "block 20"]);
-        // The first of the second section is no neighbour of the last of the first.
+        // The first row of the second section is no neighbour of the last row of the first.
         assert!(both.places[900] - both.places[899] > both.gap);
     }
 }

@@ -1,4 +1,4 @@
-//! Rows in the order in which they are neighbours.
+//! Rows in the order that makes them neighbours.
 
 use taceva_dataset::Dataset;
 
@@ -8,10 +8,10 @@ use crate::recordings;
 
 /// Resemblance below which samples are far enough apart.
 const APART: f64 = 0.2;
-/// The largest distance that is looked at, as a share of the samples.
+/// Divisor of the number of samples that gives the largest distance searched.
 const FARTHEST: usize = 10;
 
-/// Rows in the order in which they are neighbours: segments, across which there are none.
+/// Rows in the order that makes them neighbours, in segments; rows of different segments are no neighbours.
 #[derive(Debug)]
 pub(super) struct Sequence {
     pub(super) segments: Vec<Vec<usize>>,
@@ -19,8 +19,8 @@ pub(super) struct Sequence {
 }
 
 impl Sequence {
-    /// `rows` of `dataset` as positions among them. Where times go back, as from clip to clip, a segment begins; where they go back all the time,
-    /// the table is in no order, and that of times counts.
+    /// `rows` of `dataset` as positions among them. A segment begins where times go back, as from clip to clip. If times go back all the
+    /// time, the table is unordered, and rows are sorted by time.
     pub(super) fn of(dataset: &Dataset, rows: &[usize]) -> Sequence {
         let names = recordings::names(dataset, rows);
         let table = dataset.table();
@@ -54,7 +54,7 @@ impl Sequence {
         }
     }
 
-    /// Pairs of positions that stand `lag` samples apart in one segment.
+    /// Pairs of positions `lag` samples apart in one segment.
     pub(super) fn pairs(&self, lag: usize) -> impl Iterator<Item = [usize; 2]> {
         self.segments.iter().flat_map(move |segment| {
             let later = segment.iter().skip(lag);
@@ -69,7 +69,7 @@ impl Sequence {
         resemblance(both)
     }
 
-    /// Samples after which the ranks hardly resemble each other.
+    /// Number of samples after which the ranks hardly resemble each other.
     pub(super) fn lag(&self, ranks: &[Option<f64>]) -> usize {
         let farthest = (ranks.len() / FARTHEST).max(1);
         let mut lag = 1;
@@ -89,7 +89,7 @@ impl Sequence {
 fn in_time(mut recording: Vec<usize>, times: &[f64]) -> Vec<Vec<usize>> {
     let goes_back = |pair: &[usize]| times[pair[1]] < times[pair[0]];
     let backwards = recording.windows(2).filter(|pair| goes_back(pair)).count();
-    // Of rows in no order every second step goes back.
+    // In unordered rows every second step goes back.
     if backwards * 8 > recording.len() {
         recording.sort_by(|one, other| times[*one].total_cmp(&times[*other]));
         return vec![recording];

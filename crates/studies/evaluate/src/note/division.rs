@@ -18,13 +18,13 @@ pub enum SampleOrder {
 pub struct Neighbours {
     /// The channel whose neighbours resemble each other most.
     pub channel: String,
-    /// One minus the mean squared difference of the ranks of neighbours over that of random pairs: 0 of independent samples, 1 of equal neighbours.
+    /// One minus the mean squared rank difference of neighbours over that of random pairs: 0 if independent, 1 if equal.
     pub resemblance: f64,
     /// Samples between two that hardly resemble each other.
     pub lag: usize,
     /// The order in which they are neighbours.
     pub order: SampleOrder,
-    /// The column whose values are groups of neighbours; `None` where blocks of time are.
+    /// The column whose values are groups of neighbours; `None` for blocks of time.
     pub column: Option<String>,
 }
 
@@ -40,16 +40,16 @@ pub enum Division {
     },
     /// Samples with one value of this column stay together.
     Column(String),
-    /// They were separated, as the caller asked, though so many of the tested samples have a neighbour that was learnt from.
+    /// Neighbours were separated, as the caller requested, although many tested samples have a learnt neighbour.
     Separated {
-        /// Such samples.
+        /// Tested samples with a learnt neighbour.
         beside: usize,
         /// Tested samples.
         of: usize,
     },
 }
 
-/// Reasons to take samples as independent.
+/// Reasons to treat samples as independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Independence {
     /// The caller said so.

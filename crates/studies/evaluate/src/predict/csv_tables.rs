@@ -1,4 +1,4 @@
-//! Predictions as tables of text, in the form that `score` reads.
+//! Predictions as CSV tables, in the form that `score` reads.
 
 use std::io::{self, Write};
 
@@ -8,7 +8,7 @@ use taceva_results::Samples;
 use super::Predicted;
 
 impl Predicted {
-    /// Writes the predictions as `score` reads them: `sample` and a column a channel.
+    /// Writes the predictions as `score` reads them: `sample` and one column for each channel.
     ///
     /// # Errors
     /// Those of `out`.
@@ -16,8 +16,8 @@ impl Predicted {
         self.write(&self.prediction, false, out)
     }
 
-    /// Writes the predictions as the model gives them, in the form of [`write_predictions`](Predicted::write_predictions): what `score` forms
-    /// robustness from.
+    /// Writes the unclipped predictions in the form of [`write_predictions`](Predicted::write_predictions); `score` computes robustness
+    /// from them.
     ///
     /// # Errors
     /// Those of `out`.
@@ -25,7 +25,7 @@ impl Predicted {
         self.write(&self.unbounded, false, out)
     }
 
-    /// Writes the standard deviation of each prediction, where the model knows it: `sample` and a column a channel; says whether it does.
+    /// Writes the standard deviation of each prediction: `sample` and one column for each channel. Returns false if the model gives none.
     ///
     /// # Errors
     /// Those of `out`.
@@ -36,8 +36,8 @@ impl Predicted {
         }
     }
 
-    /// Writes the truth of the same samples: `sample`, `point_id` where every sample has one, what else is known of them (`scene`,
-    /// `repeat`, `phase` and the like), and a column a channel.
+    /// Writes the truth of the same samples: `sample`, `point_id` if every sample has one, other known fields (`scene`, `repeat`, `phase`
+    /// and the like), and one column for each channel.
     ///
     /// # Errors
     /// Those of `out`.

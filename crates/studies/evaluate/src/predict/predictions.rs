@@ -16,30 +16,30 @@ pub struct Predicted {
     pub(super) channels: Channels,
     pub(super) ids: Vec<String>,
     pub(super) points: Option<Vec<String>>,
-    /// What else the table says of the rows, by the name of its column.
+    /// Other fields of the rows, by the name of their column.
     pub(super) beside: Vec<(&'static str, Vec<Option<String>>)>,
     pub(super) truth: Vec<Column>,
     /// Within the bounds of the model.
     pub(super) prediction: Vec<Column>,
-    /// As the model gives it.
+    /// Not clipped to the bounds of the model.
     pub(super) unbounded: Vec<Column>,
-    /// The standard deviation of each prediction, of a model that knows it.
+    /// The standard deviation of each prediction, if the model gives one.
     pub(super) deviation: Option<Vec<Column>>,
-    /// Which predictions lie beyond the bounds of the model, channel by channel; absent of a channel without bounds.
+    /// True for each prediction beyond the bounds of the model, by channel; `None` for a channel without bounds.
     pub(super) beyond: Vec<Option<Vec<bool>>>,
-    /// The best constant answers of the model, by channel, as far as it knows them.
+    /// The best constant predictions, by channel, as far as the model knows them.
     pub(super) constants: BTreeMap<String, f64>,
-    /// Frames that the predictions rest on.
+    /// Frames decoded for the predictions.
     pub frames_decoded: u64,
     /// Rows of the part that could not be predicted.
     pub left_out: usize,
 }
 
 impl Predicted {
-    /// The predictions of both, those of `other` behind, which another model made; of these no constant is known.
+    /// Appends the predictions of `other`, made by another model; the constants are dropped.
     ///
     /// # Errors
-    /// [`EvaluateError::Unsuited`] if they are not of the same channels.
+    /// [`EvaluateError::Unsuited`] if the channels differ.
     pub fn followed_by(mut self, other: Predicted) -> Result<Predicted, EvaluateError> {
         if self.channels != other.channels {
             return Err(EvaluateError::Unsuited(
@@ -84,7 +84,7 @@ impl Predicted {
         Ok(self)
     }
 
-    /// The predictions of `rows` in ascending order, with these: the order of the recording, whichever fold a sample was in.
+    /// The predictions of `rows` sorted by row, in the order of the recording, with the sorted rows.
     pub(crate) fn in_order_of(self, rows: Vec<usize>) -> (Vec<usize>, Predicted) {
         let mut order: Vec<usize> = (0..rows.len()).collect();
         order.sort_by_key(|at| rows[*at]);
@@ -129,12 +129,12 @@ impl Predicted {
         self.ids.len()
     }
 
-    /// What was predicted.
+    /// The predicted channels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
 
-    /// The shares of predictions that the bounds of the model changed, by channel; `None` where there is none.
+    /// The shares of predictions that the bounds of the model changed, by channel; `None` if there are none.
     pub fn beyond(&self) -> Option<Note> {
         let shares = self.bounded(0..self.rows());
         let channels = self.channels.iter();
@@ -147,7 +147,7 @@ impl Predicted {
         (!shares.is_empty()).then_some(Note::Bounded(shares))
     }
 
-    /// How many predictions of the samples at `positions` lie beyond the bounds of the model, by channel.
+    /// Number of predictions beyond the bounds of the model at `positions`, by channel.
     pub fn bounded(&self, positions: impl Iterator<Item = usize> + Clone) -> Bounded {
         let mut bounded = Bounded::default();
         for (channel, beyond) in self.channels.iter().zip(&self.beyond) {
@@ -159,7 +159,7 @@ impl Predicted {
         bounded
     }
 
-    /// The best constant answers of the model, by channel, as far as it knows them.
+    /// The best constant predictions, by channel, as far as the model knows them.
     pub fn constants(&self) -> &BTreeMap<String, f64> {
         &self.constants
     }
@@ -174,17 +174,17 @@ impl Predicted {
         &self.prediction
     }
 
-    /// Predictions as the model gives them.
+    /// Unclipped predictions.
     pub fn unbounded(&self) -> &[Column] {
         &self.unbounded
     }
 
-    /// The standard deviations of the predictions, of a model that states them.
+    /// The standard deviations of the predictions, if the model gives them.
     pub fn deviation(&self) -> Option<&[Column]> {
         self.deviation.as_deref()
     }
 
-    /// The contact point of each row, where all rows name one.
+    /// The contact point of each row, if all rows name one.
     pub fn points(&self) -> Option<&[String]> {
         self.points.as_deref()
     }

@@ -1,20 +1,20 @@
-//! What is known of whatever predicted: a model of ours, or something that a caller holds.
+//! Facts about the source of predictions: our model, or one that a caller holds.
 
 use std::collections::BTreeMap;
 
 use taceva_core::Channels;
 use taceva_models::{LabelBounds, Model};
 
-/// What is known of whatever predicted.
+/// Facts about the source of predictions.
 #[derive(Debug)]
 pub struct Predictor {
     /// The channels.
     pub channels: Channels,
-    /// By the labels that were learnt, as far as they are known.
+    /// Bounds from the learnt labels, as far as known.
     pub bounds: LabelBounds,
-    /// The best constant answers, by channel, as far as they are known.
+    /// The best constant predictions, by channel, as far as known.
     pub constants: BTreeMap<String, f64>,
-    /// Whether frames are read.
+    /// True if frames are read.
     pub reads_frames: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Which rows of a dataset are predicted.
+//! Rows of a dataset to predict.
 
 use taceva_core::shown;
 use taceva_dataset::Dataset;
@@ -7,7 +7,7 @@ use taceva_models::Model;
 use crate::error::EvaluateError;
 use crate::rows::{DataPart, Divided, Need, require_samples, usable};
 
-/// Refuses a model of one view for the pictures of another: its numbers would look like any others.
+/// Rejects a model of one view for the pictures of another: its numbers would look plausible.
 fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let fitted_on = model.card().provenance.view.as_deref();
     match (fitted_on, dataset.view()) {
@@ -20,7 +20,7 @@ fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     }
 }
 
-/// The rows that are predicted, and how that was decided.
+/// The rows to predict, and the division they come from.
 #[derive(Debug)]
 pub struct Target {
     /// The part.
@@ -29,12 +29,12 @@ pub struct Target {
     pub rows: Vec<usize>,
     /// The division, if there is one.
     pub divided: Option<Divided>,
-    /// Rows of the part that lack what the model reads.
+    /// Rows of the part that lack the input of the model.
     pub left_out: usize,
 }
 
 impl Target {
-    /// Decides for a fitted model: on the dataset it was fitted on, its own split is made again.
+    /// The target of a fitted model; on the dataset it was fitted on, its own split is made again.
     pub fn new(
         dataset: &Dataset,
         model: &Model,
@@ -46,7 +46,7 @@ impl Target {
         Target::of(dataset, divided, part, model.reads_frames())
     }
 
-    /// Decides for the rows of `part` of a division, or of the whole dataset.
+    /// The rows of `part` of a division, or of the whole dataset.
     ///
     /// # Errors
     /// [`EvaluateError::Request`] for a part without a row.

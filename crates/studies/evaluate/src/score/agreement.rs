@@ -1,4 +1,4 @@
-//! Agreement of paired rows: what both tables say of a row must be the same.
+//! Agreement of paired rows: both tables must have the same values in shared columns.
 
 use taceva_core::{Field, shown};
 use taceva_import::CsvTable;
@@ -7,7 +7,7 @@ use super::row_key::{KeyPair, RowKeys, in_words, key_of};
 use crate::error::EvaluateError;
 use crate::note::PairedBy;
 
-/// Fields that name the row or its surroundings, so that both tables must say the same of them.
+/// Fields that name the row or its surroundings, so that both tables must agree on them.
 const FIELDS: [Field; 7] = [
     Field::Point,
     Field::FrameDigest,
@@ -18,13 +18,13 @@ const FIELDS: [Field; 7] = [
     Field::Phase,
 ];
 
-/// Least difference of two stamps of one row, in s: both may be rounded to milliseconds, none is trusted below a microsecond.
+/// Minimum tolerance of two stamps of one row, s: both may be rounded to milliseconds, none is trusted below a microsecond.
 const LEAST_S: f64 = 1e-6;
 
-/// Decimals below which a stamp is not taken for a rounded one.
+/// Number of decimals below which a stamp is not treated as rounded.
 const LEAST_DECIMALS: usize = 3;
 
-/// Column that both tables have and in which paired rows agree.
+/// A column of both tables in which paired rows must agree.
 #[derive(Clone, Debug)]
 pub(super) struct Agreement {
     /// The name in the predictions.
@@ -35,15 +35,15 @@ pub(super) struct Agreement {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// A key: the same word, never absent in one of them.
+    /// A key: the same word, never missing in only one table.
     Key,
-    /// A word; an empty cell says nothing.
+    /// A word; an empty cell matches any.
     Word,
-    /// A time in s, rounded to the fewer decimals of both.
+    /// A time, s, rounded to the fewer decimals of both.
     Stamp,
 }
 
-/// The way in which rows of two tables are paired, and the columns in which a pair must agree.
+/// The pairing of the rows of two tables, and the columns in which a pair must agree.
 #[derive(Clone, Debug)]
 pub(super) struct Matching {
     pub(super) by: PairedBy,
@@ -51,7 +51,7 @@ pub(super) struct Matching {
 }
 
 impl Matching {
-    /// Pairs of rows that have the same key in `by`, or the same number where it is `None`, in tables with these headers.
+    /// Pairs rows with the same key in `by`, or with the same number if it is `None`, for tables with these headers.
     pub(super) fn of(
         [truth, prediction]: [&CsvTable; 2],
         keys: &RowKeys,
@@ -89,7 +89,7 @@ impl Matching {
         })
     }
 
-    /// Refuses the first pair of rows that disagrees in a column of both tables.
+    /// Rejects the first pair of rows that disagrees in a column of both tables.
     ///
     /// # Errors
     /// [`EvaluateError::Dataset`] at the cell of the predictions.
@@ -146,7 +146,7 @@ impl Agreement {
     }
 }
 
-/// True if two stamps may be one time, written with different numbers of decimals. A stamp that is no number is left to its reader.
+/// True if two stamps may be one time, written with different numbers of decimals. A stamp that is no number is left to its parser.
 fn is_same_time(one: &str, other: &str) -> bool {
     let (Ok(first), Ok(second)) = (one.parse::<f64>(), other.parse::<f64>()) else {
         return true;
@@ -157,7 +157,7 @@ fn is_same_time(one: &str, other: &str) -> bool {
     };
     let common = decimals(one).min(decimals(other)).max(LEAST_DECIMALS);
     let rounding = 0.5 * 10_f64.powi(-i32::try_from(common).unwrap_or(i32::MAX));
-    // A hair more, since the decimals themselves are rounded to binary.
+    // With a margin, since the decimals themselves are rounded to binary.
     (first - second).abs() <= LEAST_S.max(rounding) * (1.0 + 1e-9)
 }
 

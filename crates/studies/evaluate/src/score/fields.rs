@@ -1,11 +1,11 @@
-//! What a table says of its rows beside the channels: contact point, scene, repeat and the like.
+//! Columns of a table besides the channels: contact point, scene, repeat and the like.
 
 use taceva_core::{Column, Field, FieldSet, GratingKind, Labels, Nanometre, Phase};
 use taceva_import::CsvTable;
 
 use crate::error::EvaluateError;
 
-/// Columns of a table that are no channels, beside the keys of rows.
+/// Columns of a table that are no channels, besides row keys.
 pub(super) const NOT_CHANNELS: [&str; 12] = [
     "point_id",
     "scene",
@@ -21,7 +21,7 @@ pub(super) const NOT_CHANNELS: [&str; 12] = [
     "frame_sha256",
 ];
 
-/// Fields that either table may state; the truth is asked first.
+/// Fields that either table may have; the truth is searched first.
 const OF_EITHER: [Field; 10] = [
     Field::Point,
     Field::DepthStep,
@@ -35,19 +35,19 @@ const OF_EITHER: [Field; 10] = [
     Field::FrameDigest,
 ];
 
-/// The column that states the spacing of a grating: what it is in the truth, what it was taken for in the prediction.
+/// The column of the grating spacing: the actual one in the truth, the predicted one in the prediction.
 const SPACING: &str = "spacing_mm";
 
-/// Where a field is stated.
+/// Location of a field.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) field: Field,
-    /// Whether in the table of the truth.
+    /// True if the field is in the table of the truth.
     pub(super) in_truth: bool,
     pub(super) column: usize,
 }
 
-/// Where each field is stated, of those that one of the tables has.
+/// Locations of all fields that one of the tables has.
 pub(super) fn places(truth: &CsvTable, prediction: &CsvTable) -> Result<Vec<Place>, EvaluateError> {
     let mut places = Vec::new();
     let mut state = |field, in_truth, name: &str| -> Result<(), EvaluateError> {
@@ -76,7 +76,7 @@ pub(super) fn places(truth: &CsvTable, prediction: &CsvTable) -> Result<Vec<Plac
     Ok(places)
 }
 
-/// The fields that are stated.
+/// The fields that are present.
 pub(super) fn stated(places: &[Place]) -> FieldSet {
     let fields = places.iter().map(|place| place.field);
     FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction) | fields.collect()

@@ -1,4 +1,4 @@
-//! Order of keys in rows that come block by block: the same keys in both tables, each above the one before, so that rows are paired as they stand.
+//! Order of keys in rows that are read block by block. If the same keys ascend in both tables, rows are paired by their order.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -7,17 +7,17 @@ use taceva_import::CsvTable;
 use super::key_parts::by_length;
 use super::row_key::{KeyPair, key_of};
 
-/// The keys of both tables, as far as blocks of them were seen, in whatever order.
+/// The keys of both tables in the blocks read so far, in any order of blocks.
 #[derive(Debug)]
 pub(super) struct KeyOrder {
     /// The columns of keys in the truth and in the prediction.
     columns: [usize; 2],
-    /// The number of each block that was seen, with its first key and its last.
+    /// The number of each block read, with its first and last key.
     ends: Mutex<Vec<(u64, [String; 2])>>,
 }
 
 impl KeyOrder {
-    /// The order of `key` in two tables with these headers; `None` where one of them lacks it.
+    /// The order of `key` in two tables with these headers; `None` if one of them lacks it.
     pub(super) fn of([truth, prediction]: [&CsvTable; 2], key: &KeyPair) -> Option<KeyOrder> {
         Some(KeyOrder {
             columns: [
@@ -28,7 +28,7 @@ impl KeyOrder {
         })
     }
 
-    /// True if the keys of a block ascend and are the same in both tables; they have as many rows.
+    /// True if the keys of a block ascend and are the same in both tables, which have equal numbers of rows.
     pub(super) fn is_kept_in(&self, number: u64, [truth, prediction]: [&CsvTable; 2]) -> bool {
         let rows = 0..truth.rows();
         let keys = truth.text_in(self.columns[0], rows.clone()).map(key_of);
@@ -48,7 +48,7 @@ impl KeyOrder {
         true
     }
 
-    /// True if the keys of all blocks that were seen ascend from each to the next, so that none comes twice.
+    /// True if the keys of all blocks read ascend from block to block, so that none occurs twice.
     pub(super) fn ascends(self) -> bool {
         let ends = self.ends.into_inner();
         let mut ends = ends.unwrap_or_else(PoisonError::into_inner);
@@ -74,7 +74,7 @@ mod tests {
         }
     }
 
-    /// True if order is kept in blocks that are seen in this order.
+    /// True if order is kept in blocks that are read in this order.
     fn is_kept(blocks: &[(u64, &[&str])]) -> bool {
         let header = table(&[]);
         let order = KeyOrder::of([&header, &header], &id()).expect("keys");

@@ -1,4 +1,4 @@
-//! Rows of a shard and their predictions, paired by a key.
+//! Rows of a shard and their predictions, paired by key.
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
@@ -11,7 +11,7 @@ use super::table_parts::{Reader, TableParts};
 use super::tables;
 use crate::error::EvaluateError;
 
-/// How the rows of a shard find their predictions.
+/// Location of the predictions for the rows of a shard.
 pub(super) enum Found {
     /// In the rows of the same numbers.
     InOrder,
@@ -24,16 +24,16 @@ pub(super) struct ByKey<'a> {
     pub(super) key: &'a KeyPair,
     pub(super) truth: &'a TableParts,
     pub(super) prediction: &'a TableParts,
-    /// What reads all columns of the prediction that are wanted.
+    /// Reader of the wanted columns of the prediction.
     pub(super) reader: &'a Reader<'a>,
 }
 
 impl ByKey<'_> {
-    /// Finds the predictions of the rows in `own`. Where the keys of both tables are the same row by row and ascend, no other row is looked at;
-    /// else both are looked through, and the predictions of the shard are brought into its order.
+    /// Finds the predictions of the rows in `own`. If the keys of both tables are the same row by row and ascend, only these rows are read.
+    /// Else both tables are scanned, and the predictions of the shard are sorted into its order.
     ///
     /// # Errors
-    /// [`EvaluateError::Tables`] for a key that is empty, comes twice, or that one of the tables lacks.
+    /// [`EvaluateError::Tables`] for a key that is empty, occurs twice, or is missing in one of the tables.
     pub(super) fn pair(&self, own: &Range<u64>) -> Result<Found, EvaluateError> {
         let key = self.key;
         let truth = self.truth.reader()?;
@@ -77,7 +77,7 @@ impl ByKey<'_> {
         Ok(wanted)
     }
 
-    /// Refuses a key of the shard that another row of the truth has too.
+    /// Rejects a key of the shard that also belongs to another row of the truth.
     fn check_once(
         &self,
         own: &Range<u64>,
@@ -135,7 +135,7 @@ impl ByKey<'_> {
             .collect()
     }
 
-    /// True if the keys in `own` are those of the same rows in both tables, and ascend, from the row before on: so that none comes twice.
+    /// True if the keys in `own` are the same in both tables row by row and ascend. The row before counts too, so that none occurs twice.
     fn is_in_order(
         &self,
         own: &Range<u64>,
@@ -196,7 +196,7 @@ impl ByKey<'_> {
     }
 }
 
-/// Whole numbers in their order, and all other words in some order.
+/// Compares by length, then by text: the numeric order of whole numbers, and some fixed order of other words.
 pub(super) fn by_length(one: &str, other: &str) -> Ordering {
     one.len().cmp(&other.len()).then_with(|| one.cmp(other))
 }
@@ -205,7 +205,7 @@ fn part_of(row: u64) -> u64 {
     row / CsvParts::ROWS
 }
 
-/// The parts that have some of these rows.
+/// The parts that contain some of these rows.
 pub(super) fn parts_of(rows: &Range<u64>) -> Range<u64> {
     match rows.is_empty() {
         true => 0..0,

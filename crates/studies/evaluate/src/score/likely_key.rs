@@ -1,4 +1,4 @@
-//! Columns that are likely the key of rows, though no known name says so: they are asked about, never scored.
+//! Columns that are likely a row key under an unknown name: an error asks about them, and they are never scored.
 
 use std::collections::HashSet;
 
@@ -10,13 +10,13 @@ use super::table_parts::Reader;
 use super::{ScorePlan, ScoreRequest, tables};
 use crate::error::EvaluateError;
 
-/// Rows from which on equal sets of different whole numbers are no chance.
+/// Number of rows from which equal sets of different whole numbers are unlikely to be chance.
 const LEAST_ROWS: u64 = 5;
 
-/// Cells of a column, handed out until the visitor returns `false`.
+/// Passes the cells of a column to the visitor until it returns `false`.
 type Cells<'a> = dyn Fn(&str, &mut dyn FnMut(&str) -> bool) -> Result<(), EvaluateError> + 'a;
 
-/// Channels that nobody declared, and which are none of the six.
+/// Undeclared channels that are not among the six.
 pub(super) fn doubtful<'a>(
     request: &'a ScoreRequest,
     plan: &'a ScorePlan,
@@ -27,7 +27,7 @@ pub(super) fn doubtful<'a>(
     })
 }
 
-/// Refuses tables of which a column is likely a key, and would be scored.
+/// Rejects tables with a column that is likely a key and would be scored.
 ///
 /// # Errors
 /// [`EvaluateError::Tables`] naming the column.
@@ -50,7 +50,7 @@ pub(super) fn check_tables(
     )
 }
 
-/// The same of tables that are read in parts.
+/// The same check for tables that are read in parts.
 ///
 /// # Errors
 /// As [`check_tables`].
@@ -123,7 +123,7 @@ fn refused(request: &ScoreRequest, problem: String) -> EvaluateError {
     }
 }
 
-/// The first text of a column whose first cells in both tables are no numbers.
+/// The first text of a column whose first cells are not numbers in both tables.
 fn text_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<Option<String>, EvaluateError> {
     let mut found = None;
     for cells in tables {
@@ -133,7 +133,7 @@ fn text_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<Option<String>, E
             first.is_none()
         })?;
         match first {
-            // A decimal comma, a stray sign: the reader of numbers says what is wrong with it.
+            // A decimal comma or a stray sign is reported by the number parser.
             Some(text) if text.contains(char::is_alphabetic) && text.parse::<f64>().is_err() => {
                 found = Some(text);
             }
@@ -143,7 +143,7 @@ fn text_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<Option<String>, E
     Ok(found)
 }
 
-/// True if a column holds the same whole numbers in both tables, each of them once.
+/// True if a column holds the same whole numbers in both tables, each once.
 fn counts_rows_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<bool, EvaluateError> {
     let mut sets = Vec::new();
     for cells in tables {

@@ -1,4 +1,4 @@
-//! Two tables that are read once, side by side: a few thousand rows of each are in memory at a time, and in the cache of a core while they are
+//! Two tables read once, side by side. Memory holds a few thousand rows of each at a time; they stay in the cache of a core while they are
 //! digested, split, parsed and scored.
 
 use std::collections::BTreeMap;
@@ -21,9 +21,9 @@ use crate::accumulate::{BATCH_ROWS, Rows};
 use crate::error::EvaluateError;
 use crate::row_ledger::Taken;
 
-/// Scores the tables of `request` in one pass, to the same bytes as [`Scoring`](super::Scoring) does; `None` where that is not possible: rows with
-/// a key in both tables that does not ascend alike, quoted cells, Parquet, columns that may be keys, and whatever is refused: [`Scoring`](super::Scoring) reads the whole
-/// first, so that of several things that are wrong it says the same as ever.
+/// Scores the tables of `request` in one pass, to the same bytes as [`Scoring`](super::Scoring). Returns `None` if that is not possible:
+/// keys that do not ascend alike in both tables, quoted cells, Parquet, columns that may be keys, and every input with an error.
+/// [`Scoring`](super::Scoring) reads the whole first, so its error messages stay the same.
 ///
 /// # Errors
 /// [`EvaluateError`] if `progress` was cancelled.
@@ -86,7 +86,7 @@ pub fn score_in_one_pass(
     finished(evaluator, &plan.sensor, digests, taken, said).map(Some)
 }
 
-/// What the threads of a pass have in common.
+/// State that the threads of a pass share.
 struct Pass<'a> {
     truth: Mutex<CsvStream>,
     prediction: Mutex<CsvStream>,
@@ -94,19 +94,19 @@ struct Pass<'a> {
     matching: &'a Matching,
     request: &'a ScoreRequest,
     allow_invalid: bool,
-    /// The order of keys, in tables that both have one.
+    /// The order of keys, if both tables have a key.
     order: Option<KeyOrder>,
-    /// Blocks that were begun to be read.
+    /// Number of blocks whose reading has begun.
     blocks: AtomicU64,
     /// Rows that were scored.
     rows: AtomicU64,
-    /// Whether a thread has met what ends the pass for all.
+    /// True once a thread has met a reason to end the pass for all.
     is_over: AtomicBool,
     progress: &'a dyn Progress,
 }
 
 impl Pass<'_> {
-    /// What all rows come to; `None` if they cannot be scored so, or there are none. Sums are exact, so which thread takes which rows changes nothing.
+    /// Sums of all rows; `None` without rows, or if one pass is impossible. Sums are exact, so the number of threads does not matter.
     fn evaluate(&self, threads: usize) -> Result<Option<Evaluator>, EvaluateError> {
         let evaluators = each_part((0..threads).collect(), |_| {
             let found = self.batches();
@@ -152,21 +152,21 @@ impl Pass<'_> {
         Ok(Some(evaluator))
     }
 
-    /// Reads the next block of both tables and says which it is; `None` if it cannot be read, or one table has more rows.
+    /// Reads the next block of both tables and returns its number; `None` if it cannot be read, or one table has more rows.
     fn next(&self, [of_truth, of_prediction]: &mut [CsvTable; 2]) -> Option<u64> {
         let mut truth = lock(&self.truth);
         let number = self.blocks.fetch_add(1, Ordering::Relaxed);
         truth.read(BATCH_ROWS, of_truth).ok()?;
-        // Taken before the other is let go, so that both tables come in the same order, and read while another thread reads on there.
+        // Locked before the other is released, so that both tables are read in the same order, while another thread reads the first.
         let mut prediction = lock(&self.prediction);
         drop(truth);
         prediction.read(BATCH_ROWS, of_prediction).ok()?;
         (of_truth.rows() == of_prediction.rows()).then_some(number)
     }
 
-    /// Scores a block; returns whether that was possible.
+    /// Scores a block; returns false if that is not possible.
     fn take(&self, number: u64, tables: [&CsvTable; 2], evaluator: &mut Evaluator) -> bool {
-        // The first block shows whether a column may be a key; the whole tables, whether it is.
+        // The first block shows whether a column may be a key; the whole tables show whether it is.
         if number == 0 && likely_key::check_tables(self.request, self.plan, tables).is_err() {
             return false;
         }
@@ -208,7 +208,7 @@ mod tests {
 
     const ROWS: usize = 2 * BATCH_ROWS + 100;
 
-    /// A table of two channels, and the columns `front` before them as `cells` fills them in each row; `off` is how far numbers lie apart from those of 0.
+    /// A table of two channels after the columns `front` with the `cells` of each row; `off` scales its errors.
     fn table(front: &str, cells: impl Fn(usize) -> String, off: f64) -> String {
         let mut text = format!("{front}Px,Fz\n");
         for row in 0..ROWS {
@@ -239,7 +239,7 @@ mod tests {
         }
     }
 
-    /// Everything that is written of scores.
+    /// All output files of scores.
     fn written(scored: &Scored) -> (String, Vec<u8>) {
         let mut state = Vec::new();
         scored.state.write(&mut state).expect("in memory");

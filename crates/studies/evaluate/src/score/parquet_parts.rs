@@ -1,4 +1,4 @@
-//! Rows of a Parquet table as text, part by part: cells as a CSV has them, so that both are read and refused alike.
+//! Rows of a Parquet table as text, part by part: cells as in a CSV file, so that both are parsed and rejected alike.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -11,10 +11,10 @@ use taceva_tables::ParquetTable;
 
 use crate::error::EvaluateError;
 
-/// What every Parquet file begins and ends with.
+/// First and last bytes of every Parquet file.
 const MARK: &[u8; 4] = b"PAR1";
 
-/// Whether the file at `path` says of itself that it is a Parquet file. What cannot be read is none: whoever reads it says why.
+/// True if the file at `path` begins and ends with the mark of Parquet. False if it cannot be read; the reader then reports the error.
 pub(super) fn is_parquet(path: &Path) -> bool {
     if !path.is_file() {
         return false;
@@ -54,7 +54,7 @@ pub(super) fn read(
     read.map_err(|error| by_row(error, rows.start).into())
 }
 
-/// An error of the table at the place in the file that it stands for: a row, where lines say nothing.
+/// Moves an error to its place in the file: a row number, since a Parquet file has no lines.
 pub(super) fn by_row(mut error: DatasetError, first: u64) -> DatasetError {
     if let DatasetError::Table { place, .. } = &mut error
         && let Some(line) = place.line.take()

@@ -1,4 +1,4 @@
-//! What is to be scored.
+//! Requests of scores.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -7,26 +7,26 @@ use taceva_core::Unit;
 
 use super::row_key::RowKey;
 
-/// What to score.
+/// Request of scores.
 #[derive(Clone, Debug)]
 pub struct ScoreRequest {
-    /// The table of what is true.
+    /// The table of the truth.
     pub truth: PathBuf,
-    /// The table of what was predicted.
+    /// The table of the predictions.
     pub prediction: PathBuf,
-    /// Units of channels beside the six; those not named have the unit 1.
+    /// Units of channels besides the six; others have the unit 1.
     pub units: Vec<(String, Unit)>,
-    /// Periods of angles, degrees: values that differ by one say the same. A channel named here alone is in degrees.
+    /// Periods of angles, degrees: values that differ by a period are equal. A channel named only here is in degrees.
     pub periods: Vec<(String, u16)>,
-    /// The key by which rows are paired; found by its name if `None`.
+    /// The key that pairs rows; `None` to find it by name.
     pub key: Option<RowKey>,
-    /// True if samples do not depend on each other, so that each is a point of its own in intervals.
+    /// True if samples are independent, so that each is a point of its own in intervals.
     pub is_independent: bool,
-    /// What is known of the sensor: a file with footprint, greatest depth, opacity.
+    /// File of sensor facts: footprint, greatest depth, opacity.
     pub sensor: Option<PathBuf>,
     /// Metrics and groups by name.
     pub metrics: Vec<String>,
-    /// Whether cells that are no finite number are counted instead of refused.
+    /// True if cells that are not finite numbers are counted instead of rejected.
     pub allow_invalid: bool,
     /// Threads.
     pub jobs: NonZeroUsize,

@@ -1,4 +1,4 @@
-//! Row keys: columns that name rows, by which two tables find each other.
+//! Row keys: columns that name rows, by which two tables are paired.
 
 use taceva_core::shown;
 use taceva_import::CsvTable;
@@ -6,10 +6,10 @@ use taceva_import::CsvTable;
 use crate::error::EvaluateError;
 use crate::note::PairedBy;
 
-/// Column names of a row key, the one that this program writes first. The empty name is that of an index written without one.
+/// Column names of a row key, beginning with the one that this program writes. The empty name is that of an unnamed index.
 pub(super) const KEY_NAMES: [&str; 5] = ["sample", "id", "sample_id", "index", ""];
 
-/// Choice of the row key by which two tables are paired.
+/// Choice of the row key that pairs two tables.
 ///
 /// ```
 /// use taceva_evaluate::RowKey;
@@ -34,7 +34,7 @@ impl From<&str> for RowKey {
     }
 }
 
-/// Column of the truth and column of the predictions that hold one key.
+/// The column of the truth and the column of the predictions with one key.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct KeyPair {
     pub(super) truth: String,
@@ -50,10 +50,10 @@ impl KeyPair {
     }
 }
 
-/// Row keys that two tables have in common, in the order in which they are tried.
+/// Row keys that two tables share, in the order in which they are tried.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct RowKeys {
-    /// Keys that may pair rows; none where rows are paired by order.
+    /// Keys that may pair rows; empty if rows are paired by order.
     pub(super) pairs: Vec<KeyPair>,
     /// True if the caller chose the pairing, so that other keys are not compared.
     is_chosen: bool,
@@ -120,13 +120,13 @@ impl RowKeys {
             .flat_map(|pair| [pair.truth.as_str(), pair.prediction.as_str()])
     }
 
-    /// Columns of both tables that must agree in every pair of rows: keys that did not pair them, unless the caller chose the pairing.
+    /// Columns that must agree in every pair of rows: keys that did not pair them, unless the caller chose the pairing.
     pub(super) fn others(&self, by: Option<&KeyPair>) -> impl Iterator<Item = &KeyPair> {
         let pairs = self.pairs.iter().filter(|_| !self.is_chosen);
         pairs.filter(move |pair| Some(*pair) != by)
     }
 
-    /// The way in which rows are paired, by `pair` or by order.
+    /// The method of pairing: by `pair`, or by order.
     pub(super) fn paired_by(&self, pair: Option<&KeyPair>) -> PairedBy {
         match pair {
             Some(KeyPair { truth, prediction }) => PairedBy::Key {
@@ -147,7 +147,7 @@ pub(super) fn in_words(name: &str) -> String {
     }
 }
 
-/// A key as rows are compared by it: a whole number written as a decimal is that number.
+/// Normal form of a key for comparison: a whole number written as a decimal equals that number.
 pub(super) fn key_of(cell: &str) -> &str {
     match cell.strip_suffix(".0") {
         Some(whole) if is_whole(whole) => whole,
@@ -155,13 +155,13 @@ pub(super) fn key_of(cell: &str) -> &str {
     }
 }
 
-/// True if the text is a whole number, with a sign or none.
+/// True if the text is a whole number, with or without a sign.
 pub(super) fn is_whole(text: &str) -> bool {
     let digits = text.strip_prefix('-').unwrap_or(text);
     !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// The key among `known` that differs from `key` in blanks and case alone.
+/// The key among `known` that differs from `key` only in blanks and case.
 pub(super) fn nearly<'a>(key: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let bare = |text: &str| -> String {
         let letters = text.chars().filter(|letter| !letter.is_whitespace());

@@ -1,4 +1,4 @@
-//! The rows of both tables, parsed where they are scored: no column ever lies in memory as a whole.
+//! Paired rows of both tables, parsed when they are scored: memory never holds a whole column.
 
 use std::ops::Range;
 
@@ -18,16 +18,16 @@ pub(super) struct PairedRows<'a> {
     truth: &'a CsvTable,
     prediction: &'a CsvTable,
     pairing: &'a Pairing,
-    /// For each channel, where it stands in the truth and in the prediction.
+    /// The positions of each channel in the truth and in the prediction.
     channels: Vec<[usize; 2]>,
-    /// Where the fields that metrics read are stated.
+    /// Locations of the fields that metrics read.
     places: Vec<Place>,
     matching: &'a Matching,
     allow_invalid: bool,
 }
 
 impl<'a> PairedRows<'a> {
-    /// The rows of the truth with those of the prediction that `pairing` gives them, and what `plan` reads of both.
+    /// The rows of the truth with those of the prediction by `pairing`, and the columns of both that `plan` reads.
     pub(super) fn new(
         [truth, prediction]: [&'a CsvTable; 2],
         pairing: &'a Pairing,
@@ -68,7 +68,7 @@ impl<'a> PairedRows<'a> {
         }?)
     }
 
-    /// The rows of the truth, each with what is read of its row of the prediction.
+    /// The rows of the truth, each with the values of its row of the prediction.
     fn side_by_side(
         &self,
         plan: &MetricPlan,

@@ -1,10 +1,10 @@
-//! Which rows of two tables are scored: one of several shards of them.
+//! A shard: one of several disjoint ranges of rows of two tables.
 
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-/// One of several shards of the rows of a table: together they have each row once, in its order.
+/// One of several shards of the rows of a table: together they contain each row once, in order.
 ///
 /// ```
 /// use taceva_evaluate::Shard;
@@ -21,7 +21,7 @@ pub struct Shard {
     of: u32,
 }
 
-/// What is no shard, with what would be.
+/// Error of text or numbers that are no shard, with the expected form.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "`{}`: {problem}, expected K/N with K from 1 to N, such as 1/8",
@@ -36,10 +36,10 @@ impl Shard {
     /// All rows.
     pub const WHOLE: Shard = Shard { number: 1, of: 1 };
 
-    /// Shard `number`, from 1, of so many.
+    /// Shard `number`, from 1, of `of` shards.
     ///
     /// # Errors
-    /// [`ShardError`] if there are none, or fewer than `number`.
+    /// [`ShardError`] if `of` is 0, or `number` is not in 1 to `of`.
     pub fn new(number: u32, of: u32) -> Result<Shard, ShardError> {
         let problem = match (number, of) {
             (_, 0) => "there is no shard",
@@ -53,12 +53,12 @@ impl Shard {
         })
     }
 
-    /// Whether it is all there is.
+    /// True if it is the only shard.
     pub fn is_whole(self) -> bool {
         self.of == 1
     }
 
-    /// Its rows of a table of so many; none where there are more shards than rows.
+    /// The range of the shard in a table of `rows` rows; may be empty if there are more shards than rows.
     pub fn rows(self, rows: u64) -> Range<u64> {
         let before = |number: u32| {
             let before = u128::from(rows) * u128::from(number) / u128::from(self.of);

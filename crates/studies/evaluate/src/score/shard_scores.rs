@@ -1,4 +1,4 @@
-//! Tables of any length, scored shard by shard: of each, a part of the rows is in memory at a time.
+//! Scores of tables of any length, shard by shard: memory holds a part of the rows at a time.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -29,7 +29,7 @@ use crate::note::Note;
 use crate::plan::Plan;
 use crate::row_ledger::Taken;
 
-/// Two tables of any length, looked through once: what there is to score, and where it lies. It may be kept, so that others need not look.
+/// Two tables of any length, scanned once for the location of their rows. A stored scan saves other processes from repeating it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScoreTables {
@@ -37,7 +37,7 @@ pub struct ScoreTables {
     prediction: TableParts,
 }
 
-/// What is understood of both tables before any row.
+/// Readers and plan of both tables, known before any row is read.
 struct Understood<'a> {
     truth: Reader<'a>,
     prediction: Reader<'a>,
@@ -51,7 +51,7 @@ struct PairedShard {
 }
 
 impl ScoreTables {
-    /// Looks through both tables of `request`.
+    /// Scans both tables of `request`.
     ///
     /// # Errors
     /// [`EvaluateError`] if a table cannot be read or has no row, or if they have different numbers of rows.
@@ -75,10 +75,10 @@ impl ScoreTables {
         }
     }
 
-    /// The same tables, looked through again where a file does not look as it did.
+    /// The same tables, scanned again if a file has changed.
     ///
     /// # Errors
-    /// [`EvaluateError::Tables`] if one holds something else now.
+    /// [`EvaluateError::Tables`] if the content of a file has changed.
     pub fn again(self) -> Result<ScoreTables, EvaluateError> {
         Ok(ScoreTables {
             truth: self.truth.again()?,
@@ -86,7 +86,7 @@ impl ScoreTables {
         })
     }
 
-    /// Whether the tables of `request` are read in parts: one is no text, so that this takes less, or longer than text in memory may be.
+    /// True if the tables of `request` are read in parts: one is Parquet, which then takes less memory, or exceeds the limit of text.
     pub fn are_in_parts(request: &ScoreRequest) -> bool {
         let is_long = |path: &Path| {
             let facts = fs::metadata(path);
@@ -107,7 +107,7 @@ impl ScoreTables {
         [self.truth.digest(), self.prediction.digest()]
     }
 
-    /// Checks all that can be known without looking at a cell: channels, units, metrics and the sensor.
+    /// Checks everything that is known without reading cells: channels, units, metrics and the sensor.
     ///
     /// # Errors
     /// [`EvaluateError`].
@@ -115,7 +115,7 @@ impl ScoreTables {
         self.understood(request).map(drop)
     }
 
-    /// What [`score`](ScoreTables::score) would do.
+    /// The steps of [`score`](ScoreTables::score).
     ///
     /// # Errors
     /// As [`check`](ScoreTables::check).
@@ -157,10 +157,10 @@ impl ScoreTables {
         Ok(plan)
     }
 
-    /// Scores the rows of `shard`. The states of all shards join to the scores, and to the state, of all rows at once.
+    /// Scores the rows of `shard`. The states of all shards merge to the scores, and to the state, of all rows at once.
     ///
     /// # Errors
-    /// [`EvaluateError`] at the first cell that is no finite number, unless they are allowed; for a key that comes twice or that one table lacks.
+    /// [`EvaluateError`] at the first non-finite cell, unless allowed; for a key that occurs twice or is missing in one table.
     pub fn score(
         &self,
         request: &ScoreRequest,
@@ -204,7 +204,7 @@ impl ScoreTables {
         let [truth, prediction] = [self.truth.reader()?, self.prediction.reader()?];
         let predicted = prediction.header()?;
         let is_six = |name: &str| Channel::SIX.iter().any(|channel| channel.name() == name);
-        // What is neither predicted nor stands beside channels is not read: pictures, for instance.
+        // Columns that are neither channels nor known fields are not read: pictures, for instance.
         let is_key = |name: &str| {
             let chosen = matches!(&request.key, Some(RowKey::Column(key)) if key == name);
             chosen || KEY_NAMES.contains(&name)
@@ -273,7 +273,7 @@ impl ScoreTables {
         progress: &dyn Progress,
     ) -> Result<Evaluator, EvaluateError> {
         let parts: Vec<u64> = parts_of(own).collect();
-        // Each thread takes parts that follow each other; sums are exact, so that their number changes nothing.
+        // Each thread takes consecutive parts; sums are exact, so the number of threads does not matter.
         let work = Work {
             understood,
             own,
@@ -291,13 +291,13 @@ impl ScoreTables {
     }
 }
 
-/// Both tables, looked through at the same time where two threads are allowed.
+/// Scans both tables, in parallel if two threads are allowed.
 fn both(request: &ScoreRequest) -> Result<ScoreTables, EvaluateError> {
     let [truth, prediction] = tables::both_at_once(request, TableParts::scan)?;
     Ok(ScoreTables { truth, prediction })
 }
 
-/// What the threads of a shard have in common.
+/// State that the threads of a shard share.
 struct Work<'a> {
     understood: &'a Understood<'a>,
     own: &'a Range<u64>,
@@ -332,7 +332,7 @@ impl Work<'_> {
                 self.update(evaluator, [&truth, &prediction], &Pairing::ByOrder, rows)
             }
             Found::Gathered(prediction) => {
-                // Rows before the shard have no prediction there, and are not asked for.
+                // Rows before the shard have no prediction here and are skipped.
                 let paired = (0..truth.rows() as u64)
                     .map(|at| inside((begin + at).max(self.own.start), self.own.start));
                 let pairing = Pairing::ByKey(paired.collect());

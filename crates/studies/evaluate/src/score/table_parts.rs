@@ -1,4 +1,4 @@
-//! A table of scores of any length, CSV or Parquet, of which parts are read.
+//! A table of scores of any length, CSV or Parquet, read in parts.
 
 use std::fs::{self, File};
 use std::io;
@@ -14,7 +14,7 @@ use taceva_tables::ParquetTable;
 use super::parquet_parts;
 use crate::error::EvaluateError;
 
-/// A table of any length: where its rows lie, and the digest of all of it.
+/// A table of any length: the location of its rows, and the digest of its content.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TableParts {
@@ -22,28 +22,28 @@ pub(super) struct TableParts {
     stamp: Stamp,
     digest: Digest,
     rows: u64,
-    /// Where rows lie in a CSV file; a Parquet file says so itself.
+    /// Location of rows in a CSV file; a Parquet file records its own.
     csv: Option<CsvParts>,
 }
 
-/// By what a file is taken for the one that was looked through: its length, and when it was changed.
+/// Identity of a scanned file: its length and its time of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Stamp {
     bytes: u64,
-    /// Nanoseconds since 1970; none where the file system does not say.
+    /// Nanoseconds since 1970; `None` if the file system does not record it.
     changed_ns: Option<u64>,
 }
 
 impl TableParts {
-    /// Looks through the file at `path` once.
+    /// Scans the file at `path` once.
     ///
     /// # Errors
     /// [`EvaluateError`] if it is no table, or cannot be read.
     pub(super) fn scan(path: &Path) -> Result<TableParts, EvaluateError> {
         let io = |error| read_error(path, error);
         if !parquet_parts::is_parquet(path) {
-            // Before the pass, so that a change meanwhile is one afterwards.
+            // Taken before the pass, so that a change during it is noticed later.
             let stamp = Stamp::of(path);
             let parts = CsvParts::scan(path)?;
             return Ok(TableParts {
@@ -65,10 +65,10 @@ impl TableParts {
         })
     }
 
-    /// The same table, looked through again if its file does not look as it did.
+    /// The same table, scanned again if its file has changed.
     ///
     /// # Errors
-    /// [`EvaluateError::Tables`] if it holds something else now.
+    /// [`EvaluateError::Tables`] if its content has changed.
     pub(super) fn again(self) -> Result<TableParts, EvaluateError> {
         let stamp = Stamp::of(&self.path).map_err(|error| read_error(&self.path, error))?;
         if stamp == self.stamp && stamp.changed_ns.is_some() {
@@ -99,7 +99,7 @@ impl TableParts {
         self.rows
     }
 
-    /// What reads it.
+    /// A reader of the table.
     ///
     /// # Errors
     /// [`EvaluateError`] if it cannot be opened.
@@ -127,7 +127,7 @@ impl Stamp {
     }
 }
 
-/// What reads parts of a table; of a Parquet table the columns that are wanted.
+/// Reader of parts of a table; of a Parquet table it reads only the wanted columns.
 #[derive(Debug)]
 pub(super) enum Reader<'a> {
     Csv(&'a CsvParts),
@@ -143,7 +143,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The same, of a Parquet table with no other columns than those that `is_wanted`: others cost what nobody asked for.
+    /// The same reader; of a Parquet table it reads only the columns that `is_wanted` selects, which saves time.
     pub(super) fn with_columns(self, is_wanted: impl Fn(&str) -> bool) -> Self {
         match self {
             Reader::Parquet(table, mut names) => {
@@ -154,7 +154,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The rows of a part, of which each has [`CsvParts::ROWS`].
+    /// The rows of a part, [`CsvParts::ROWS`] each.
     pub(super) fn read(&self, part: u64) -> Result<CsvTable, EvaluateError> {
         match self {
             Reader::Csv(parts) => Ok(parts.read(usize::try_from(part).unwrap_or(usize::MAX))?),
@@ -164,7 +164,6 @@ impl Reader<'_> {
         }
     }
 
-    /// The whole of a table.
     pub(super) fn whole(&self, rows: u64) -> Result<CsvTable, EvaluateError> {
         match self {
             Reader::Csv(parts) => Ok(CsvTable::read(parts.path())?),
@@ -172,7 +171,7 @@ impl Reader<'_> {
         }
     }
 
-    /// `error` of the rows of a part, at its place in the file.
+    /// Moves `error` from the rows of a part to its place in the file.
     pub(super) fn placed(&self, error: EvaluateError, part: u64) -> EvaluateError {
         match (self, error) {
             (Reader::Parquet(table, _), EvaluateError::Dataset(error)) => {
@@ -183,7 +182,6 @@ impl Reader<'_> {
     }
 }
 
-/// The rows of a part.
 pub(super) fn rows_of(part: u64, rows: u64) -> Range<u64> {
     let begin = part * CsvParts::ROWS;
     begin.min(rows)..(begin + CsvParts::ROWS).min(rows)

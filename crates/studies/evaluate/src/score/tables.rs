@@ -1,4 +1,4 @@
-//! The two tables of a score: read, brought to common channels, and paired row by row.
+//! The two tables of a score: read, reduced to common channels, and paired row by row.
 
 use std::collections::{BTreeMap, HashMap};
 use std::num::NonZeroUsize;
@@ -16,18 +16,18 @@ use super::table_parts::TableParts;
 use super::{ScoreRequest, parquet_parts};
 use crate::error::EvaluateError;
 
-/// How rows find each other.
+/// Pairing of rows.
 #[derive(Debug)]
 pub(super) enum Pairing {
-    /// The first with the first.
+    /// The first row with the first.
     ByOrder,
-    /// For each row of the truth, its row of the prediction.
+    /// For each row of the truth, the index of its row of the prediction.
     ByKey(Vec<usize>),
 }
 
-/// Both tables with their digests, read at the same time where two threads are allowed.
+/// Reads both tables with their digests, in parallel if two threads are allowed.
 ///
-/// The two take about as long as each other, so this shares work better than threads within each of them.
+/// Both take about equally long, so this divides the work better than threads within each.
 pub(super) fn read_both(request: &ScoreRequest) -> Result<[(CsvTable, Digest); 2], EvaluateError> {
     let share = NonZeroUsize::new(request.jobs.get() / 2).unwrap_or(NonZeroUsize::MIN);
     let read = |path: &Path| -> Result<(CsvTable, Digest), EvaluateError> {
@@ -42,7 +42,7 @@ pub(super) fn read_both(request: &ScoreRequest) -> Result<[(CsvTable, Digest); 2
     both_at_once(request, read)
 }
 
-/// Both tables by `read`, at the same time where two threads are allowed.
+/// Both tables by `read`, in parallel if two threads are allowed.
 pub(super) fn both_at_once<T: Send>(
     request: &ScoreRequest,
     read: impl Fn(&Path) -> Result<T, EvaluateError> + Sync,
@@ -57,7 +57,7 @@ pub(super) fn both_at_once<T: Send>(
     Ok([next()?, next()?])
 }
 
-/// Refuses one file as truth and as prediction: every error would be 0, and say nothing.
+/// Rejects one file as both truth and prediction: every error would be 0, without meaning.
 ///
 /// # Errors
 /// [`EvaluateError::Request`].
@@ -74,7 +74,7 @@ pub(super) fn check_distinct(request: &ScoreRequest) -> Result<(), EvaluateError
     )))
 }
 
-/// Refuses a table without a row.
+/// Rejects a table without rows.
 ///
 /// # Errors
 /// [`EvaluateError::Tables`].
@@ -82,7 +82,7 @@ pub(super) fn check_rows(table: &CsvTable) -> Result<(), EvaluateError> {
     check_some(table.path(), table.rows() as u64)
 }
 
-/// The same of a table that is read in parts.
+/// The same check for a table that is read in parts.
 ///
 /// # Errors
 /// [`EvaluateError::Tables`].
@@ -96,13 +96,13 @@ pub(super) fn check_some(path: &Path, rows: u64) -> Result<(), EvaluateError> {
     }
 }
 
-/// What both tables are known by together.
+/// The common name of both tables: their digests, separated by a space.
 pub(super) fn input_of(digests: &BTreeMap<String, String>) -> String {
     let digests: Vec<&str> = digests.values().map(String::as_str).collect();
     digests.join(" ")
 }
 
-/// The channels of the prediction; the truth must have each, and no channel of the six that the prediction lacks.
+/// The channels of the prediction. The truth must have each of them, and none of the six that the prediction lacks.
 pub(super) fn channels(
     truth: &CsvTable,
     prediction: &CsvTable,
@@ -166,7 +166,7 @@ pub(super) fn channels(
     Channels::new(found).map_err(|error| wrong(prediction, error.to_string()))
 }
 
-/// True if the unit of the column called `name` is declared, so that it is a channel.
+/// True if the unit of the column `name` is declared, so that it is a channel.
 pub(super) fn is_declared(request: &ScoreRequest, name: &str) -> bool {
     let units = request.units.iter().map(|(known, _)| known);
     let periods = request.periods.iter().map(|(known, _)| known);
@@ -176,7 +176,7 @@ pub(super) fn is_declared(request: &ScoreRequest, name: &str) -> bool {
 /// Pairs the rows by the first of `keys` that pairs them all, else by order; returns the key.
 ///
 /// # Errors
-/// [`EvaluateError::Tables`] for a key that is empty, comes twice, or stands in one table alone; without a key, for different numbers of rows.
+/// [`EvaluateError::Tables`] for a key that is empty, occurs twice, or is in one table only; without a key, for different numbers of rows.
 pub(super) fn pair<'a>(
     truth: &CsvTable,
     prediction: &CsvTable,
@@ -208,7 +208,7 @@ pub(super) fn pair<'a>(
     Ok((Pairing::ByOrder, None))
 }
 
-/// The keys of all rows, each of which is some word and comes once.
+/// The keys of all rows; each is a non-empty word and occurs once.
 fn rows_by_key<'a>(
     table: &'a CsvTable,
     name: &str,
@@ -234,7 +234,7 @@ fn rows_by_key<'a>(
     Ok(rows)
 }
 
-/// The error of a row whose key is empty.
+/// The error for a row whose key is empty.
 ///
 /// # Errors
 /// [`EvaluateError::Dataset`] if the table has no column called `name`.
@@ -247,7 +247,7 @@ pub(super) fn without_key(
     Ok(table.refuse(row, table.position(name)?, expected).into())
 }
 
-/// A key that comes twice, with the lines of both rows where they are known.
+/// Message for a key that occurs twice, with the lines of both rows if known.
 pub(super) fn comes_twice(name: &str, key: &str, places: Option<[Place; 2]>) -> String {
     let lines = places.and_then(|[first, second]| Some([first.line?, second.line?]));
     let lines = lines.map_or_else(String::new, |[first, second]| {
@@ -260,7 +260,7 @@ pub(super) fn comes_twice(name: &str, key: &str, places: Option<[Place; 2]>) -> 
     )
 }
 
-/// A key that one table has and the other lacks.
+/// Message for a key that one table has and the other lacks.
 pub(super) fn is_lacking<'a>(
     name: &str,
     key: &str,

@@ -11,13 +11,13 @@ use taceva_metrics::{ClusteredBy, MetricPlan, SensorFacts, Settings, catalogue};
 
 use crate::error::EvaluateError;
 
-/// A plan as a file says it.
+/// A plan in its file form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenPlan {
     metrics: Vec<String>,
     channels: Vec<(String, Unit)>,
-    /// Degrees after which the values of a channel repeat, by channel.
+    /// Period of the values of each channel, degrees.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     periods: BTreeMap<String, u16>,
     fields: Vec<String>,
@@ -32,16 +32,16 @@ pub(crate) struct WrittenPlan {
     gate_n: f64,
     smoothing_window: u32,
     resolution_tolerance_nm: i64,
-    /// The constants that skill is measured by, by channel, where they are known and the same in all states.
+    /// The constants that skill is measured against, by channel, if they are known and the same in all states.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(crate) constants: BTreeMap<String, f64>,
-    /// Whether recordings are the clusters of intervals, and not contact points.
+    /// True if recordings, not contact points, are the clusters of intervals.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     by_recording: bool,
-    /// True if groups of samples are, such as blocks of time.
+    /// True if groups of samples, such as blocks of time, are the clusters.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     by_group: bool,
-    /// True if single samples are.
+    /// True if single samples are the clusters.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     independent: bool,
 }
@@ -97,7 +97,7 @@ impl WrittenPlan {
         }
     }
 
-    /// Whether states of both plans join: what skill is measured by enters when scores are finished, and may differ.
+    /// True if states of both plans merge. The constants of skill may differ, because they enter when scores are finished.
     pub(crate) fn merges_with(&self, other: &WrittenPlan) -> bool {
         let without = |plan: &WrittenPlan| WrittenPlan {
             constants: BTreeMap::new(),

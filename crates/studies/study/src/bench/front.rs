@@ -1,7 +1,7 @@
 //! The Pareto front of models: processor time of the fit against error.
 //!
-//! A model is beaten on a channel by one that takes less time, unless it is shown to be more accurate than that one: paired by contact point, the
-//! 95 % interval of the difference of the two mean absolute errors lies below 0. So a model that takes longer has to show what it is for.
+//! A faster model beats a slower one on a channel, unless the slower one is shown to be more accurate. For that, the 95 % interval of the
+//! difference of their mean absolute errors, paired by contact point, must be below 0.
 
 use taceva_metrics::ClusterSums;
 
@@ -11,7 +11,7 @@ use super::paired::difference;
 /// A model of a race, and the sums of its absolute errors by contact point: by channel, in the order of its errors.
 pub(super) type Raced = (ModelTrial, Vec<Option<ClusterSums>>);
 
-/// Writes into each error which models of the race beat it; nobody where the system does not say what a fit took.
+/// Writes into each error the models of the race that beat it; none if the system does not report processor time.
 pub(super) fn mark(race: &mut [Raced]) {
     let marks: Vec<Vec<Vec<String>>> = race
         .iter()
@@ -53,7 +53,7 @@ mod tests {
     use super::super::models::TrialError;
     use super::*;
 
-    /// A model that is off by `errors` at ten points.
+    /// A model with the errors `errors` at ten points.
     fn raced(model: &str, fit_cpu_s: f64, errors: impl Fn(u8) -> f64) -> Raced {
         let mut sums = ClusterSums::default();
         for point in 0..10_u8 {
@@ -87,7 +87,7 @@ mod tests {
         let mut race = [
             raced("fast", 1.0, |point| 1.0 + spread(point)),
             raced("near", 2.0, |point| 0.5 + spread(point)),
-            // As near on the whole, nearer at some points and further off at others.
+            // Equal in the mean, better at some points and worse at others.
             raced("late", 3.0, |point| {
                 0.5 + spread(point) + 0.1 * f64::from(point % 2) - 0.06
             }),

@@ -1,4 +1,4 @@
-//! The ways to sum, raced on the same columns: time for each pair of values against digits that are right.
+//! Summation kernels raced on the same columns: time for each pair of values against correct digits.
 
 use serde::Serialize;
 use taceva_core::Progress;
@@ -10,23 +10,23 @@ use taceva_metrics::{Isa, Paired};
 use super::{BENCH_SCHEMA, Machine, Spread, Stopwatch};
 use taceva_evaluate::EvaluateError;
 
-/// Channels of the columns that are timed: all six of a contact.
+/// Channels of the timed columns: all six of a contact.
 const CHANNELS: usize = 6;
-/// Values as a lab has them: millimetres with errors of a third of one.
+/// Typical values of a lab: millimetres, with errors of a third of one.
 const LAB: Kind = Kind::Lab {
     low: -12.5,
     high: 12.5,
     noise: 0.3,
 };
-/// Shuffles that a result must survive.
+/// Number of shuffles that an order-free result must survive.
 const SHUFFLES: u64 = 3;
 
-/// What to race.
+/// Request of a race.
 #[derive(Clone, Copy, Debug)]
 pub struct KernelRequest {
     /// Rows of each of the six channels.
     pub rows: usize,
-    /// How often each candidate is timed.
+    /// Number of timed runs of each candidate.
     pub rounds: usize,
     /// The seed of the columns and shuffles.
     pub seed: u64,
@@ -43,72 +43,72 @@ impl Default for KernelRequest {
     }
 }
 
-/// Run time against error of every way to sum. Its JSON follows [`BENCH_SCHEMA`].
+/// Run time against error of every summation kernel. Its JSON follows [`BENCH_SCHEMA`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KernelBench {
     /// [`BENCH_SCHEMA`].
     pub schema: &'static str,
     /// `kernels`.
     pub subject: &'static str,
-    /// Where it ran.
+    /// The machine.
     pub machine: Machine,
     /// Rows of each of the six channels.
     pub rows_timed: usize,
-    /// How often each candidate was timed.
+    /// Number of timed runs of each candidate.
     pub rounds: usize,
-    /// What reading the columns takes.
+    /// Time to read the columns.
     pub floor: Floor,
-    /// A candidate each, in the order of the race.
+    /// One row for each candidate, in the order of the race.
     pub rows: Vec<KernelRow>,
 }
 
-/// Both columns summed once: no way to score them can be faster.
+/// Time of summing both columns once: the lower limit of any kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Floor {
     /// `stream sum`.
     pub name: &'static str,
-    /// Nanoseconds for each pair of values, by the clock.
+    /// Nanoseconds for each pair of values, wall time.
     pub ns_per_pair: Spread,
-    /// The same by the computing time of the thread.
+    /// Nanoseconds for each pair of values, processor time of the thread.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread_ns_per_pair: Option<Spread>,
-    /// Gigabytes a second at best.
+    /// Best throughput, GB/s.
     pub gb_per_s: f64,
 }
 
-/// One way to sum.
+/// One summation kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KernelRow {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// The instruction set it was made for, if it was.
+    /// The instruction set it was compiled for, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub isa: Option<String>,
-    /// Which scores were computed: `mae r2 smape`, or `mae`.
+    /// Scores computed: `mae r2 smape`, or `mae`.
     pub scores: &'static str,
-    /// Nanoseconds for each pair of values, by the clock.
+    /// Nanoseconds for each pair of values, wall time.
     pub ns_per_pair: Spread,
-    /// The same by the computing time of the thread.
+    /// Nanoseconds for each pair of values, processor time of the thread.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread_ns_per_pair: Option<Spread>,
-    /// The best time over the best of the floor.
+    /// The best time relative to the best of the floor.
     pub times_floor: f64,
-    /// The fewest right digits of any score on any input.
+    /// The fewest correct digits of any score on any input.
     pub digits_min: f64,
-    /// For each input, the fewest right digits of its scores.
+    /// For each input, the fewest correct digits of its scores.
     pub digits: Vec<InputDigits>,
-    /// Whether the result is the same, bit for bit, in any order of rows.
+    /// True if the result has the same bits in any order of rows.
     pub order_free: bool,
-    /// Whether no other candidate for the same scores is both faster and at least as right.
+    /// True if no other candidate for the same scores is both faster and at least as accurate.
     pub pareto: bool,
 }
 
-/// How right a candidate is on one input.
+/// Accuracy of a candidate on one input.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InputDigits {
     /// The input.
     pub input: &'static str,
-    /// The fewest right digits of its scores.
+    /// The fewest correct digits of its scores.
     pub digits: f64,
 }
 
@@ -131,7 +131,7 @@ impl Candidate {
         }
     }
 
-    /// The fewest right digits among the scores that have a value.
+    /// The fewest correct digits among the scores that have a value.
     fn digits(self, pairs: Paired<&[f64]>, truth: &Scores) -> f64 {
         let found = self.run(pairs);
         let scores = [
@@ -148,11 +148,11 @@ impl Candidate {
     }
 }
 
-/// Races every way to sum.
+/// Races every summation kernel.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] without rows or rounds, or for an instruction set that was asked for and is not there;
-/// [`EvaluateError::Dataset`] if `progress` asks to stop.
+/// [`EvaluateError::Request`] without rows or rounds, or for a requested instruction set that is not available; [`EvaluateError::Dataset`]
+/// if `progress` cancels.
 pub fn kernels(
     request: &KernelRequest,
     progress: &dyn Progress,
@@ -233,7 +233,7 @@ fn candidates() -> Vec<Candidate> {
     full.chain(mae).collect()
 }
 
-/// Six channels of values as a lab has them.
+/// Six channels of typical values of a lab.
 fn columns(request: &KernelRequest) -> Vec<Paired<Vec<f64>>> {
     (0..CHANNELS as u64)
         .map(|channel| {
@@ -311,7 +311,7 @@ fn survives_shuffling(candidate: Candidate, seed: u64) -> bool {
     })
 }
 
-/// The instruction set that a kernel was made for.
+/// The instruction set that a kernel was compiled for.
 fn isa(kernel: Kernel) -> Option<String> {
     match kernel {
         Kernel::Exact(isa) => Some(isa.name().to_owned()),
@@ -327,7 +327,7 @@ fn as_slices(columns: &Paired<Vec<f64>>) -> Paired<&[f64]> {
     columns.as_slices()
 }
 
-/// Marks the candidates that no other one for the same scores beats in time without losing digits.
+/// Marks the candidates that no other one for the same scores beats in time at equal or more digits.
 fn mark_pareto(rows: &mut [KernelRow]) {
     let beaten: Vec<bool> = rows
         .iter()

@@ -1,4 +1,4 @@
-//! On what a benchmark ran: its figures cannot be compared without it.
+//! The machine of a benchmark, without which its numbers cannot be compared.
 
 use serde::Serialize;
 
@@ -11,14 +11,14 @@ pub struct Machine {
     pub cores: usize,
     /// Threads that the benchmark used.
     pub threads: usize,
-    /// Instruction sets with a path of their own, the widest first.
+    /// Instruction sets with their own code path, the widest first.
     pub isa: Vec<String>,
-    /// Programs that wanted a core in the minute before, per core; `None` where the system does not say.
+    /// Mean number of runnable processes in the last minute, per core; `None` if the system does not report it.
     pub load: Option<f64>,
 }
 
 impl Machine {
-    /// This machine, with a benchmark on `threads` threads.
+    /// This machine, for a benchmark on `threads` threads.
     pub fn here(threads: usize, isa: Vec<String>) -> Machine {
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         Machine {
@@ -31,7 +31,7 @@ impl Machine {
     }
 }
 
-/// As Linux names it.
+/// The processor name from Linux.
 fn cpu_name() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;

@@ -1,4 +1,4 @@
-//! Models raced on one recording: what fitting, predicting and one prediction take, against how far off they are.
+//! Models raced on one recording: time of fitting, predicting and one prediction, against error.
 
 use std::num::NonZeroUsize;
 use std::time::Instant;
@@ -19,29 +19,29 @@ use taceva_evaluate::{DataPart, Divided};
 use taceva_evaluate::{FitRequest, fit};
 use taceva_evaluate::{Predicted, Target, model_extractor, predict_target};
 
-/// The error that models are compared by.
+/// The metric that models are compared by.
 const METRIC: &str = "mae";
-/// Frames that are taken one by one.
+/// Number of frames that are predicted one by one.
 const SINGLES: usize = 50;
 
-/// One model: what it costs and how far off it is.
+/// One model: its cost and its error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelTrial {
-    /// Its name in the registry.
+    /// Name in the registry.
     pub model: String,
-    /// Its settings as `key=value`; of `auto` the model that it took.
+    /// Settings as `key=value`; for `auto` also the model that it chose.
     pub settings: Vec<String>,
-    /// Seconds to fit it, features included.
+    /// Time of the fit including features, s.
     pub fit_s: f64,
-    /// Processor seconds to fit it, features included: the least of all rounds. `None` where the system does not say.
+    /// Processor time of the fit including features, s: the least of all rounds. `None` if the system does not report it.
     pub fit_cpu_s: Option<f64>,
-    /// Seconds to predict the whole test part, features included.
+    /// Time to predict the whole test part including features, s.
     pub predict_s: f64,
-    /// Seconds from one decoded frame to its prediction, the median over frames taken one by one.
+    /// Time from one decoded frame to its prediction, s: the median over frames predicted one by one.
     pub latency_s: f64,
     /// The error of each channel on the test part; empty if the model could not be fitted.
     pub errors: Vec<TrialError>,
-    /// Why the model could not be fitted or scored.
+    /// Reason why the model could not be fitted or scored.
     pub failed: Option<String>,
 }
 
@@ -54,12 +54,12 @@ pub struct TrialError {
     pub unit: Unit,
     /// The mean absolute error.
     pub mae: f64,
-    /// Its 95 % interval by contact point; `None` if there are too few points.
+    /// 95 % interval by contact point; `None` if there are too few points.
     pub ci95: Option<[f64; 2]>,
-    /// Samples it is made of.
+    /// Number of samples.
     pub n: u64,
-    /// The models of the race that take less processor time to fit and are not shown to be less accurate than this one: the 95 % interval of the
-    /// difference of errors, paired by contact point, does not lie below 0. Empty: the model is on the Pareto front.
+    /// Models of the race that take less processor time to fit, unless this one is shown to be more accurate: the 95 % interval of the
+    /// difference of errors, paired by contact point, is then below 0. Empty for a model on the Pareto front.
     pub beaten_by: Vec<String>,
 }
 
@@ -71,34 +71,34 @@ impl ModelTrial {
     }
 }
 
-/// Models that are raced.
+/// A race of models.
 #[derive(Clone, Copy, Debug)]
 pub struct ModelRace<'a> {
-    /// A fit each, all on one split and one seed.
+    /// One fit for each model, all on one split and one seed.
     pub requests: &'a [FitRequest],
-    /// How often each is fitted, in turns.
+    /// Number of times that each is fitted, in turns.
     pub rounds: NonZeroUsize,
 }
 
-/// How the recording was divided, and what came of each model.
+/// Division of the recording, and the result of each model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelTrials {
-    /// How: `by-point 70/20/10, seed 0`.
+    /// The division: `by-point 70/20/10, seed 0`.
     pub split: String,
     /// Samples of the training part.
     pub train: usize,
-    /// Samples of the part that is scored.
+    /// Samples of the scored part.
     pub test: usize,
-    /// A model each, in the order asked for.
+    /// One row for each model, in the requested order.
     pub rows: Vec<ModelTrial>,
 }
 
-/// Fits and scores every model of `race` on the same split of `dataset`, one after the other; `rows` tells of each as it is done.
+/// Fits and scores every model of `race` in turn on the same split of `dataset`; calls `rows` after each.
 ///
-/// A model that cannot be fitted on this recording is a row that says why.
+/// A model that cannot be fitted on this recording becomes a row with the reason.
 ///
 /// # Errors
-/// [`EvaluateError`] if a request cannot be meant, requests differ in split or seed, the dataset cannot be read, or `work` asks to stop.
+/// [`EvaluateError`] if a request is not valid, requests differ in split or seed, the dataset cannot be read, or `work` cancels.
 pub fn models(
     dataset: &Dataset,
     race: ModelRace<'_>,
@@ -115,11 +115,11 @@ pub fn models(
         ));
     }
     for request in requests {
-        // Asked before the work: an unknown setting must not cost the fits before it.
+        // Checked first: an unknown setting must not cost the fits before it.
         request.check()?;
     }
     let divided = Divided::new(dataset, first.split.as_deref(), first.seed)?;
-    // What is kept would count for the models that come second.
+    // Without a cache, which would favour later models.
     let work = Work {
         cache: None,
         ..work
@@ -172,7 +172,7 @@ fn trial(
     Ok((row, sums))
 }
 
-/// Why a model could not be fitted or scored, where that ends its own row alone.
+/// The reason why a model could not be fitted or scored, if that ends only its own row.
 pub(super) fn unfitted(
     outcome: Result<(), EvaluateError>,
 ) -> Result<Option<String>, EvaluateError> {
@@ -211,7 +211,7 @@ fn measure(
     Ok(sums.collect())
 }
 
-/// What `run` gives, and the processor seconds that it took.
+/// The result of `run`, and its processor time, s.
 fn cpu_s<T>(run: impl FnOnce() -> T) -> (T, Option<f64>) {
     let start = process_time();
     let outcome = run();

@@ -1,4 +1,4 @@
-//! Times of several candidates, taken in turns: what disturbs the machine then disturbs all of them.
+//! Times of several candidates, taken in turns, so that disturbances of the machine affect all of them.
 
 use std::time::{Duration, Instant};
 
@@ -7,14 +7,14 @@ use serde::Serialize;
 /// The best and the median of some times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// The shortest: what the work takes where nothing disturbs it.
+    /// The shortest time, with the least disturbance.
     pub best: f64,
-    /// Half of the times were shorter.
+    /// The median time.
     pub median: f64,
 }
 
 impl Spread {
-    /// The spread of `values`; `None` if there is none.
+    /// The spread of `values`; `None` if they are empty.
     pub fn of(values: &[f64]) -> Option<Spread> {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -24,7 +24,7 @@ impl Spread {
         })
     }
 
-    /// Both times `factor`.
+    /// Both times multiplied by `factor`.
     #[must_use]
     pub fn times(self, factor: f64) -> Spread {
         Spread {
@@ -34,7 +34,7 @@ impl Spread {
     }
 }
 
-/// The seconds that each candidate took, round by round.
+/// Times of each candidate, round by round, s.
 #[derive(Clone, Debug)]
 pub struct Stopwatch {
     wall: Vec<Vec<f64>>,
@@ -44,8 +44,7 @@ pub struct Stopwatch {
 impl Stopwatch {
     /// Runs all candidates once untimed, then `rounds` times in turns.
     ///
-    /// `run` gets the position of a candidate. After each candidate `go_on` is asked whether to go on; what was measured until
-    /// then stays.
+    /// `run` receives the index of a candidate. After each candidate `go_on` decides whether to continue; earlier measurements stay.
     pub fn race(
         candidates: usize,
         rounds: usize,
@@ -71,12 +70,12 @@ impl Stopwatch {
         watch
     }
 
-    /// Seconds by the clock; `None` for a candidate that was never timed.
+    /// Wall time, s; `None` for a candidate that was never timed.
     pub fn wall(&self, candidate: usize) -> Option<Spread> {
         Spread::of(&self.wall[candidate])
     }
 
-    /// Seconds that the calling thread computed; `None` where the system does not say.
+    /// Processor time of the calling thread, s; `None` if the system does not report it.
     pub fn thread(&self, candidate: usize) -> Option<Spread> {
         Spread::of(&self.thread[candidate])
     }
@@ -90,17 +89,17 @@ fn timed(run: impl FnOnce()) -> (Duration, Option<Duration>) {
     (wall, thread.and_then(|(end, start)| end.checked_sub(start)))
 }
 
-/// What all threads of this process have computed so far; `None` where the system does not say.
+/// Processor time of all threads of this process so far; `None` if the system does not report it.
 pub(super) fn process_time() -> Option<Duration> {
     clock(Clock::Process)
 }
 
-/// What the calling thread has computed so far; `None` where the system does not say.
+/// Processor time of the calling thread so far; `None` if the system does not report it.
 fn thread_time() -> Option<Duration> {
     clock(Clock::Thread)
 }
 
-/// Whose computing is counted.
+/// Scope of processor time.
 #[derive(Clone, Copy)]
 enum Clock {
     Process,
@@ -119,7 +118,7 @@ fn clock(clock: Clock) -> Option<Duration> {
     Some(Duration::new(seconds, nanoseconds))
 }
 
-/// Not known here.
+/// Not supported on this system.
 #[cfg(not(unix))]
 fn clock(_: Clock) -> Option<Duration> {
     None

@@ -1,4 +1,4 @@
-//! The folder of a run: the scene as it was read, its plans, a recording a study, and the reports.
+//! The folder of a run: the scene as read, its plans, one recording for each study, and the reports.
 
 mod state;
 
@@ -16,14 +16,14 @@ use taceva_evaluate::{PLANS, RECORDINGS, remove};
 use super::layout::{FIGURES, REPORTS, SCENE, STAGES};
 use crate::error::StudyError;
 
-/// What is done with a folder that is there already.
+/// Treatment of an existing folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
-    /// It is refused.
+    /// Reject it.
     Refuse,
-    /// The run in it goes on, if it is one of the same plans.
+    /// Resume the run in it if its plans are the same.
     Resume,
-    /// The run in it is removed; a folder of anything else is refused.
+    /// Remove the run in it; reject a folder of anything else.
     Replace,
 }
 
@@ -34,10 +34,10 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
-    /// Makes the folder at `path` ready for `scene`.
+    /// Prepares the folder at `path` for `scene`.
     ///
     /// # Errors
-    /// [`StudyError::RunFolder`] if it is there and `existing` refuses it, if the run in it has other plans, or if it cannot be written.
+    /// [`StudyError::RunFolder`] if it exists and `existing` rejects it, if the run in it has other plans, or if it cannot be written.
     pub fn open(
         path: &Path,
         scene: &PlannedScene,
@@ -78,33 +78,33 @@ impl RunFolder {
         Ok(folder)
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Where its reports are.
+    /// The folder of its reports.
     pub fn reports(&self) -> PathBuf {
         self.path.join(REPORTS)
     }
 
-    /// Where its figures are.
+    /// The folder of its figures.
     pub fn figures(&self) -> PathBuf {
         self.path.join(FIGURES)
     }
 
-    /// The file that lists the stages, and which of them were found in the cache.
+    /// The file that lists the stages, and those found in the cache.
     pub fn stages(&self) -> PathBuf {
         self.path.join(STAGES)
     }
 
-    /// Where study `number`, counted from 0, is recorded.
+    /// The folder of the recording of study `number`, counted from 0.
     pub fn recording(&self, number: usize, study: &str) -> PathBuf {
         let name = format!("{}-{}", number + 1, slug(study));
         self.path.join(RECORDINGS).join(name)
     }
 
-    /// Where the report of study `number`, counted from 0, is written in the form with this extension.
+    /// The file of the report of study `number`, counted from 0, with this extension.
     pub fn report(&self, number: usize, study: &str, extension: &str) -> PathBuf {
         let name = format!("{}-{}.{extension}", number + 1, slug(study));
         self.reports().join(name)
@@ -116,10 +116,10 @@ impl RunFolder {
         self.path.join(name)
     }
 
-    /// Removes what only a run that goes on needs, for whoever has written its reports.
+    /// Removes the files that only a resumed run needs, after its reports are written.
     ///
     /// # Errors
-    /// [`StudyError::RunFolder`], naming what cannot be removed.
+    /// [`StudyError::RunFolder`] with the path that cannot be removed.
     pub fn close(&self, scene: &PlannedScene) -> Result<(), StudyError> {
         for (number, study) in scene.studies.iter().enumerate() {
             let path = self.checkpoint(number, &study.plan.name);
@@ -132,8 +132,8 @@ impl RunFolder {
         Ok(())
     }
 
-    /// Removes the folder of a run that recorded nothing, so that the same command can be given again once what refused it is mended; whether it
-    /// did.
+    /// Removes the folder of a run that recorded nothing, so that the command can be repeated once its error is fixed. True if it was
+    /// removed.
     pub fn remove_if_untouched(&self) -> bool {
         let is_untouched = [RECORDINGS, REPORTS, FIGURES]
             .iter()
@@ -141,7 +141,7 @@ impl RunFolder {
         is_untouched && fs::remove_dir_all(&self.path).is_ok()
     }
 
-    /// The first path `<parent>/<scene>-<number>` that is free, counted from 1; or the last that is taken.
+    /// The first free path `<parent>/<scene>-<number>`, counted from 1; or the last used one for `Resume` and `Replace`.
     pub fn numbered(parent: &Path, scene: &str, existing: Existing) -> PathBuf {
         let path = |number: u64| parent.join(format!("{}-{number}", slug(scene)));
         let free = (1..).find(|number| !path(*number).exists()).unwrap_or(1);
@@ -152,7 +152,7 @@ impl RunFolder {
     }
 }
 
-/// A name of a person as a name of a file.
+/// A name in the form of a file name.
 fn slug(name: &str) -> String {
     let letters = name.chars().map(|letter| {
         if letter.is_alphanumeric() || "-_".contains(letter) {
@@ -169,7 +169,7 @@ fn is_empty(path: &Path) -> io::Result<bool> {
     Ok(fs::read_dir(path)?.next().is_none())
 }
 
-/// Makes the folder of a run beside its place and moves it there, so that it is absent or whole.
+/// Creates the folder of a run under a temporary name and renames it, so that it is absent or complete.
 fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
     let name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
     let mut hidden = OsString::from(".");
@@ -184,22 +184,22 @@ fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
         file.write_all(text.as_bytes())?;
         file.sync_all()?;
     }
-    // A name that outlives a power cut must not stand for a folder without names.
+    // A name that survives a power cut must not refer to an empty folder.
     sync_folder(&beside)?;
     if path.exists() {
-        // It is empty, or the move is refused.
+        // Fails unless the folder is empty, and then so does the rename.
         fs::remove_dir(path)?;
     }
     let moved = fs::rename(&beside, path);
     if moved.is_err() {
-        // The error that counts is that of the move.
+        // The error of the rename is returned.
         drop(fs::remove_dir_all(&beside));
         return moved;
     }
     sync_folder(parent_of(path))
 }
 
-/// Removes what an interruption left of files and recordings that were being written beside their places.
+/// Removes partial files and recordings left by an interruption.
 fn remove_partial(folder: &Path) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;

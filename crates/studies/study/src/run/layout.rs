@@ -1,10 +1,10 @@
-//! The names in the folder of a run.
+//! File names in the folder of a run.
 
-/// The scene as it was written.
+/// The scene as written.
 pub(super) const SCENE: &str = "scene.toml";
 /// The reports of studies.
 pub(super) const REPORTS: &str = "reports";
 /// The figures.
 pub(super) const FIGURES: &str = "figures";
-/// Which stages were found rather than carried out.
+/// The list of stages, with those found in the cache.
 pub(super) const STAGES: &str = "stages.json";

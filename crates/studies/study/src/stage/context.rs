@@ -1,4 +1,4 @@
-//! What the stages of a study share.
+//! State that the stages of a study share.
 
 use std::path::Path;
 
@@ -7,12 +7,12 @@ use taceva_models::Models;
 use taceva_evaluate::StudyCache;
 use taceva_evaluate::Work;
 
-/// What the stages of a study are carried out with: threads and progress, the cache, and the known models.
+/// Resources of the stages of a study: threads and progress, the cache, and the known models.
 #[derive(Clone, Copy)]
 pub(crate) struct RunContext<'a> {
     pub(crate) work: Work<'a>,
     pub(crate) cache: StudyCache<'a>,
     pub(crate) models: &'a Models,
-    /// Where the checkpoint of a long training is.
+    /// Path of the checkpoint of a long training.
     pub(crate) checkpoint: &'a Path,
 }

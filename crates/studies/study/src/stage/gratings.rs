@@ -1,4 +1,4 @@
-//! Which spacing each press of a grating is taken for, by a model that has not seen that press.
+//! Predicted spacing of each press on a grating, by a model that has not seen that press.
 
 mod model;
 mod network;
@@ -16,18 +16,18 @@ use taceva_evaluate::EvaluateError;
 use taceva_evaluate::{CachedStage, Key};
 use taceva_evaluate::{Need, usable};
 
-/// Parts of the presses of a board; each is predicted by a classifier fitted on the others.
+/// Number of folds of the presses of a board; each is predicted by a classifier fitted on the others.
 const FOLDS: usize = 3;
 const NM_A_MM: f64 = 1e6;
 
-/// What each row is taken for.
+/// Predicted spacing of each row.
 type SpacingOfRow = BTreeMap<usize, Nanometre>;
 
 /// The spacing that was predicted for each press on a grating.
 pub(super) struct PredictedSpacings {
-    /// The rows of the dataset that were asked for, ascending.
+    /// The requested rows of the dataset, ascending.
     pub(super) rows: Vec<usize>,
-    /// What each is taken for, in whole nm; absent where there is no picture.
+    /// The predicted spacing of each row, whole nm; absent without a picture.
     pub(super) spacings: Column,
     pub(super) frames_decoded: u64,
 }
@@ -88,7 +88,7 @@ impl PredictedSpacings {
 }
 
 impl PredictedSpacings {
-    /// The predicted spacing of each of `rows`, in mm; absent where none was predicted.
+    /// The predicted spacing of each of `rows`, mm; absent without a prediction.
     pub(super) fn in_millimetres(&self, rows: &[usize]) -> Column {
         let mut column = Column::default();
         for row in rows {

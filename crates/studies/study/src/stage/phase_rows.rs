@@ -1,4 +1,4 @@
-//! Which rows of a recording belong to which part of the protocol, and which of them a model may see.
+//! Rows of a recording by part of the protocol, and the rows that a model may see.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,11 +13,11 @@ use taceva_evaluate::FitRequest;
 use taceva_evaluate::Note;
 use taceva_evaluate::{DataPart, Divided};
 
-/// The rows of a recording, assigned to the phases of the protocol that they were pressed for.
+/// The rows of a recording by the phase of the protocol that they were pressed for.
 pub(super) struct PhaseRows<'a> {
     plan: &'a Plan,
     dataset: &'a Dataset,
-    /// Absent of a recording that nobody here planned: then every row belongs to every part.
+    /// `None` for a recording without a plan: then every row belongs to every part.
     rows: Option<BTreeMap<PhaseKind, Vec<usize>>>,
 }
 
@@ -40,7 +40,7 @@ impl<'a> PhaseRows<'a> {
         }
     }
 
-    /// The rows of every part of the protocol by its name; absent of a recording that nobody here planned.
+    /// The rows of every part of the protocol by its name; `None` for a recording without a plan.
     pub(super) fn protocol(&self) -> Option<BTreeMap<&'static str, Vec<usize>>> {
         let rows = self.rows.as_ref()?.iter();
         Some(
@@ -55,19 +55,18 @@ impl<'a> PhaseRows<'a> {
         planned.filter_map(|metric| Some((metric, catalogue::find(&metric.id)?)))
     }
 
-    /// Whether a metric compares predictions with the truth.
+    /// True if a metric compares predictions with the truth.
     pub(super) fn reads_predictions(&self) -> bool {
         !self.predicted_phases().is_empty()
     }
 
-    /// Whether a metric compares predicted spacings with the true ones.
+    /// True if a metric compares predicted spacings with the true ones.
     pub(super) fn reads_spacings(&self) -> bool {
         let mut metrics = self.metrics();
         metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
     }
 
-    /// The parts of the protocol of which predictions are read: those of metrics, and with them the calibration, which says whether the
-    /// model has skill.
+    /// The parts of the protocol whose predictions are needed: those of metrics, and the calibration, which decides the skill of the model.
     pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
         let metrics = self.metrics();
         let predicted = metrics.filter(|(_, metric)| metric.reads_predictions());
@@ -78,7 +77,7 @@ impl<'a> PhaseRows<'a> {
         phases
     }
 
-    /// The channels of which predictions are read, in the order of the plan: those that samples with a picture carry.
+    /// The channels whose predictions are needed, in the order of the plan: those of samples with a picture.
     pub(super) fn predicted_channels(&self) -> Vec<String> {
         let table = self.dataset.table();
         let is_seen = |channel: &str| {
@@ -108,7 +107,7 @@ impl<'a> PhaseRows<'a> {
             .collect()
     }
 
-    /// The presses that a model is fitted on, divided with contact points kept whole; all others are in no part.
+    /// Divides the presses for the fit, with contact points kept whole; all others are in no part.
     pub(super) fn divided(&self, request: &FitRequest) -> Result<Divided, EvaluateError> {
         let dataset = self.dataset;
         if self.rows.is_none() {
@@ -118,8 +117,8 @@ impl<'a> PhaseRows<'a> {
         Divided::within(dataset, &rows, Some("by-point"), request.seed)
     }
 
-    /// The only unit that was measured outside the map of surfaces, with a note on the metrics of several units; `None` where those are all
-    /// units of the study, or several were measured.
+    /// The only unit that was measured outside the map of surfaces, with a note on the metrics of several units. `None` if the study has no
+    /// other unit or no such metric, or if several units were measured.
     pub(super) fn measured_unit(&self) -> Option<(String, Note)> {
         let units = self.dataset.table().as_text(Field::UnitId.name())?;
         let mut of: Vec<String> = units.iter().flatten().cloned().collect();
@@ -163,7 +162,7 @@ impl<'a> PhaseRows<'a> {
     }
 }
 
-/// The rows that a model was fitted on or whose settings were chosen on, ascending.
+/// The rows that a model was fitted on, or its settings were chosen on, ascending.
 pub(super) fn seen(divided: &Divided) -> Vec<usize> {
     let parts = [DataPart::Train, DataPart::Validation].map(|part| divided.rows(part));
     let mut rows = parts.concat();
@@ -171,7 +170,7 @@ pub(super) fn seen(divided: &Divided) -> Vec<usize> {
     rows
 }
 
-/// The rows of each part of the protocol: samples are called `<press>/<number>`.
+/// The rows of each part of the protocol; samples are named `<press>/<number>`.
 fn by_phase(plan: &Plan, dataset: &Dataset) -> BTreeMap<PhaseKind, Vec<usize>> {
     let presses = plan.presses.iter();
     let phases: BTreeMap<String, &[PhaseKind]> = presses

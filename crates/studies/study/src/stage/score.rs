@@ -18,15 +18,15 @@ use taceva_evaluate::skill;
 use taceva_evaluate::{Columns, Rows, accumulate};
 use taceva_evaluate::{Predicted, truth};
 
-/// What is scored.
+/// Inputs of the scores.
 pub(super) struct Scores<'a> {
     pub(super) scene: &'a PlannedScene,
     pub(super) study: &'a PlannedStudy,
     pub(super) dataset: &'a Dataset,
     pub(super) phase_rows: &'a PhaseRows<'a>,
-    /// What was predicted, and which rows of the dataset that is; ascending.
+    /// The predictions, with their rows of the dataset, ascending.
     pub(super) predicted: Option<&'a (Predicted, Vec<usize>)>,
-    /// The spacings that were predicted for presses on gratings.
+    /// The predicted spacings of presses on gratings.
     pub(super) predicted_spacings: Option<&'a PredictedSpacings>,
     pub(super) jobs: NonZeroUsize,
 }
@@ -37,21 +37,21 @@ struct ScoreGroup {
     phase: PhaseKind,
     channels: Vec<String>,
     predictions: Option<Within>,
-    /// Whether times count in the phase alone and everything else wherever it was recorded.
+    /// True if times are taken from the phase alone, and all else from every row.
     of_sensor: bool,
 }
 
-/// Which predictions are read.
+/// Range of the predictions that are read.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Within {
-    /// Those brought back to the bounds of the model.
+    /// Predictions clipped to the bounds of the model.
     Bounds,
-    /// Those that the model gives.
+    /// Unclipped predictions.
     Nothing,
 }
 
 impl Within {
-    /// Which predictions `metric` reads, if it reads any.
+    /// The range that `metric` reads; `None` if it reads no predictions.
     fn of(metric: &Metric) -> Option<Within> {
         metric.reads_predictions().then(|| {
             if metric.reads_unbounded_predictions() {
@@ -63,11 +63,11 @@ impl Within {
     }
 }
 
-/// The metric that says how fast a sensor looks and how far: pictures come as fast as they can at rest, where nothing is touched, so that
-/// its places of contact are those of every other part of the protocol.
+/// The metric of the frame rate and the field of view. Frames come at full rate only at rest, without contact, so that contact points are
+/// taken from all other parts of the protocol.
 const OF_SENSOR: &str = "intrinsic";
 
-/// The scores, and what a reader must know of what was left out beyond what a skip can say.
+/// The scores, and notes on omissions that a skip cannot express.
 pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<Note>), EvaluateError> {
     let mut groups: BTreeMap<ScoreGroup, Vec<&'static Metric>> = BTreeMap::new();
     for (planned, metric) in scores.phase_rows.metrics() {
@@ -143,8 +143,8 @@ impl Scores<'_> {
         Ok(evaluation.with_bounded_shares(&shares))
     }
 
-    /// Where the skill of the model is shown: on the presses of the calibration that it has not seen, or, where there are none, on those of
-    /// the part of the protocol that most predictions are of.
+    /// The group that shows the skill of the model: the unseen presses of the calibration or, without any, the part of the protocol with
+    /// the most predictions.
     fn skill_group(&self) -> Option<ScoreGroup> {
         let (_, predicted) = self.predicted?;
         let count = |phase: PhaseKind| {
@@ -167,13 +167,13 @@ impl Scores<'_> {
         })
     }
 
-    /// What the skill of the model is measured by, by channel, as far as the model says it.
+    /// The constants that skill is measured against, by channel, as far as the model states them.
     fn constants(&self) -> BTreeMap<String, f64> {
         let predicted = self.predicted.map(|(predicted, _)| predicted);
         predicted.map_or_else(BTreeMap::new, |predicted| predicted.constants().clone())
     }
 
-    /// The channels of the recording that the metrics of `group` look at.
+    /// The channels of the recording that the metrics of `group` read.
     fn channels(&self, group: &ScoreGroup) -> Result<Channels, EvaluateError> {
         let known = self.dataset.table().channels();
         let chosen = group.channels.iter().filter_map(|name| known.by_name(name));
@@ -181,7 +181,7 @@ impl Scores<'_> {
         Channels::new(chosen).map_err(|error| EvaluateError::Request(error.to_string()))
     }
 
-    /// The rows of `group` and what is predicted of them; where a metric reads predictions, rows without one take no part.
+    /// The rows of `group` and their predictions; if a metric reads predictions, rows without one are skipped.
     fn rows(&self, group: &ScoreGroup, channels: &Channels) -> Taken {
         let rows = match group.of_sensor {
             true => self.dataset.all_rows(),
@@ -220,19 +220,19 @@ impl Scores<'_> {
     }
 }
 
-/// The rows that metrics look at.
+/// The rows that metrics read.
 struct Taken {
     rows: Vec<usize>,
-    /// What is predicted of them, channel by channel.
+    /// Their predictions, channel by channel.
     prediction: Vec<Column>,
-    /// Which share of the predictions of each channel lies beyond the bounds of the model.
+    /// Share of the predictions of each channel beyond the bounds of the model.
     shares: BTreeMap<String, f64>,
 }
 
-/// Rows with the spacings that were predicted for them, if any were.
+/// Rows with their predicted spacings, if there are any.
 struct Samples<'a> {
     columns: Columns<'a>,
-    /// The rows whose times count, ascending; those of all rows if absent.
+    /// The rows whose times are used, ascending; `None` for all rows.
     timed: Option<Vec<usize>>,
     spacings: Option<&'a Column>,
 }
@@ -259,7 +259,7 @@ impl Rows for Samples<'_> {
     }
 }
 
-/// What the plan left out of what was asked for: reasons that any stream may have, and in words those that only a plan can.
+/// Omissions of the plan: reasons that any stream may have, and as notes those that only a plan can have.
 fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<Note>) {
     let (mut skipped, mut notes) = (Vec::new(), Vec::new());
     for skip in &study.plan.skipped {

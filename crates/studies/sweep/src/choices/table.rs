@@ -1,4 +1,4 @@
-//! The table of what was chosen for each question.
+//! The table of the choices for each channel.
 
 use taceva_metrics::Repeats;
 use taceva_report::{Cell, Column, FormattedValue, Table};
@@ -6,7 +6,7 @@ use taceva_report::{Cell, Column, FormattedValue, Table};
 use super::{Choice, ends, number};
 use crate::analysis::Group;
 
-/// The configurations that have results and report no error that could choose among them, each once.
+/// The configurations with results but without a validation error, each once.
 fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
     let mut silent: Vec<String> = Vec::new();
     for group in groups {
@@ -19,7 +19,7 @@ fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
     silent
 }
 
-/// What a channel answers.
+/// Quantity that a channel measures, in words.
 fn question(channel: &str) -> &'static str {
     match channel {
         "Pz" => "depth",
@@ -30,7 +30,7 @@ fn question(channel: &str) -> &'static str {
     }
 }
 
-/// A row a choice: what was chosen by which error, and what it scores where nothing was chosen.
+/// One row for each choice: the configuration, the validation error that chose it, and its score on the test part.
 pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
     let columns = [
         "recording",

@@ -1,4 +1,4 @@
-//! What was made of all results as a sealed file, by which it is not made twice.
+//! The counts of a sweep as a sealed file, which saves making the output twice.
 
 use std::fs;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use crate::seal;
 
 /// The schema of the file.
 const SCHEMA: &str = "taceva.sweep-collected/1.0";
-/// What has to be there beside it.
+/// Output files that must exist beside it.
 const BESIDE: [&str; 5] = [
     "table.csv",
     "table.parquet",
@@ -30,7 +30,7 @@ struct Kept {
     collected: Collected,
 }
 
-/// What is read before the rest, whose form depends on it.
+/// Head of the file, read first because its schema decides the form of the rest.
 #[derive(Deserialize)]
 struct Head {
     #[serde(default)]
@@ -51,10 +51,10 @@ impl Collected {
         folder.write(&path, text.as_bytes())
     }
 
-    /// What was made in `folder` of the same, if all of it is there.
+    /// Reads the counts of output in `folder` that was made from the inputs `made_of`; `None` if the inputs differ or a file is missing.
     ///
     /// # Errors
-    /// [`SweepError::Kept`] if the file was changed after it was written: its counts and verdicts would be printed.
+    /// [`SweepError::Kept`] if the file was changed after it was written, because its counts and verdicts would be printed.
     pub(crate) fn read(
         folder: &SweepFolder,
         made_of: &str,
@@ -69,7 +69,7 @@ impl Collected {
         };
         let head: Head = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
         if head.schema != SCHEMA {
-            // Of another version.
+            // Written by another version.
             return Ok(None);
         }
         let Kept { collected, .. } = seal::value(&text).map_err(wrong)?;

@@ -1,4 +1,4 @@
-//! What stands between the terms of a condition: ` and `, which binds closer, and ` or `.
+//! Operators between the terms of a condition: ` and `, which binds closer, and ` or `.
 
 use super::term::Term;
 
@@ -16,14 +16,14 @@ pub(super) fn alternatives(text: &str) -> Result<Vec<Vec<Term>>, String> {
     Ok(alternatives)
 }
 
-/// What stands before a term.
+/// Operator before a term.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Joint {
     And,
     Or,
 }
 
-/// The texts of terms, each with what stands before it; words in quotes join nothing.
+/// The texts of terms, each with the operator before it; words in quotes are no operators.
 fn pieces(text: &str) -> Vec<(Joint, &str)> {
     let mut pieces = Vec::new();
     let (mut joint, mut start, mut quote) = (Joint::And, 0, None);
@@ -38,7 +38,7 @@ fn pieces(text: &str) -> Vec<(Joint, &str)> {
                 if let Some((word, next)) = found {
                     pieces.push((joint, &text[start..at]));
                     joint = next;
-                    // The space after the word may be the one before the next.
+                    // The space after the word may also begin the next one.
                     start = at + word.len();
                 }
             }

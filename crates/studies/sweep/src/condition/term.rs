@@ -2,9 +2,9 @@
 
 use crate::task::Task;
 
-/// What is understood, for messages.
+/// The accepted forms, for messages.
 const UNDERSTOOD: &str = "expected NAME = VALUE or NAME != VALUE, several with ` and ` or ` or ` between them (no parentheses), or the key of a task";
-/// Signs that no bare value has: a term that holds one was meant otherwise.
+/// Signs that no bare value contains: a term with one of them is a mistake.
 const SIGNS: [char; 9] = ['=', '!', '<', '>', '&', '|', '(', ')', '"'];
 
 /// One term: `size != 64x64`.
@@ -16,7 +16,7 @@ pub(super) struct Term {
 }
 
 impl Term {
-    /// Tasks whose key begins so.
+    /// Selects tasks whose key begins with `digits`.
     pub(super) fn of_key(digits: &str) -> Term {
         Term {
             name: "key".to_owned(),
@@ -44,7 +44,7 @@ impl Term {
         }
     }
 
-    /// Whether it holds of `task`.
+    /// True if the term holds for `task`.
     pub(super) fn holds(&self, task: &Task) -> bool {
         let is_same = match self.name.as_str() {
             "key" => task.key.as_str().starts_with(&self.value),
@@ -54,7 +54,7 @@ impl Term {
     }
 }
 
-/// A value, bare or in quotes; none for what is neither.
+/// A value, bare or in quotes; `None` if it is neither.
 fn value(text: &str) -> Option<&str> {
     for quote in ['"', '\''] {
         if let Some(inside) = text.strip_prefix(quote) {

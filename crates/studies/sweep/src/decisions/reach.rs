@@ -1,15 +1,15 @@
-//! What a family of tests can show at all: how many patterns of signs it tries, and where none of them could do.
+//! Power of a family of tests: the number of sign patterns to try, and families that can show nothing.
 
 use taceva_metrics::{Difference, DifferenceTest, SignFlip};
 
 /// The level of the family.
 const LEVEL: f64 = 0.05;
-/// Flips for each test of the family: so that the least p value is half of what the first step of Holm's procedure takes, `LEVEL` over the tests.
+/// Flips for each test: the least p value is then half of the first step of Holm's procedure, `LEVEL` over the number of tests.
 const FLIPS_A_TEST: usize = 40;
-/// Flips of all tests together, which are kept until the family is decided: 16 bytes each.
+/// Maximum flips of all tests together, which are stored until the family is decided: 16 bytes each.
 const MOST_FLIPS: usize = 1 << 24;
 
-/// How many patterns of signs each of so many tests tries: with so many, the first step of Holm's procedure is in reach.
+/// Number of sign patterns for each of `tests` tests: enough for the first step of Holm's procedure, unless `MOST_FLIPS` limits it.
 pub(super) fn flips_of(tests: usize) -> u32 {
     let wanted = tests
         .saturating_mul(FLIPS_A_TEST)
@@ -18,7 +18,7 @@ pub(super) fn flips_of(tests: usize) -> u32 {
     u32::try_from(wanted.min(most)).unwrap_or(u32::MAX)
 }
 
-/// That nothing can be shown, where no test of the family can have a p value that the first step of Holm's procedure takes.
+/// Message for a family in which no test can have a p value small enough for the first step of Holm's procedure; else `None`.
 pub(super) fn out_of_reach(family: &[Difference]) -> Option<String> {
     let step = LEVEL / family.len() as f64;
     let least = family
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn a_family_in_which_nothing_can_be_shown_says_so() {
-        // 2^8 patterns of signs: no p below 2/256, and Holm's first step of ten tests takes 0.005.
+        // 2^8 patterns of signs: no p is below 2/256, and Holm's first step of ten tests requires 0.005.
         let family = family(10, 8);
         assert!(family.iter().all(|difference| !difference.is_shown));
         let words = out_of_reach(&family).expect("out of reach");

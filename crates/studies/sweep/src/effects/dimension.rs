@@ -1,32 +1,31 @@
-//! What varies in a sweep: splits, models with what they alone have, and settings.
+//! Dimensions of a sweep: splits, models with their own settings, and settings.
 
 use std::collections::BTreeSet;
 
 use crate::task::Task;
 use crate::task_list::TaskList;
 
-/// One thing that varies, with its values in the order of the file.
+/// One dimension, with its values in the order of the file.
 pub(super) struct Dimension {
     what: What,
     pub(super) values: Vec<String>,
-    /// Settings that every model has in turn: `[vary]`.
+    /// Settings that apply to every model in turn: `[vary]`.
     shared: BTreeSet<String>,
 }
 
 enum What {
     Split,
-    /// Models, each with the settings that it alone has: these belong to it.
+    /// Models, each with the settings that only it has.
     Model,
-    /// A setting that every model has in turn.
+    /// A setting that applies to every model in turn.
     Shared(String),
-    /// A setting that a model has for itself, which is in the file more than once.
+    /// A setting of one model, which the file lists more than once.
     Own {
         model: String,
         key: String,
     },
 }
 
-/// What varies.
 pub(super) fn dimensions(list: &TaskList) -> Vec<Dimension> {
     let shared: BTreeSet<String> = list.vary.iter().map(|(key, _)| key.clone()).collect();
     let mut whats = vec![What::Split, What::Model];
@@ -61,7 +60,7 @@ pub(super) fn dimensions(list: &TaskList) -> Vec<Dimension> {
 }
 
 impl Dimension {
-    /// What it is called.
+    /// Name of the dimension.
     pub(super) fn title(&self) -> String {
         match &self.what {
             What::Split => "split".to_owned(),
@@ -71,7 +70,7 @@ impl Dimension {
         }
     }
 
-    /// What it is of a task; none where the task has no such thing.
+    /// Value of the dimension for a task; `None` if it does not apply.
     pub(super) fn word(&self, task: &Task) -> Option<String> {
         match &self.what {
             What::Split => task.split.clone(),
@@ -82,7 +81,7 @@ impl Dimension {
         }
     }
 
-    /// Everything else of a task: tasks that are alike in it make a pair.
+    /// Everything else of a task: tasks that agree in it form a pair.
     pub(super) fn beside(&self, task: &Task) -> String {
         let split = match self.what {
             What::Split => None,
@@ -107,7 +106,7 @@ impl Dimension {
         )
     }
 
-    /// The settings that a model has for itself, but for one.
+    /// The settings of a model of its own, except `but`.
     fn own_settings(&self, task: &Task, but: Option<&str>) -> String {
         let own = task
             .settings

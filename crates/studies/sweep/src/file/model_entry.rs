@@ -1,4 +1,4 @@
-//! Models of a sweep with settings of their own.
+//! Models of a sweep with their own settings.
 
 use std::collections::BTreeMap;
 
@@ -7,12 +7,12 @@ use taceva_models::{Preset, Suggestion};
 use super::place::FilePlace;
 use crate::error::SweepError;
 
-/// A model with settings of its own.
+/// A model with its own settings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModelEntry {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its settings.
+    /// Settings.
     pub set: BTreeMap<String, String>,
 }
 
@@ -46,7 +46,7 @@ impl ModelEntry {
         Ok(ModelEntry::asked(name, set))
     }
 
-    /// The model that `name` means; a preset is its model with its settings, so that keys and tables say what was fitted.
+    /// The model called `name`. A preset becomes its model with its settings, so that keys and tables state what was fitted.
     fn asked(name: &str, mut set: BTreeMap<String, String>) -> ModelEntry {
         let Some(preset) = Preset::named(name) else {
             return ModelEntry {
@@ -65,7 +65,7 @@ impl ModelEntry {
     }
 }
 
-/// The settings that a model has for itself.
+/// The settings of a model of its own.
 fn settings(
     name: &str,
     written: Option<&toml::Value>,
@@ -92,7 +92,7 @@ fn settings(
     Ok(set)
 }
 
-/// A setting as people type it.
+/// A setting in the form that users type.
 pub(super) fn word(value: &toml::Value) -> Option<String> {
     match value {
         toml::Value::String(text) => Some(text.clone()),
@@ -128,7 +128,7 @@ mod tests {
                 "size=up-to-80x60"
             ]
         );
-        // What no preset is called stays as it is, to be refused by its name.
+        // A name that is no preset stays, and is rejected later by name.
         assert_eq!(ModelEntry::asked("fats", BTreeMap::new()).name, "fats");
     }
 }

@@ -1,10 +1,10 @@
-//! Places in the file of a sweep, where errors are named.
+//! Locations in a sweep file for error messages.
 
 use std::path::Path;
 
 use crate::error::SweepError;
 
-/// The file, where errors are named.
+/// The sweep file, for error messages.
 #[derive(Clone, Copy)]
 pub(super) struct FilePlace<'a> {
     pub(super) path: &'a Path,
@@ -12,7 +12,7 @@ pub(super) struct FilePlace<'a> {
 }
 
 impl FilePlace<'_> {
-    /// What is wrong with what stands below `key`, with its line.
+    /// The error for a value below `key`, with its line.
     pub(super) fn wrong(&self, key: &str, problem: String) -> SweepError {
         SweepError::Meaning {
             path: self.path.to_owned(),
@@ -21,7 +21,7 @@ impl FilePlace<'_> {
         }
     }
 
-    /// The line where `key` gets its value; else the first one that has it as a word, as that of a model in a list.
+    /// The line that assigns `key`; else the first line that contains it as a word, such as a model in a list.
     pub(super) fn line_of(&self, key: &str) -> Option<usize> {
         let mut lines = self.text.lines();
         let set = lines.position(|line| {
@@ -32,7 +32,7 @@ impl FilePlace<'_> {
         line.map(|line| line + 1)
     }
 
-    /// Refuses a value that comes twice.
+    /// Rejects a value that occurs twice.
     pub(super) fn check_distinct<T: PartialEq + std::fmt::Display>(
         &self,
         key: &str,
@@ -47,7 +47,7 @@ impl FilePlace<'_> {
     }
 }
 
-/// Whether `key` is a word of `line`, outside its comment.
+/// True if `key` is a word of `line`, outside its comment.
 fn has_word(line: &str, key: &str) -> bool {
     let code = line.split('#').next().unwrap_or_default();
     let mut words = code.split(|letter: char| !(letter.is_alphanumeric() || "_-".contains(letter)));

@@ -1,4 +1,4 @@
-//! Reading the file of a sweep: what is written, checked key by key.
+//! Parser of the sweep file, with checks of each key.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,14 +15,14 @@ use crate::error::SweepError;
 use crate::seeds::seeds;
 use crate::syntax::WrittenSweep;
 
-/// The version of the form that this program reads.
+/// The version of the format that this program reads.
 const VERSION: u32 = 1;
 
 impl SweepFile {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// [`SweepError`] with the line and the nearest key where one is unknown, and for what cannot be meant.
+    /// [`SweepError`] for invalid content, with the line, and with the nearest key if a key is unknown.
     pub fn read(path: &Path) -> Result<SweepFile, SweepError> {
         let written: WrittenSweep = read_toml(path)?;
         let text = fs::read_to_string(path).map_err(SweepError::io("read", path))?;

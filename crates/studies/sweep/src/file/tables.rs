@@ -10,26 +10,26 @@ use crate::error::SweepError;
 use crate::limits::MOST_TASKS;
 use crate::syntax::{WrittenScore, WrittenSweep};
 
-/// Two tables, scored in so many shards: a task each.
+/// Two tables scored in shards, one task for each shard.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TablesEntry {
-    /// The table of what is true, as the file names it.
+    /// The table of the truth, as the file names it.
     pub name: String,
-    /// The table of what is true.
+    /// The table of the truth.
     pub truth: PathBuf,
-    /// The table of what was predicted.
+    /// The table of the predictions.
     pub prediction: PathBuf,
-    /// Shards.
+    /// Number of shards.
     pub shards: u32,
-    /// Units of channels beside the six.
+    /// Units of channels besides the six.
     pub units: Vec<(String, Unit)>,
-    /// Whether cells that are no finite number are counted instead of refused.
+    /// True if cells that are not finite numbers are counted instead of rejected.
     pub allow_invalid: bool,
 }
 
 impl TablesEntry {
-    /// What `written` means; paths are relative to `folder`.
+    /// Parses `written`; paths are relative to `folder`.
     pub(super) fn of(
         written: &WrittenScore,
         folder: &Path,
@@ -68,7 +68,7 @@ impl TablesEntry {
     }
 }
 
-/// Refuses what a sweep of recordings has beside tables.
+/// Rejects keys of a sweep of recordings beside tables.
 pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Result<(), SweepError> {
     let others = [
         ("datasets", !written.datasets.is_empty()),

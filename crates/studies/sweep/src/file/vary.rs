@@ -7,7 +7,7 @@ use super::model_entry::word;
 use super::place::FilePlace;
 use crate::error::SweepError;
 
-/// The settings that vary, each with its values as people type them.
+/// The settings that vary, each with its values as users type them.
 pub(super) fn vary(
     written: BTreeMap<String, Vec<toml::Value>>,
     models: &[ModelEntry],

@@ -1,4 +1,4 @@
-//! Results and failures in the folder of a sweep, by the names of their files.
+//! Results and failures in the folder of a sweep, found by their file names.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,7 +8,7 @@ use crate::error::SweepError;
 use crate::key::TaskKey;
 
 impl SweepFolder {
-    /// The keys of results that are there, found by their names alone.
+    /// The keys of existing results, found by their file names alone.
     pub(crate) fn results(&self) -> Result<BTreeSet<String>, SweepError> {
         self.keys("results")
     }

@@ -1,4 +1,4 @@
-//! The builds of the plugins behind models, which are part of the keys of tasks.
+//! Builds of the plugins behind models, which are part of the keys of tasks.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use taceva_models::{ChosenModel, Models};
 use crate::error::SweepError;
 use crate::file::SweepFile;
 
-/// The build of the plugin behind each model that one offers. A model that does not exist has none, and is refused with its settings.
+/// The build of the plugin behind each plugin model. A model that does not exist has none; it is rejected with its settings.
 pub(super) fn builds(
     file: &SweepFile,
     models: &Models,
@@ -22,7 +22,7 @@ pub(super) fn builds(
     Ok(builds)
 }
 
-/// The build of the plugin that offers the model called `name`; none where it is built in, or not there.
+/// The build of the plugin with the model `name`; `None` if it is built in or does not exist.
 ///
 /// # Errors
 /// [`SweepError`] if the plugin cannot be read.
@@ -41,7 +41,7 @@ mod tests {
 
     use super::*;
 
-    /// A plugin's model of which nothing but the build is asked.
+    /// A plugin's model of which only the build is used.
     struct Built(DriverKey, &'static str);
 
     impl EstimatorFactory for Built {

@@ -1,4 +1,4 @@
-//! What is refused of a grid before any work.
+//! Checks of a grid before any work.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use crate::error::SweepError;
 use crate::file::{ModelEntry, SweepFile};
 use crate::limits::MOST_TASKS;
 
-/// Refuses a grid without a task, or with too many.
+/// Rejects a grid without tasks, or with too many.
 pub(super) fn size(file: &SweepFile, recordings: usize) -> Result<(), SweepError> {
     let counts = [
         ("datasets", recordings),
@@ -48,7 +48,7 @@ pub(super) fn size(file: &SweepFile, recordings: usize) -> Result<(), SweepError
     Ok(())
 }
 
-/// Refuses a model that is named twice with the same settings, and conditions over words that no task has.
+/// Rejects a model that is listed twice with the same settings, and conditions on words that no task has.
 pub(super) fn words(file: &SweepFile) -> Result<(), SweepError> {
     for (at, one) in file.models.iter().enumerate() {
         let is_alike = |other: &ModelEntry| other.name == one.name && other.set == one.set;
@@ -74,7 +74,7 @@ pub(super) fn words(file: &SweepFile) -> Result<(), SweepError> {
     Ok(())
 }
 
-/// Refuses a model or a setting that does not exist, before any work: each configuration once.
+/// Rejects a model or a setting that does not exist, before any work; checks each configuration once.
 pub(super) fn settings(file: &SweepFile, grid: &Grid, models: &Models) -> Result<(), SweepError> {
     let mut checked = BTreeSet::new();
     for task in &grid.tasks {

@@ -10,11 +10,11 @@ use crate::file::{ModelEntry, SweepFile};
 use crate::key::{KeyParts, TaskKey};
 use crate::task::Task;
 
-/// What tasks of recordings have in common.
+/// State that tasks of recordings share.
 pub(super) struct Common<'a> {
     pub(super) file: &'a SweepFile,
     pub(super) sensor: Option<Digest>,
-    /// The build of the plugin behind each model that one offers.
+    /// The build of the plugin behind each plugin model.
     pub(super) builds: BTreeMap<String, String>,
 }
 
@@ -43,7 +43,7 @@ impl Common<'_> {
                 }
             }
         }
-        // A model whose own setting stands in the place of one that varies comes once for each value; a result is made once.
+        // A model whose own setting overrides a varying one occurs once for each value; duplicates are dropped.
         let mut known = BTreeSet::new();
         grid.tasks.retain(|task| known.insert(task.key.clone()));
         grid

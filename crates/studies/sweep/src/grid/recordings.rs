@@ -1,4 +1,4 @@
-//! The recordings of a sweep: found by their names, told apart by what they hold.
+//! The recordings of a sweep: found by name, identified by content.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -12,15 +12,15 @@ use crate::glob;
 use crate::recording::opened;
 use crate::scene_recording::SceneRecording;
 
-/// A recording by its name, not looked at yet.
+/// A recording by its name, not opened yet.
 pub(super) struct Named {
     name: String,
     path: PathBuf,
-    /// Of a scene: what stands for its digest until it is there.
+    /// Placeholder for its digest until its scene has acquired it; `None` for a recording of the file.
     planned: Option<Digest>,
 }
 
-/// A recording that tasks are of.
+/// A recording of tasks.
 pub(super) struct Recording {
     pub(super) name: String,
     pub(super) path: PathBuf,
@@ -28,7 +28,7 @@ pub(super) struct Recording {
 }
 
 impl Named {
-    /// The key of the file that names it.
+    /// The key of the sweep file that names it.
     fn key(&self) -> &'static str {
         match self.planned {
             None => "datasets",
@@ -36,7 +36,7 @@ impl Named {
         }
     }
 
-    /// The digest of the recording at `path`, or what stands for it.
+    /// The digest of the recording at `path`, or its placeholder.
     fn digest(&self, path: &Path, view: Option<&str>) -> Result<Digest, SweepError> {
         match (opened(path, view), self.planned) {
             (Err(SweepError::Dataset(DatasetError::NoDataset { .. })), Some(planned)) => {
@@ -47,7 +47,7 @@ impl Named {
     }
 }
 
-/// The recordings that the file names, patterns resolved, and those of its scenes.
+/// The recordings that the file names, with patterns resolved, and those of its scenes.
 pub(super) fn named(file: &SweepFile, scenes: &[SceneRecording]) -> Result<Vec<Named>, SweepError> {
     let mut names: Vec<String> = Vec::new();
     for text in &file.datasets {
@@ -93,11 +93,11 @@ pub(super) fn named(file: &SweepFile, scenes: &[SceneRecording]) -> Result<Vec<N
     Ok(folders.chain(of_scenes).collect())
 }
 
-/// Opens each, once, for its digest; no frame is read. Two names of one recording are refused: of both there would be one result.
+/// Opens each once, for its digest; reads no frame. Rejects two names of one recording, which would share one result.
 pub(super) fn open(file: &SweepFile, all: &[Named]) -> Result<Vec<Recording>, SweepError> {
     let mut recordings: Vec<Recording> = Vec::with_capacity(all.len());
     for one in all {
-        // Absolute, since a job of a scheduler begins elsewhere.
+        // Absolute, since a job of a scheduler has another working folder.
         let path = std::path::absolute(&one.path).map_err(SweepError::io("find", &one.path))?;
         let digest = one.digest(&path, file.view.as_deref())?;
         let alike = recordings.iter().find(|other| other.digest == digest);

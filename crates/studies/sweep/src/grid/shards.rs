@@ -15,7 +15,7 @@ use crate::file::{SweepFile, TablesEntry};
 use crate::key::{ShardParts, TaskKey};
 use crate::task::{SHARD, Task};
 
-/// Two tables as they were when the sweep was planned, with all that is needed to score a shard of them.
+/// Two tables as they were when the sweep was planned, with everything needed to score a shard of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlannedTables {
@@ -23,15 +23,15 @@ pub(crate) struct PlannedTables {
     prediction: PathBuf,
     units: Vec<(String, Unit)>,
     allow_invalid: bool,
-    /// Where their rows lie, and what they hold.
+    /// Locations of their rows, and their digests.
     tables: ScoreTables,
 }
 
 impl PlannedTables {
-    /// The tables, looked through again where a file does not look as it did.
+    /// The tables, scanned again if a file has changed.
     ///
     /// # Errors
-    /// [`SweepError::Study`] if one holds something else now.
+    /// [`SweepError::Study`] if the content of a file has changed.
     pub(crate) fn again(&self) -> Result<ScoreTables, SweepError> {
         Ok(self.tables.clone().again()?)
     }
@@ -41,7 +41,7 @@ impl PlannedTables {
         self.tables.digests()
     }
 
-    /// What is to be scored.
+    /// The request of the scores.
     pub(crate) fn request(
         &self,
         metrics: &[String],
@@ -63,9 +63,9 @@ impl PlannedTables {
     }
 }
 
-/// A task a shard. Looks through both tables once, so that no task has to.
+/// One task for each shard. Scans both tables once, so that no task has to.
 pub(super) fn grid(file: &SweepFile, entry: &TablesEntry) -> Result<Grid, SweepError> {
-    // Absolute, since a job of a scheduler begins elsewhere.
+    // Absolute, since a job of a scheduler has another working folder.
     let absolute = |path: &Path| std::path::absolute(path).map_err(SweepError::io("find", path));
     let [truth, prediction] = [absolute(&entry.truth)?, absolute(&entry.prediction)?];
     let mut planned = ScoreRequest {
@@ -78,7 +78,7 @@ pub(super) fn grid(file: &SweepFile, entry: &TablesEntry) -> Result<Grid, SweepE
         sensor: file.sensor.clone(),
         metrics: file.metrics.clone(),
         allow_invalid: entry.allow_invalid,
-        // Two, as there are two tables to look through.
+        // Two threads, one for each table.
         jobs: NonZeroUsize::MIN.saturating_add(1),
     };
     let tables = ScoreTables::scan(&planned)?;

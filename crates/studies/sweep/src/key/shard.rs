@@ -1,16 +1,16 @@
-//! The name of the result of a shard of two tables.
+//! The key of the result of a shard of two tables.
 
 use taceva_core::Unit;
 use taceva_dataset::Digest;
 
 use super::{KeyBytes, TaskKey, text_of};
 
-/// What decides the result of a shard of two tables.
+/// Inputs that decide the result of a shard of two tables.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShardParts<'a> {
     /// The digests of the truth and of the predictions.
     pub(crate) tables: [Digest; 2],
-    /// Which shard of how many: `2/7`.
+    /// Number of the shard and of all shards: `2/7`.
     pub(crate) shard: &'a str,
     pub(crate) units: &'a [(String, Unit)],
     pub(crate) allow_invalid: bool,

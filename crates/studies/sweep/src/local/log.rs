@@ -1,4 +1,4 @@
-//! The log of a task: its stages, and how it ended.
+//! The log of a task: its stages and its end.
 
 use std::fs::File;
 use std::io::Write as _;
@@ -10,7 +10,7 @@ use super::lock;
 use crate::folder::SweepFolder;
 use crate::task::Task;
 
-/// The log of a task: its stages, and how it ended.
+/// The log of a task: its stages and its end.
 pub(super) struct TaskLog<'a> {
     file: Mutex<Option<File>>,
     whole: &'a dyn Progress,
@@ -39,7 +39,7 @@ impl<'a> TaskLog<'a> {
         log
     }
 
-    /// Adds a line; a log that cannot be written costs no result.
+    /// Adds a line; write errors are ignored.
     pub(super) fn say(&self, line: &str) {
         if let Some(file) = lock(&self.file).as_mut() {
             drop(writeln!(file, "{}", taceva_core::shown(line)));

@@ -1,4 +1,4 @@
-//! One worker: claims a task, carries it out, and says what came of it.
+//! One worker: claims a task, runs it, and records its outcome.
 
 use std::num::NonZeroUsize;
 use std::time::Duration;
@@ -15,17 +15,17 @@ use crate::outcome::{Common, Outcome, carry_out, is_stop};
 use crate::task::Task;
 use crate::times::Timer;
 
-/// How often a worker looks whether somebody else is done with a task.
+/// Interval at which a worker checks whether another has finished a task.
 const LOOK_EVERY: Duration = Duration::from_millis(200);
 
 impl Runner<'_> {
-    /// One worker: the next task that nobody is at, until there is none.
+    /// One worker: takes the next task that no other has claimed, until there is none.
     pub(super) fn work(&self, shared: &Shared, sensor: Option<&SensorFile>, threads: NonZeroUsize) {
         let mut others: Vec<(usize, Watch)> = Vec::new();
         while !self.progress.is_cancelled() {
             let next = lock(&shared.left).pop_front();
             let Some(at) = next else {
-                // What others are at, here or on another machine, is waited for: they may end without a result.
+                // Waits for tasks that others have claimed, here or on another machine: they may end without a result.
                 let Some((at, mut watch)) = others.pop() else {
                     return;
                 };
@@ -81,7 +81,7 @@ impl Runner<'_> {
     }
 
     fn attempt(&self, task: &Task, sensor: Option<&SensorFile>, threads: NonZeroUsize) -> Outcome {
-        // Somebody may have made it between the look at the folder and the claim.
+        // Another worker may have finished it between the scan of the folder and the claim.
         if self.folder.result(&task.key).exists() {
             return Outcome::Scored;
         }
@@ -103,7 +103,7 @@ impl Runner<'_> {
             Ok(Ok(())) => {
                 log.say("scored");
                 timer.keep(self.folder, &task.key);
-                // Of an attempt before.
+                // Left by an earlier attempt.
                 drop(Failure::forget(self.folder, &task.key));
                 return Outcome::Scored;
             }
@@ -112,7 +112,7 @@ impl Runner<'_> {
                 return Outcome::Stopped;
             }
             Ok(Err(error @ SweepError::Io { .. })) => {
-                // A full disk, or a folder that is not there, says nothing of the task: it is tried again next time.
+                // A full disk or a missing folder is no fault of the task: it is tried again next time.
                 log.say(&format!("not carried out: {error}"));
                 return Outcome::Failed(error.to_string());
             }
@@ -127,7 +127,7 @@ impl Runner<'_> {
         };
         match failure.write(self.folder) {
             Ok(()) => Outcome::Failed(failure.reason),
-            // As on a full disk: who collects finds neither a result nor a reason.
+            // As on a full disk: the collector finds neither a result nor a reason.
             Err(error) => Outcome::Failed(format!("{}; {error}", failure.reason)),
         }
     }

@@ -1,4 +1,4 @@
-//! Carrying one shard of two tables out: its result is the state that joins with those of the others.
+//! Execution of one shard of two tables; its result is the state to merge with those of the others.
 
 use taceva_evaluate::{EvaluateError, Shard, Work};
 
@@ -7,7 +7,7 @@ use crate::error::SweepError;
 use crate::grid::PlannedTables;
 use crate::task::{SHARD, Task};
 
-/// Scores the shard that `task` is, and writes its state.
+/// Scores the shard of `task`, and writes its state.
 ///
 /// # Errors
 /// [`SweepError`] if it cannot be carried out; nothing is written then.

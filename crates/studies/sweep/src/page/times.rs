@@ -8,7 +8,7 @@ use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
 use crate::times::TaskTime;
 
-/// The page of times, which no two runs agree on: run time against error, a figure for each recording and channel with R².
+/// The page of times, which differs between runs: run time against error, a figure for each recording and channel with R².
 pub(crate) fn times(folder: &SweepFolder, list: &TaskList, loaded: &[Loaded<'_>]) -> String {
     let mut parts = vec![PagePart::Words(
         "What a task took depends on the machine, its load and on what was in the cache before. Filled: no other configuration is both faster and more accurate.".to_owned(),

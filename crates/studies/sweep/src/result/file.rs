@@ -51,7 +51,7 @@ impl TaskResult {
         Ok(Some(result))
     }
 
-    /// The evaluation of this result, held against what was written.
+    /// The evaluation of this result, checked against its digest.
     pub(crate) fn read_evaluation(&self, folder: &SweepFolder) -> Result<String, SweepError> {
         let path = folder.evaluation(&self.key);
         let text = fs::read_to_string(&path).map_err(SweepError::io("read", &path))?;

@@ -1,4 +1,4 @@
-//! Commands of the scheduler, and what they say.
+//! Commands of the scheduler, and their output.
 
 use std::process::Command;
 
@@ -6,10 +6,10 @@ use taceva_core::shown;
 
 use crate::error::SweepError;
 
-/// What Slurm allows in one array where the site says nothing.
+/// Default `MaxArraySize` of Slurm.
 const ARRAY_MOST: u32 = 1001;
 
-/// How many jobs the site allows in one array.
+/// Maximum jobs in one array at this site.
 pub(super) fn array_most() -> u32 {
     let asked = Command::new("scontrol").args(["show", "config"]).output();
     let text = asked.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());
@@ -23,7 +23,7 @@ pub(super) fn array_most() -> u32 {
     said.unwrap_or(ARRAY_MOST).saturating_sub(1).max(1)
 }
 
-/// Runs a command of the scheduler; its standard output.
+/// Runs a command of the scheduler and returns its standard output.
 pub(super) fn run(command: &'static str, words: &[String]) -> Result<String, SweepError> {
     let refused = |words: String| SweepError::Scheduler { command, words };
     let output = Command::new(command).args(words).output().map_err(|error| {

@@ -1,4 +1,4 @@
-//! Jobs that the scheduler still has.
+//! Jobs that the scheduler still lists.
 
 use super::Submitted;
 use super::command::run;
@@ -8,20 +8,20 @@ use crate::error::SweepError;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct JobState {
-    /// Its number: `17_3`.
+    /// Number: `17_3`.
     pub id: String,
     /// `RUNNING`, `PENDING`, …
     pub state: String,
-    /// Where it runs, or why it waits.
+    /// The host on which it runs, or the reason why it waits.
     pub place: String,
 }
 
-/// The jobs of `submitted` that the scheduler still has.
+/// The jobs of `submitted` that the scheduler still lists.
 ///
 /// # Errors
-/// [`SweepError::Scheduler`] with the words of `squeue`.
+/// [`SweepError::Scheduler`] with the message of `squeue`.
 pub fn queue_of(submitted: &Submitted) -> Result<Vec<JobState>, SweepError> {
-    // All of the user, and not those by number: once the scheduler has forgotten a number, asking for it is an error.
+    // All jobs of the user, not those by number: a number that the scheduler has forgotten is an error.
     let words = ["--noheader", "--array", "--me", "--format=%i|%T|%R"].map(str::to_owned);
     let text = run("squeue", &words)?;
     let own = submitted.numbers();

@@ -1,4 +1,4 @@
-//! The record of what was submitted, as a sealed file; and its end.
+//! The record of submitted jobs, as a sealed file, and their cancellation.
 
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ use crate::seal;
 /// The schema of the record.
 const SCHEMA: &str = "taceva.sweep-jobs/1.0";
 
-/// What was submitted.
+/// Submitted jobs.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Submitted {
@@ -44,10 +44,10 @@ impl Submitted {
         folder.write(&path, text.as_bytes())
     }
 
-    /// What was submitted last; `None` if nothing was.
+    /// Reads the last submission; `None` if there was none.
     ///
     /// # Errors
-    /// [`SweepError`] if the record cannot be read, or was changed after it was written: jobs of others would be cancelled by it.
+    /// [`SweepError`] if the record cannot be read, or was changed after it was written: it could cancel jobs of others.
     pub fn read(folder: &SweepFolder) -> Result<Option<Submitted>, SweepError> {
         let path = path_in(folder);
         let Some(text) = seal::read(&path)? else {
@@ -73,10 +73,10 @@ impl Submitted {
         self.arrays.iter().chain(&self.collect).cloned().collect()
     }
 
-    /// Cancels all of it.
+    /// Cancels all jobs.
     ///
     /// # Errors
-    /// [`SweepError::Scheduler`] with the words of `scancel`.
+    /// [`SweepError::Scheduler`] with the message of `scancel`.
     pub fn cancel(&self) -> Result<(), SweepError> {
         run("scancel", &self.numbers()).map(drop)
     }

@@ -1,4 +1,4 @@
-//! Scripts of jobs, to be read, kept and submitted by hand.
+//! Scripts of jobs, to read, keep and submit by hand.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use taceva_dataset::internal::shell_word;
 
 use crate::slurm_spec::SlurmSpec;
 
-/// What scripts have in common.
+/// Settings that scripts share.
 pub(super) struct Script<'a> {
     pub(super) root: &'a Path,
     pub(super) tasks: &'a Path,
@@ -17,7 +17,7 @@ pub(super) struct Script<'a> {
 }
 
 impl Script<'_> {
-    /// One job of an array: the tasks of a line of its file of blocks.
+    /// One job of an array: runs the tasks of one line of its file of blocks.
     pub(super) fn array(&self, name: &str, jobs: usize, gres: Option<&str>) -> String {
         let most = self
             .spec
@@ -59,7 +59,7 @@ impl Script<'_> {
         text
     }
 
-    /// The job that makes the table of what is there once every other has ended, however it ended.
+    /// The job that makes the table once every other job has ended, with or without success.
     pub(super) fn collect(&self) -> String {
         let mut text = self.head("collect", "%j");
         text.push_str(&self.setup());

@@ -11,7 +11,7 @@ use crate::folder::SweepFolder;
 use crate::seal;
 
 impl TaskList {
-    /// Writes the list into `folder`, under a name that only equal lists have, and as the last one; returns where.
+    /// Writes the list into `folder`, under a name that only equal lists share, and as the latest; returns its path.
     ///
     /// # Errors
     /// [`SweepError::Io`].
@@ -41,7 +41,7 @@ impl TaskList {
     /// The list at `path`.
     ///
     /// # Errors
-    /// [`SweepError::Kept`] if it is none, one of another version, or one that was changed after it was written.
+    /// [`SweepError::Kept`] if the file is no list, is of another version, or was changed after it was written.
     pub fn read(path: &Path) -> Result<TaskList, SweepError> {
         let wrong = |problem: String| SweepError::Kept {
             path: path.to_owned(),
@@ -65,7 +65,7 @@ impl TaskList {
         seal::value(&text).map_err(again)
     }
 
-    /// The last list that was written into `folder`.
+    /// The latest list that was written into `folder`.
     ///
     /// # Errors
     /// As [`read`](TaskList::read).
@@ -73,10 +73,10 @@ impl TaskList {
         TaskList::read(&latest(folder))
     }
 
-    /// What is known of the sensor, as it was when the sweep was planned.
+    /// The sensor facts, as they were when the sweep was planned.
     ///
     /// # Errors
-    /// [`SweepError::Changed`] if its file is another one now; [`SweepError`] if it cannot be read.
+    /// [`SweepError::Changed`] if the file has changed since; [`SweepError`] if it cannot be read.
     pub(crate) fn read_sensor(&self) -> Result<Option<SensorFile>, SweepError> {
         let Some(path) = &self.sensor else {
             return Ok(None);
@@ -95,7 +95,7 @@ impl TaskList {
     }
 }
 
-/// What is read before the rest, whose form depends on it.
+/// Head of the file, read first because its schema decides the form of the rest.
 #[derive(serde::Deserialize)]
 struct Head {
     schema: String,

@@ -1,11 +1,11 @@
-//! Which tasks of a list are meant, and how far they are.
+//! Selection of tasks of a list, and progress of the sweep.
 
 use super::TaskList;
 use crate::condition::Condition;
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
 
-/// How far a sweep is.
+/// Progress of a sweep.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Counts {
@@ -18,10 +18,10 @@ pub struct Counts {
 }
 
 impl TaskList {
-    /// The positions of the tasks of which `only` holds; of all without it.
+    /// The positions of the tasks for which `only` holds; all of them if it is `None`.
     ///
     /// # Errors
-    /// [`SweepError::Condition`] for a word that no task has, and where it holds of none.
+    /// [`SweepError::Condition`] for a word that no task has, and if it holds for none.
     pub fn matching(&self, only: Option<&Condition>) -> Result<Vec<usize>, SweepError> {
         let Some(only) = only else {
             return Ok((0..self.tasks.len()).collect());
@@ -43,7 +43,7 @@ impl TaskList {
         }
     }
 
-    /// Those of the tasks at `wanted` that are still to be carried out.
+    /// The tasks at `wanted` that are still to be run.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.
@@ -61,7 +61,7 @@ impl TaskList {
         Ok(wanted.iter().copied().filter(is_left).collect())
     }
 
-    /// How far the sweep is, by the names of its files.
+    /// The progress of the sweep, from the names of its files.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.

@@ -1,4 +1,4 @@
-//! Scenes acquired as `taceva run` acquires them, by one process at a time.
+//! Acquisition of scenes as by `taceva run`, by one process at a time.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -17,20 +17,20 @@ use crate::args::CacheArgs;
 use crate::cmd::{Context, cache, run::bench, scene};
 use crate::progress;
 
-/// How often is looked whether somebody else is done with a scene.
+/// Interval at which a waiting process checks whether another has finished a scene.
 const LOOK_EVERY: Duration = Duration::from_millis(200);
-/// How a sweep goes on that was stopped.
+/// Message after an interruption.
 const STOPPED: &str = "stopped while a scene was acquired; the same command goes on from here";
 
-/// What scenes are acquired with.
+/// Resources of an acquisition.
 pub(crate) struct Acquisition<'a> {
     pub(crate) folder: &'a SweepFolder,
     pub(crate) models: &'a Models,
-    /// Recordings of simulated scenes are found and kept where `taceva run` does.
+    /// The cache of simulated recordings, shared with `taceva run`.
     pub(crate) cache: &'a CacheArgs,
 }
 
-/// Acquires those of `scenes` that are not there yet, one after the other; whether there was one.
+/// Acquires in turn those of `scenes` that are not complete; true if there was one.
 pub(crate) fn acquire(
     scenes: &[SweepScene],
     acquisition: &Acquisition<'_>,
@@ -50,7 +50,7 @@ impl SweepScene {
         let (planned, path) = (&self.planned, self.run.path());
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let _claim = claim(&with.folder.scene_claim(&name), context)?;
-        // Somebody may have begun it, or ended it, meanwhile.
+        // Another process may have begun or finished it meanwhile.
         let is_begun = self.run.is_begun(planned)?;
         if is_begun && self.run.is_acquired(planned)? {
             return Ok(());
@@ -84,7 +84,7 @@ impl SweepScene {
         let began = Instant::now();
         let acquired = acquire_scene(planned, &run, setup);
         let mut stages = cache.iter().flat_map(Cache::stages);
-        // Presses that were found, or are made once more, say nothing of how long one takes.
+        // Presses that were found in the cache, or are repeated, do not show the time of a press.
         let is_timed = !is_begun && stages.all(|stage| !stage.reused);
         if is_timed && progress.steps() > 0 {
             SceneTime::new(progress.steps(), began.elapsed()).keep(with.folder, &name);
@@ -101,7 +101,7 @@ impl SweepScene {
     }
 }
 
-/// The claim at `path`, once nobody else has it.
+/// The claim at `path`, once no other process holds it.
 fn claim(path: &Path, context: &Context) -> anyhow::Result<Claim> {
     let of_path = || format!("cannot claim {}", shown(path));
     let mut watch: Option<Watch> = None;

@@ -1,20 +1,20 @@
-//! In what two recordings differ that must be the same before their samples are taken together.
+//! Differences between two recordings that prevent joining them.
 
 use crate::header::{Footprint, Header};
 
-/// A key of a header that differs.
+/// A key of a header with different values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub struct Difference {
-    /// As `dataset.toml` has it.
+    /// The key as in `dataset.toml`.
     pub key: &'static str,
-    /// What the first says.
+    /// Value in the first.
     pub own: String,
-    /// What the other says.
+    /// Value in the other.
     pub other: String,
 }
 
-/// What differs between two recordings whose samples cannot be taken together for it, in the order of a header.
+/// Differences that prevent joining two recordings, in the order of a header.
 pub(super) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = Difference> {
     let facts = facts(one).into_iter().zip(facts(other));
     facts
@@ -22,8 +22,8 @@ pub(super) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = 
         .map(|((key, own), (_, other))| Difference { key, own, other })
 }
 
-/// What else differs between a recording and rows that are to be added to it, which must agree with it in serial number, gel, clock, text
-/// columns and the order of colours, too.
+/// Further differences that prevent adding rows to a recording: serial number, gel, clock, text columns and the order of colours must
+/// agree, too.
 pub fn differences_of_added(one: &Header, added: &Header) -> impl Iterator<Item = Difference> {
     let more = more(one).into_iter().zip(more(added));
     let more = more.filter(|((_, own), (_, other))| own != other);
@@ -52,7 +52,7 @@ fn more(header: &Header) -> [(&'static str, String); 5] {
     ]
 }
 
-/// What must be the same, in words.
+/// Facts that must be equal, in words.
 fn facts(header: &Header) -> [(&'static str, String); 7] {
     let absent = || "absent".to_owned();
     let mut channels: Vec<String> = header
@@ -96,7 +96,7 @@ fn facts(header: &Header) -> [(&'static str, String); 7] {
     ]
 }
 
-/// The pictures of each sample, where there are several and none is chosen.
+/// The pictures of each sample, if there are several and none is chosen.
 fn views(header: &Header) -> String {
     let views = header.views.iter();
     let views = views.map(|view| format!("{} {}", view.name, view.frames.info));

@@ -8,7 +8,7 @@ use crate::classifier::ModelClassifier;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 
-/// The spacings of the spectra `asked`, by a model of `known` spectra with their spacings.
+/// The spacings of the spectra `asked`, by a model fitted on `known` spectra with their spacings.
 pub(super) fn predict(
     classifier: &ModelClassifier,
     known: &[Vec<f64>],

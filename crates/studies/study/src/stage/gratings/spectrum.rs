@@ -9,10 +9,10 @@ use crate::classifier::ModelClassifier;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 
-/// Bytes of planes that are held at once; presses that need more are decoded twice.
+/// Memory limit of the planes held at once, bytes; presses that need more are decoded twice.
 const HELD_BYTES: u64 = 512 << 20;
 
-/// Passes over `presses` pictures of `dataset`: one where their planes are held, else one for the mean and one for the pictures.
+/// Passes over `presses` pictures of `dataset`: one if their planes fit in memory, else one for the mean and one for the pictures.
 pub(super) fn times_decoded(dataset: &Dataset, presses: usize) -> u64 {
     let info = dataset.header().frames.as_ref().map(|frames| frames.info);
     let plane = info.map_or(0, |info| RadialSpectrum::new(info).plane_bytes());
@@ -22,7 +22,7 @@ pub(super) fn times_decoded(dataset: &Dataset, presses: usize) -> u64 {
     }
 }
 
-/// What is fitted to the spectra of each fold.
+/// Classifier that is fitted to the spectra of each fold.
 #[derive(Clone, Copy)]
 pub(super) enum ByFold<'a> {
     Discriminants,
@@ -126,7 +126,7 @@ impl<'a> Pictures<'a> {
         Ok(seen)
     }
 
-    /// For each fold, the sum of the planes of all other folds and their number; each plane is given to `keep` once.
+    /// For each fold, the sum of the planes of all other folds, and their number; calls `keep` with each plane once.
     fn backgrounds(
         &self,
         mut keep: impl FnMut(FourierPlane),
@@ -155,7 +155,7 @@ impl<'a> Pictures<'a> {
     }
 }
 
-/// Classifies the presses of `fold` from what the others teach.
+/// Classifies the presses of `fold` by a classifier fitted on the others.
 fn classify_fold(
     seen: &[Seen],
     fold: usize,
