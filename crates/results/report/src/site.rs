@@ -224,6 +224,21 @@ fn properties(sensor: &Sensor) -> Markup {
             ),
         ]);
     }
+    if let Some(size) = &sensor.size {
+        entries.push(("size".to_owned(), format!("{} mm", size.shown())));
+    }
+    for price in &sensor.prices {
+        let shown = format!("{} ({})", price.shown(), price.conditions());
+        entries.push(("price".to_owned(), shown));
+    }
+    for offer in &sensor.availability {
+        let way = format!("can be {}", offer.way.word());
+        let shown = format!("{}, seen on {}", offer.conditions, offer.seen);
+        entries.push((way, shown));
+    }
+    if !sensor.aliases.is_empty() {
+        entries.push(("also called".to_owned(), sensor.aliases.join(", ")));
+    }
     for (theme, terms) in &sensor.applications {
         if !terms.is_empty() {
             entries.push((format!("used for: {theme}"), terms.join(", ")));

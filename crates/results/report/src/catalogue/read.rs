@@ -5,6 +5,7 @@ use taceva_metrics::Standing;
 
 use super::definition;
 use super::entry::Sensor;
+use super::offer::{self, DAY};
 
 /// Why a file of the catalogue cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -91,6 +92,33 @@ impl Sensor {
                     "a finite number",
                 ));
             }
+        }
+        if let Some(size) = &sensor.size
+            && !size.is_possible()
+        {
+            return Err(refuse(
+                "size",
+                &size.shown(),
+                "two or three lengths above 0 mm",
+            ));
+        }
+        if sensor.aliases.iter().any(|alias| alias.trim().is_empty()) {
+            return Err(refuse("aliases", "", "names of one letter or more"));
+        }
+        for price in &sensor.prices {
+            if !(price.amount.is_finite() && price.amount > 0.0) {
+                let found = price.amount.to_string();
+                return Err(refuse("amount", &found, "a finite number above 0"));
+            }
+            if !offer::is_currency(&price.currency) {
+                let expected = "three capital letters such as USD";
+                return Err(refuse("currency", &price.currency, expected));
+            }
+        }
+        let prices = sensor.prices.iter().map(|price| &price.seen);
+        let ways = sensor.availability.iter().map(|way| &way.seen);
+        if let Some(seen) = prices.chain(ways).find(|seen| !offer::is_day(seen)) {
+            return Err(refuse("seen", seen, DAY));
         }
         let judged = sensor.as_study();
         for result in &mut sensor.results {
