@@ -21,7 +21,8 @@ pub struct Sensor {
     pub aliases: Vec<String>,
     /// `sensor`, or `study` of an evaluation of others.
     pub kind: Kind,
-    /// IMM (intensity mapping), MDM (marker displacement), MFM (modality fusion) of a sensor with a camera; `magnetic` or `capacitive` of taxels.
+    /// IMM (intensity mapping), MDM (marker displacement), MFM (modality fusion) of a sensor with a camera; `magnetic`, `capacitive`, `resistive` or
+    /// `optical` of taxels.
     pub mechanism: Vec<String>,
     /// Its form.
     pub shape: Option<String>,

@@ -45,7 +45,7 @@ pub struct Limits {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Size {
-    /// Width, depth and height in mm as the source orders them, or a diameter and a length.
+    /// Width, depth and height in mm as the source orders them, or a diameter and a length, or a diameter alone.
     pub mm: Vec<f64>,
     /// The id of the source.
     pub source: String,
@@ -62,9 +62,9 @@ impl Size {
         sides.collect::<Vec<_>>().join(" × ")
     }
 
-    /// True of two or three dimensions, all of them above zero.
+    /// True of one to three dimensions, all of them above zero.
     pub(super) fn is_possible(&self) -> bool {
         let is_length = |side: &f64| side.is_finite() && *side > 0.0;
-        (2..=3).contains(&self.mm.len()) && self.mm.iter().all(is_length)
+        (1..=3).contains(&self.mm.len()) && self.mm.iter().all(is_length)
     }
 }

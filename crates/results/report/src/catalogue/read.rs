@@ -34,7 +34,15 @@ pub enum CatalogueError {
 }
 
 /// How a sensor senses: by a camera, whose words are those of the TacEva study, or by taxels.
-const MECHANISMS: [&str; 5] = ["IMM", "MDM", "MFM", "magnetic", "capacitive"];
+const MECHANISMS: [&str; 7] = [
+    "IMM",
+    "MDM",
+    "MFM",
+    "magnetic",
+    "capacitive",
+    "resistive",
+    "optical",
+];
 
 impl Sensor {
     /// The sensor described by `text`, the content of `file`.
@@ -64,7 +72,7 @@ impl Sensor {
             return Err(refuse(
                 "mechanism",
                 word,
-                "IMM, MDM, MFM, magnetic or capacitive",
+                "IMM, MDM, MFM, magnetic, capacitive, resistive or optical",
             ));
         }
         for result in &sensor.results {
@@ -99,7 +107,7 @@ impl Sensor {
             return Err(refuse(
                 "size",
                 &size.shown(),
-                "two or three lengths above 0 mm",
+                "one to three lengths above 0 mm",
             ));
         }
         if sensor.aliases.iter().any(|alias| alias.trim().is_empty()) {
