@@ -2,6 +2,11 @@
 
 /// Every file by its name; a test holds this list to the folder.
 pub(super) const FILES: &[(&str, &str)] = &[
+    ("9dtact.toml", include_str!("../../catalogue/9dtact.toml")),
+    (
+        "allsight.toml",
+        include_str!("../../catalogue/allsight.toml"),
+    ),
     (
         "chromatouch.toml",
         include_str!("../../catalogue/chromatouch.toml"),
@@ -68,6 +73,8 @@ pub(super) const FILES: &[(&str, &str)] = &[
         "pbr-design.toml",
         include_str!("../../catalogue/pbr-design.toml"),
     ),
+    ("r-tac0.toml", include_str!("../../catalogue/r-tac0.toml")),
+    ("reskin.toml", include_str!("../../catalogue/reskin.toml")),
     ("sparsh.toml", include_str!("../../catalogue/sparsh.toml")),
     ("spectac.toml", include_str!("../../catalogue/spectac.toml")),
     ("tac3d.toml", include_str!("../../catalogue/tac3d.toml")),
@@ -88,5 +95,9 @@ pub(super) const FILES: &[(&str, &str)] = &[
     (
         "vt-review.toml",
         include_str!("../../catalogue/vt-review.toml"),
+    ),
+    (
+        "xela-uspa-44.toml",
+        include_str!("../../catalogue/xela-uspa-44.toml"),
     ),
 ];
