@@ -7,6 +7,7 @@ pub(super) const FILES: &[(&str, &str)] = &[
         "allsight.toml",
         include_str!("../../catalogue/allsight.toml"),
     ),
+    ("anyskin.toml", include_str!("../../catalogue/anyskin.toml")),
     (
         "chromatouch.toml",
         include_str!("../../catalogue/chromatouch.toml"),
@@ -25,6 +26,10 @@ pub(super) const FILES: &[(&str, &str)] = &[
         include_str!("../../catalogue/digit-pinki.toml"),
     ),
     ("digit.toml", include_str!("../../catalogue/digit.toml")),
+    (
+        "dm-tac-w.toml",
+        include_str!("../../catalogue/dm-tac-w.toml"),
+    ),
     ("dtact.toml", include_str!("../../catalogue/dtact.toml")),
     ("eflesh.toml", include_str!("../../catalogue/eflesh.toml")),
     ("eval.toml", include_str!("../../catalogue/eval.toml")),
@@ -36,6 +41,10 @@ pub(super) const FILES: &[(&str, &str)] = &[
     (
         "fingervision.toml",
         include_str!("../../catalogue/fingervision.toml"),
+    ),
+    (
+        "flexitac.toml",
+        include_str!("../../catalogue/flexitac.toml"),
     ),
     (
         "gelforce.toml",
@@ -65,9 +74,14 @@ pub(super) const FILES: &[(&str, &str)] = &[
         "minsight.toml",
         include_str!("../../catalogue/minsight.toml"),
     ),
+    ("mistac.toml", include_str!("../../catalogue/mistac.toml")),
     (
         "omnitact.toml",
         include_str!("../../catalogue/omnitact.toml"),
+    ),
+    (
+        "papillarray.toml",
+        include_str!("../../catalogue/papillarray.toml"),
     ),
     (
         "pbr-design.toml",
