@@ -33,6 +33,7 @@ pub(super) const FILES: &[(&str, &str)] = &[
     ("dtact.toml", include_str!("../../catalogue/dtact.toml")),
     ("eflesh.toml", include_str!("../../catalogue/eflesh.toml")),
     ("eval.toml", include_str!("../../catalogue/eval.toml")),
+    ("evetac.toml", include_str!("../../catalogue/evetac.toml")),
     ("f-touch.toml", include_str!("../../catalogue/f-touch.toml")),
     (
         "finger-sts.toml",
@@ -58,6 +59,10 @@ pub(super) const FILES: &[(&str, &str)] = &[
         "gelsightwm.toml",
         include_str!("../../catalogue/gelsightwm.toml"),
     ),
+    (
+        "gelslim-4-0.toml",
+        include_str!("../../catalogue/gelslim-4-0.toml"),
+    ),
     ("gelslim.toml", include_str!("../../catalogue/gelslim.toml")),
     ("geltip.toml", include_str!("../../catalogue/geltip.toml")),
     ("hivtac.toml", include_str!("../../catalogue/hivtac.toml")),
@@ -66,6 +71,10 @@ pub(super) const FILES: &[(&str, &str)] = &[
         include_str!("../../catalogue/icub-fingertip.toml"),
     ),
     ("insight.toml", include_str!("../../catalogue/insight.toml")),
+    (
+        "l3-f-touch.toml",
+        include_str!("../../catalogue/l3-f-touch.toml"),
+    ),
     (
         "magictac.toml",
         include_str!("../../catalogue/magictac.toml"),
@@ -84,11 +93,19 @@ pub(super) const FILES: &[(&str, &str)] = &[
         include_str!("../../catalogue/papillarray.toml"),
     ),
     (
+        "paxini-px-6ax.toml",
+        include_str!("../../catalogue/paxini-px-6ax.toml"),
+    ),
+    (
         "pbr-design.toml",
         include_str!("../../catalogue/pbr-design.toml"),
     ),
     ("r-tac0.toml", include_str!("../../catalogue/r-tac0.toml")),
     ("reskin.toml", include_str!("../../catalogue/reskin.toml")),
+    (
+        "robotiq-tsf-85.toml",
+        include_str!("../../catalogue/robotiq-tsf-85.toml"),
+    ),
     ("sparsh.toml", include_str!("../../catalogue/sparsh.toml")),
     ("spectac.toml", include_str!("../../catalogue/spectac.toml")),
     ("tac3d.toml", include_str!("../../catalogue/tac3d.toml")),
@@ -113,5 +130,9 @@ pub(super) const FILES: &[(&str, &str)] = &[
     (
         "xela-uspa-44.toml",
         include_str!("../../catalogue/xela-uspa-44.toml"),
+    ),
+    (
+        "xense-g1.toml",
+        include_str!("../../catalogue/xense-g1.toml"),
     ),
 ];
