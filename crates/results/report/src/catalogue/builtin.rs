@@ -93,6 +93,26 @@ pub(super) const FILES: &[(&str, &str)] = &[
         include_str!("../../catalogue/papillarray.toml"),
     ),
     (
+        "paxini-dp-l3530.toml",
+        include_str!("../../catalogue/paxini-dp-l3530.toml"),
+    ),
+    (
+        "paxini-dp-m2826.toml",
+        include_str!("../../catalogue/paxini-dp-m2826.toml"),
+    ),
+    (
+        "paxini-dp-s1813.toml",
+        include_str!("../../catalogue/paxini-dp-s1813.toml"),
+    ),
+    (
+        "paxini-dp-s2015.toml",
+        include_str!("../../catalogue/paxini-dp-s2015.toml"),
+    ),
+    (
+        "paxini-ip-s1610.toml",
+        include_str!("../../catalogue/paxini-ip-s1610.toml"),
+    ),
+    (
         "paxini-px-6ax.toml",
         include_str!("../../catalogue/paxini-px-6ax.toml"),
     ),
