@@ -30,6 +30,10 @@ pub(super) const FILES: &[(&str, &str)] = &[
         "dm-tac-w.toml",
         include_str!("../../catalogue/dm-tac-w.toml"),
     ),
+    (
+        "dm-tac-w2l.toml",
+        include_str!("../../catalogue/dm-tac-w2l.toml"),
+    ),
     ("dtact.toml", include_str!("../../catalogue/dtact.toml")),
     ("eflesh.toml", include_str!("../../catalogue/eflesh.toml")),
     ("eval.toml", include_str!("../../catalogue/eval.toml")),
@@ -71,6 +75,10 @@ pub(super) const FILES: &[(&str, &str)] = &[
         include_str!("../../catalogue/icub-fingertip.toml"),
     ),
     ("insight.toml", include_str!("../../catalogue/insight.toml")),
+    (
+        "interlink-fsr-402.toml",
+        include_str!("../../catalogue/interlink-fsr-402.toml"),
+    ),
     (
         "l3-f-touch.toml",
         include_str!("../../catalogue/l3-f-touch.toml"),
@@ -148,8 +156,16 @@ pub(super) const FILES: &[(&str, &str)] = &[
         include_str!("../../catalogue/vt-review.toml"),
     ),
     (
+        "xela-uscu-alha.toml",
+        include_str!("../../catalogue/xela-uscu-alha.toml"),
+    ),
+    (
         "xela-uspa-44.toml",
         include_str!("../../catalogue/xela-uspa-44.toml"),
+    ),
+    (
+        "xela-uspa-46.toml",
+        include_str!("../../catalogue/xela-uspa-46.toml"),
     ),
     (
         "xense-g1.toml",
