@@ -121,10 +121,6 @@ pub(super) const FILES: &[(&str, &str)] = &[
         include_str!("../../catalogue/paxini-ip-s1610.toml"),
     ),
     (
-        "paxini-px-6ax.toml",
-        include_str!("../../catalogue/paxini-px-6ax.toml"),
-    ),
-    (
         "pbr-design.toml",
         include_str!("../../catalogue/pbr-design.toml"),
     ),

@@ -89,12 +89,12 @@ mod tests {
     }
 
     #[test]
-    fn of_many_sensors_that_one_can_get_five_of_eight_facts_are_known_and_of_most_an_error() {
+    fn of_25_sensors_that_one_can_get_five_of_eight_facts_are_known_and_of_12_an_error() {
         let mut known = answered();
         known.retain(|(_, answers)| answers.len() >= 5);
-        assert!(known.len() >= 4, "{} {known:?}", known.len());
+        assert!(known.len() >= 25, "{} {known:?}", known.len());
         known.retain(|(_, answers)| answers.contains(&Question::Accuracy));
-        assert!(known.len() >= 4, "{} {known:?}", known.len());
+        assert!(known.len() >= 12, "{} {known:?}", known.len());
     }
 
     #[test]
