@@ -42,12 +42,15 @@ impl Price {
         format!("{sign}{} {}", self.amount, self.currency)
     }
 
-    /// The class of the price: `below 100 USD`, `below 1000 USD`, `below 10000 USD` or `10000 USD and more`.
+    /// The class of the price, of a power of ten from 100 in its currency: `below 100 USD`, `below 1000 USD`; `1000 USD and more` of a price that
+    /// is stated as above 1000.
     pub fn class(&self) -> String {
-        let edges = [100.0, 1000.0, 10_000.0];
-        match edges.into_iter().find(|edge| self.amount < *edge) {
+        let edges = (2..=9).map(|power| 10_f64.powi(power));
+        let is_open = self.bound == Some(Roughly::Above);
+        let mut edges = edges.filter(|edge| !is_open && self.amount < *edge);
+        match edges.next() {
             Some(edge) => format!("below {edge} {}", self.currency),
-            None => format!("10000 {} and more", self.currency),
+            None => format!("{} {} and more", self.amount, self.currency),
         }
     }
 
@@ -131,11 +134,15 @@ mod tests {
         for (amount, class) in [
             ("99.99", "below 100 USD"),
             ("100.0", "below 1000 USD"),
-            ("10000.0", "10000 USD and more"),
+            ("90200.0", "below 100000 USD"),
+            ("1e10", "10000000000 USD and more"),
         ] {
             let sensor = priced(amount, "USD", "2026-11-28").expect("a price");
             assert_eq!(sensor.prices[0].class(), class);
         }
+        let mut sensor = priced("1000.0", "USD", "2026-11-28").expect("a price");
+        sensor.prices[0].bound = Some(Roughly::Above);
+        assert_eq!(sensor.prices[0].class(), "1000 USD and more");
     }
 
     #[test]
