@@ -23,12 +23,9 @@ fn list(output: &Output) -> anyhow::Result<u8> {
 }
 
 fn show(args: &CatalogueShow) -> anyhow::Result<u8> {
-    let sensor = catalogue::find(&args.name).ok_or_else(|| {
-        Usage::error(format!(
-            "`{}`: no such name in the catalogue; {}",
-            taceva_report::escape_terminal(&args.name),
-            catalogue::hint(&args.name)
-        ))
+    let sensor = catalogue::named(&args.name).map_err(|error| {
+        let name = taceva_report::escape_terminal(&args.name);
+        Usage::error(format!("`{name}`: {error}"))
     })?;
     write(&args.output, &catalogue::details(&sensor))
 }

@@ -66,12 +66,9 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Study>> {
 fn find(path: &Path) -> anyhow::Result<Found> {
     if !path.exists() {
         let name = path.to_string_lossy();
-        let sensor = catalogue::find(&name).ok_or_else(|| {
-            Usage::error(format!(
-                "`{}`: no such file, and no such name in the catalogue; {}",
-                escape_terminal(&name),
-                catalogue::hint(&name)
-            ))
+        let sensor = catalogue::named(&name).map_err(|error| {
+            let name = escape_terminal(&name);
+            Usage::error(format!("`{name}`: no such file, and {error}"))
         })?;
         return Ok(Found {
             studies: vec![sensor.as_study()],

@@ -6,14 +6,20 @@ mod definition;
 mod entry;
 mod facts;
 mod list;
+mod lookup;
+mod offer;
 mod published;
+mod question;
 mod read;
 mod study;
 
 pub use entry::{Kind, Sensor};
-pub use facts::{Intrinsic, Limits};
+pub use facts::{Intrinsic, Limits, Size};
 pub use list::{details, list};
+pub use lookup::{NameError, named};
+pub use offer::{Availability, Price, Way};
 pub use published::{Missing, Published, Roughly, Source};
+pub use question::Question;
 pub use read::CatalogueError;
 
 /// The sensors and studies that come with the program, by name.
@@ -35,12 +41,9 @@ pub fn all() -> Vec<Sensor> {
     sensors
 }
 
-/// The sensor called `name`, whatever its case.
+/// The sensor called `name`, or the only one with that alias, whatever its case.
 pub fn find(name: &str) -> Option<Sensor> {
-    let wanted = name.to_lowercase();
-    all()
-        .into_iter()
-        .find(|sensor| sensor.name.to_lowercase() == wanted)
+    named(name).ok()
 }
 
 /// A hint for an unknown `name`.
@@ -51,14 +54,17 @@ pub fn hint(name: &str) -> String {
     }
 }
 
-/// The name of the catalogue that is most like `name`, if one is like it at all.
+/// The name or alias of the catalogue that is most like `name`, if one is like it at all.
 ///
 /// ```
 /// assert_eq!(taceva_report::catalogue::nearest("gelsigt").as_deref(), Some("GelSight"));
 /// assert_eq!(taceva_report::catalogue::nearest("banana"), None);
 /// ```
 pub fn nearest(name: &str) -> Option<String> {
-    let names: Vec<String> = all().into_iter().map(|entry| entry.name).collect();
+    let names: Vec<String> = all()
+        .into_iter()
+        .flat_map(|entry| [vec![entry.name], entry.aliases].concat())
+        .collect();
     taceva_core::nearest(name, names.iter().map(String::as_str)).map(str::to_owned)
 }
 
@@ -89,6 +95,12 @@ mod tests {
         assert_eq!(files, listed);
         for (file, text) in builtin::FILES {
             let sensor = Sensor::read(file, text).unwrap_or_else(|error| panic!("{error}"));
+            let size = sensor.size.iter().map(|size| &size.source);
+            let prices = sensor.prices.iter().map(|price| &price.source);
+            let ways = sensor.availability.iter().map(|offer| &offer.source);
+            for source in size.chain(prices).chain(ways) {
+                assert!(sensor.source(source).is_some(), "{file}: {source}");
+            }
             for result in &sensor.results {
                 assert!(
                     sensor.source(&result.source).is_some(),

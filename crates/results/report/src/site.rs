@@ -67,6 +67,8 @@ fn list<'a>(sensors: impl Iterator<Item = &'a Sensor>) -> Markup {
         ("mfm", "MFM: fusion"),
         ("magnetic", "magnetic taxels"),
         ("capacitive", "capacitive taxels"),
+        ("resistive", "resistive taxels"),
+        ("optical", "optical taxels"),
     ];
     let errors = ["Pxy (mm)", "Pz (mm)", "Fxy (N)", "Fz (N)"];
     let table = html! {
@@ -91,7 +93,7 @@ fn list<'a>(sensors: impl Iterator<Item = &'a Sensor>) -> Markup {
         } "\n"
         (scroll("Sensors", &table))
         p.note {
-            "A dash: no number of that metric and unit is known here. The page of a sensor has every number that is. IMM maps intensity, MDM displacements of markers, MFM fuses modalities; magnetic and capacitive sensors have taxels and no camera. "
+            "A dash: no number of that metric and unit is known here. The page of a sensor has every number that is. IMM maps intensity, MDM displacements of markers, MFM fuses modalities; magnetic, capacitive, resistive and optical sensors have taxels and no camera. "
             "The last column counts which of ten properties the work itself reports."
         }
     }
@@ -223,6 +225,21 @@ fn properties(sensor: &Sensor) -> Markup {
                 format!("{} mm", of.radius_max_mm),
             ),
         ]);
+    }
+    if let Some(size) = &sensor.size {
+        entries.push(("size".to_owned(), format!("{} mm", size.shown())));
+    }
+    for price in &sensor.prices {
+        let shown = format!("{} ({})", price.shown(), price.conditions());
+        entries.push(("price".to_owned(), shown));
+    }
+    for offer in &sensor.availability {
+        let way = format!("can be {}", offer.way.word());
+        let shown = format!("{}, seen on {}", offer.conditions, offer.seen);
+        entries.push((way, shown));
+    }
+    if !sensor.aliases.is_empty() {
+        entries.push(("also called".to_owned(), sensor.aliases.join(", ")));
     }
     for (theme, terms) in &sensor.applications {
         if !terms.is_empty() {

@@ -2,6 +2,12 @@
 
 /// Every file by its name; a test holds this list to the folder.
 pub(super) const FILES: &[(&str, &str)] = &[
+    ("9dtact.toml", include_str!("../../catalogue/9dtact.toml")),
+    (
+        "allsight.toml",
+        include_str!("../../catalogue/allsight.toml"),
+    ),
+    ("anyskin.toml", include_str!("../../catalogue/anyskin.toml")),
     (
         "chromatouch.toml",
         include_str!("../../catalogue/chromatouch.toml"),
@@ -20,9 +26,18 @@ pub(super) const FILES: &[(&str, &str)] = &[
         include_str!("../../catalogue/digit-pinki.toml"),
     ),
     ("digit.toml", include_str!("../../catalogue/digit.toml")),
+    (
+        "dm-tac-w.toml",
+        include_str!("../../catalogue/dm-tac-w.toml"),
+    ),
+    (
+        "dm-tac-w2l.toml",
+        include_str!("../../catalogue/dm-tac-w2l.toml"),
+    ),
     ("dtact.toml", include_str!("../../catalogue/dtact.toml")),
     ("eflesh.toml", include_str!("../../catalogue/eflesh.toml")),
     ("eval.toml", include_str!("../../catalogue/eval.toml")),
+    ("evetac.toml", include_str!("../../catalogue/evetac.toml")),
     ("f-touch.toml", include_str!("../../catalogue/f-touch.toml")),
     (
         "finger-sts.toml",
@@ -31,6 +46,10 @@ pub(super) const FILES: &[(&str, &str)] = &[
     (
         "fingervision.toml",
         include_str!("../../catalogue/fingervision.toml"),
+    ),
+    (
+        "flexitac.toml",
+        include_str!("../../catalogue/flexitac.toml"),
     ),
     (
         "gelforce.toml",
@@ -44,6 +63,10 @@ pub(super) const FILES: &[(&str, &str)] = &[
         "gelsightwm.toml",
         include_str!("../../catalogue/gelsightwm.toml"),
     ),
+    (
+        "gelslim-4-0.toml",
+        include_str!("../../catalogue/gelslim-4-0.toml"),
+    ),
     ("gelslim.toml", include_str!("../../catalogue/gelslim.toml")),
     ("geltip.toml", include_str!("../../catalogue/geltip.toml")),
     ("hivtac.toml", include_str!("../../catalogue/hivtac.toml")),
@@ -53,6 +76,14 @@ pub(super) const FILES: &[(&str, &str)] = &[
     ),
     ("insight.toml", include_str!("../../catalogue/insight.toml")),
     (
+        "interlink-fsr-402.toml",
+        include_str!("../../catalogue/interlink-fsr-402.toml"),
+    ),
+    (
+        "l3-f-touch.toml",
+        include_str!("../../catalogue/l3-f-touch.toml"),
+    ),
+    (
         "magictac.toml",
         include_str!("../../catalogue/magictac.toml"),
     ),
@@ -60,13 +91,44 @@ pub(super) const FILES: &[(&str, &str)] = &[
         "minsight.toml",
         include_str!("../../catalogue/minsight.toml"),
     ),
+    ("mistac.toml", include_str!("../../catalogue/mistac.toml")),
     (
         "omnitact.toml",
         include_str!("../../catalogue/omnitact.toml"),
     ),
     (
+        "papillarray.toml",
+        include_str!("../../catalogue/papillarray.toml"),
+    ),
+    (
+        "paxini-dp-l3530.toml",
+        include_str!("../../catalogue/paxini-dp-l3530.toml"),
+    ),
+    (
+        "paxini-dp-m2826.toml",
+        include_str!("../../catalogue/paxini-dp-m2826.toml"),
+    ),
+    (
+        "paxini-dp-s1813.toml",
+        include_str!("../../catalogue/paxini-dp-s1813.toml"),
+    ),
+    (
+        "paxini-dp-s2015.toml",
+        include_str!("../../catalogue/paxini-dp-s2015.toml"),
+    ),
+    (
+        "paxini-ip-s1610.toml",
+        include_str!("../../catalogue/paxini-ip-s1610.toml"),
+    ),
+    (
         "pbr-design.toml",
         include_str!("../../catalogue/pbr-design.toml"),
+    ),
+    ("r-tac0.toml", include_str!("../../catalogue/r-tac0.toml")),
+    ("reskin.toml", include_str!("../../catalogue/reskin.toml")),
+    (
+        "robotiq-tsf-85.toml",
+        include_str!("../../catalogue/robotiq-tsf-85.toml"),
     ),
     ("sparsh.toml", include_str!("../../catalogue/sparsh.toml")),
     ("spectac.toml", include_str!("../../catalogue/spectac.toml")),
@@ -88,5 +150,21 @@ pub(super) const FILES: &[(&str, &str)] = &[
     (
         "vt-review.toml",
         include_str!("../../catalogue/vt-review.toml"),
+    ),
+    (
+        "xela-uscu-alha.toml",
+        include_str!("../../catalogue/xela-uscu-alha.toml"),
+    ),
+    (
+        "xela-uspa-44.toml",
+        include_str!("../../catalogue/xela-uspa-44.toml"),
+    ),
+    (
+        "xela-uspa-46.toml",
+        include_str!("../../catalogue/xela-uspa-46.toml"),
+    ),
+    (
+        "xense-g1.toml",
+        include_str!("../../catalogue/xense-g1.toml"),
     ),
 ];

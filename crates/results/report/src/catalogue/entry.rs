@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::facts::{Intrinsic, Limits};
+use super::facts::{Intrinsic, Limits, Size};
+use super::offer::{Availability, Price};
 use super::published::{Missing, Published, Source};
 
 /// A sensor, or a study of sensors, as the catalogue knows it.
@@ -15,9 +16,13 @@ pub struct Sensor {
     pub(super) catalogue_version: u32,
     /// Its name.
     pub name: String,
+    /// Other names that stand for it, whatever their case.
+    #[serde(default)]
+    pub aliases: Vec<String>,
     /// `sensor`, or `study` of an evaluation of others.
     pub kind: Kind,
-    /// IMM (intensity mapping), MDM (marker displacement), MFM (modality fusion) of a sensor with a camera; `magnetic` or `capacitive` of taxels.
+    /// IMM (intensity mapping), MDM (marker displacement), MFM (modality fusion) of a sensor with a camera; `magnetic`, `capacitive`, `resistive` or
+    /// `optical` of taxels.
     pub mechanism: Vec<String>,
     /// Its form.
     pub shape: Option<String>,
@@ -29,6 +34,14 @@ pub struct Sensor {
     pub intrinsic: Option<Intrinsic>,
     /// Its limits.
     pub limits: Option<Limits>,
+    /// Its outer dimensions.
+    pub size: Option<Size>,
+    /// Prices that were seen.
+    #[serde(default, rename = "price")]
+    pub prices: Vec<Price>,
+    /// Ways to get one.
+    #[serde(default)]
+    pub availability: Vec<Availability>,
     /// Where the numbers are from.
     #[serde(default, rename = "source")]
     pub sources: Vec<Source>,

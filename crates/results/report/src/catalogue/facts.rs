@@ -1,4 +1,4 @@
-//! Facts about a sensor that are no scores: construction and limits.
+//! Facts about a sensor that are no scores: construction, limits and outer dimensions.
 
 use serde::Deserialize;
 
@@ -34,4 +34,37 @@ pub struct Limits {
     pub fz_max_n: f64,
     /// The greatest distance of a contact from the centre, in mm.
     pub radius_max_mm: f64,
+}
+
+/// The outer dimensions of a sensor.
+///
+/// ```
+/// let digit = taceva_report::catalogue::find("DIGIT").expect("there");
+/// assert_eq!(digit.size.map(|size| size.shown()).as_deref(), Some("20 × 27 × 18"));
+/// ```
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Size {
+    /// Width, depth and height in mm as the source orders them, or a diameter and a length, or a diameter alone.
+    pub mm: Vec<f64>,
+    /// The id of the source.
+    pub source: String,
+    /// The place in the source: `table`, `figure` or `text`.
+    pub read_from: String,
+    /// The part that was measured: `housing`, `fingertip`.
+    pub conditions: String,
+}
+
+impl Size {
+    /// The dimensions in mm: `20 × 27 × 18`.
+    pub fn shown(&self) -> String {
+        let sides = self.mm.iter().map(f64::to_string);
+        sides.collect::<Vec<_>>().join(" × ")
+    }
+
+    /// True of one to three dimensions, all of them above zero.
+    pub(super) fn is_possible(&self) -> bool {
+        let is_length = |side: &f64| side.is_finite() && *side > 0.0;
+        (1..=3).contains(&self.mm.len()) && self.mm.iter().all(is_length)
+    }
 }

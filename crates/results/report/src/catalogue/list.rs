@@ -58,6 +58,45 @@ pub fn list(sensors: &[Sensor]) -> Table {
     table
 }
 
+/// Rows of size, prices and ways to get a sensor, as wide as [`details`] is.
+fn offers(sensor: &Sensor) -> Vec<[String; 7]> {
+    let source = |id: &str, place: &str| format!("{id}, {place}");
+    let size = sensor.size.iter().map(|size| {
+        let source = source(&size.source, &size.read_from);
+        [
+            "size",
+            "",
+            &size.shown(),
+            "mm",
+            &source,
+            "",
+            &size.conditions,
+        ]
+        .map(str::to_owned)
+    });
+    let prices = sensor.prices.iter().map(|price| {
+        let source = source(&price.source, &price.read_from);
+        let sign = price.bound.map_or("", super::Roughly::sign);
+        let amount = format!("{sign}{}", price.amount);
+        [
+            "price",
+            "",
+            &amount,
+            &price.currency,
+            &source,
+            &price.class(),
+            &price.conditions(),
+        ]
+        .map(str::to_owned)
+    });
+    let ways = sensor.availability.iter().map(|offer| {
+        let conditions = format!("{}, seen on {}", offer.conditions, offer.seen);
+        let word = offer.way.word();
+        ["availability", "", word, "", &offer.source, "", &conditions].map(str::to_owned)
+    });
+    size.chain(prices).chain(ways).collect()
+}
+
 /// Every published number of a sensor, with source and conditions.
 pub fn details(sensor: &Sensor) -> Table {
     let others = [
@@ -102,6 +141,9 @@ pub fn details(sensor: &Sensor) -> Table {
             table.push(built("greatest", name, value, unit, &of.source));
         }
     }
+    for row in offers(sensor) {
+        table.push(row);
+    }
     for result in &sensor.results {
         let source = format!("{}, {}", result.source, result.read_from);
         let note = result.note.as_ref();
@@ -117,6 +159,9 @@ pub fn details(sensor: &Sensor) -> Table {
             &conditions,
         ];
         table.push(row.map(ToOwned::to_owned));
+    }
+    if !sensor.aliases.is_empty() {
+        table.note(format!("Also found as: {}.", sensor.aliases.join(", ")));
     }
     for missing in &sensor.missing {
         table.note(format!(

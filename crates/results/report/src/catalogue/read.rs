@@ -5,6 +5,7 @@ use taceva_metrics::Standing;
 
 use super::definition;
 use super::entry::Sensor;
+use super::offer::{self, DAY};
 
 /// Why a file of the catalogue cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -33,7 +34,15 @@ pub enum CatalogueError {
 }
 
 /// How a sensor senses: by a camera, whose words are those of the TacEva study, or by taxels.
-const MECHANISMS: [&str; 5] = ["IMM", "MDM", "MFM", "magnetic", "capacitive"];
+const MECHANISMS: [&str; 7] = [
+    "IMM",
+    "MDM",
+    "MFM",
+    "magnetic",
+    "capacitive",
+    "resistive",
+    "optical",
+];
 
 impl Sensor {
     /// The sensor described by `text`, the content of `file`.
@@ -63,7 +72,7 @@ impl Sensor {
             return Err(refuse(
                 "mechanism",
                 word,
-                "IMM, MDM, MFM, magnetic or capacitive",
+                "IMM, MDM, MFM, magnetic, capacitive, resistive or optical",
             ));
         }
         for result in &sensor.results {
@@ -91,6 +100,33 @@ impl Sensor {
                     "a finite number",
                 ));
             }
+        }
+        if let Some(size) = &sensor.size
+            && !size.is_possible()
+        {
+            return Err(refuse(
+                "size",
+                &size.shown(),
+                "one to three lengths above 0 mm",
+            ));
+        }
+        if sensor.aliases.iter().any(|alias| alias.trim().is_empty()) {
+            return Err(refuse("aliases", "", "names of one letter or more"));
+        }
+        for price in &sensor.prices {
+            if !(price.amount.is_finite() && price.amount > 0.0) {
+                let found = price.amount.to_string();
+                return Err(refuse("amount", &found, "a finite number above 0"));
+            }
+            if !offer::is_currency(&price.currency) {
+                let expected = "three capital letters such as USD";
+                return Err(refuse("currency", &price.currency, expected));
+            }
+        }
+        let prices = sensor.prices.iter().map(|price| &price.seen);
+        let ways = sensor.availability.iter().map(|way| &way.seen);
+        if let Some(seen) = prices.chain(ways).find(|seen| !offer::is_day(seen)) {
+            return Err(refuse("seen", seen, DAY));
         }
         let judged = sensor.as_study();
         for result in &mut sensor.results {

@@ -39,6 +39,7 @@ impl Sensor {
         Sensor {
             catalogue_version: 1,
             name: study.sensor.clone(),
+            aliases: Vec::new(),
             kind: Kind::Sensor,
             mechanism: Vec::new(),
             shape: None,
@@ -48,6 +49,9 @@ impl Sensor {
             limits: super::find(&study.sensor)
                 .filter(|_| !study.is_simulated())
                 .and_then(|known| known.limits),
+            size: None,
+            prices: Vec::new(),
+            availability: Vec::new(),
             sources: Vec::new(),
             results: study.scores.iter().filter_map(result).collect(),
             missing: Vec::new(),

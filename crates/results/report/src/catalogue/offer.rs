@@ -1,0 +1,161 @@
+//! Price of a sensor, and ways to get one.
+
+use serde::Deserialize;
+
+use super::published::Roughly;
+
+/// The form of a day in the catalogue.
+pub(super) const DAY: &str = "a day such as 2026-11-28";
+
+/// A price, and the day on which it was seen.
+///
+/// ```
+/// use taceva_report::catalogue;
+/// let digit = catalogue::find("DIGIT").expect("there");
+/// assert_eq!((digit.prices[0].shown(), digit.prices[0].class()), ("15 USD".to_owned(), "below 100 USD".to_owned()));
+/// ```
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Price {
+    /// The amount, in `currency`.
+    pub amount: f64,
+    /// The currency, by its three letters: `USD`.
+    pub currency: String,
+    /// The goods for that amount: `parts of one sensor, of 1000 made`.
+    pub of: String,
+    /// The relation of the true price to the amount, where it is not stated exactly.
+    pub bound: Option<Roughly>,
+    /// The id of the source.
+    pub source: String,
+    /// The place in the source: `table`, `text` or `abstract`.
+    pub read_from: String,
+    /// The day on which it was seen.
+    pub seen: String,
+    /// Remarks for readers.
+    pub note: Option<String>,
+}
+
+impl Price {
+    /// The amount with its currency, and `≈`, `>` or `<` where it is not exact.
+    pub fn shown(&self) -> String {
+        let sign = self.bound.map_or("", Roughly::sign);
+        format!("{sign}{} {}", self.amount, self.currency)
+    }
+
+    /// The class of the price, of a power of ten from 100 in its currency: `below 100 USD`, `below 1000 USD`; `1000 USD and more` of a price that
+    /// is stated as above 1000.
+    pub fn class(&self) -> String {
+        let edges = (2..=9).map(|power| 10_f64.powi(power));
+        let is_open = self.bound == Some(Roughly::Above);
+        let mut edges = edges.filter(|edge| !is_open && self.amount < *edge);
+        match edges.next() {
+            Some(edge) => format!("below {edge} {}", self.currency),
+            None => format!("{} {} and more", self.amount, self.currency),
+        }
+    }
+
+    /// The remarks and the day.
+    pub fn conditions(&self) -> String {
+        let note = self.note.as_ref();
+        let note = note.map_or_else(String::new, |note| format!("; {note}"));
+        format!("{}, seen on {}{note}", self.of, self.seen)
+    }
+}
+
+/// A way to get a sensor.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Availability {
+    /// The way.
+    pub way: Way,
+    /// The seller, or the files that are published.
+    pub conditions: String,
+    /// The id of the source.
+    pub source: String,
+    /// The day on which that was seen.
+    pub seen: String,
+}
+
+/// The way to a sensor: bought ready, or built from published files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Way {
+    /// Sold by somebody.
+    Bought,
+    /// Made at home, by published drawings or instructions.
+    Built,
+}
+
+impl Way {
+    /// The word for it.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Way::Bought => "bought",
+            Way::Built => "built",
+        }
+    }
+}
+
+/// True of a day of the form that [`DAY`] shows.
+pub(super) fn is_day(text: &str) -> bool {
+    let is_number =
+        |part: &str, digits| part.len() == digits && part.bytes().all(|byte| byte.is_ascii_digit());
+    let parts: Vec<&str> = text.split('-').collect();
+    let [year, month, day] = parts[..] else {
+        return false;
+    };
+    is_number(year, 4)
+        && is_number(month, 2)
+        && is_number(day, 2)
+        && ("01"..="12").contains(&month)
+        && ("01"..="31").contains(&day)
+}
+
+/// True of a currency in the form of ISO 4217.
+pub(super) fn is_currency(text: &str) -> bool {
+    text.len() == 3 && text.bytes().all(|byte| byte.is_ascii_uppercase())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue::Sensor;
+
+    fn priced(amount: &str, currency: &str, seen: &str) -> Result<Sensor, String> {
+        let text = format!(
+            "catalogue_version = 1\nname = \"x\"\nkind = \"sensor\"\nmechanism = []\n[[price]]\namount = {amount}\ncurrency = \"{currency}\"\n\
+             of = \"one\"\nsource = \"s\"\nread_from = \"text\"\nseen = \"{seen}\"\n"
+        );
+        Sensor::read("x.toml", &text).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn the_class_of_a_price_has_its_edge_in_the_class_above() {
+        for (amount, class) in [
+            ("99.99", "below 100 USD"),
+            ("100.0", "below 1000 USD"),
+            ("90200.0", "below 100000 USD"),
+            ("1e10", "10000000000 USD and more"),
+        ] {
+            let sensor = priced(amount, "USD", "2026-11-28").expect("a price");
+            assert_eq!(sensor.prices[0].class(), class);
+        }
+        let mut sensor = priced("1000.0", "USD", "2026-11-28").expect("a price");
+        sensor.prices[0].bound = Some(Roughly::Above);
+        assert_eq!(sensor.prices[0].class(), "1000 USD and more");
+    }
+
+    #[test]
+    fn a_price_of_no_amount_currency_or_day_is_refused_by_its_value() {
+        for (amount, currency, seen, named) in [
+            ("0.0", "USD", "2026-11-28", "amount"),
+            ("nan", "USD", "2026-11-28", "amount"),
+            ("1.0", "dollars", "2026-11-28", "currency"),
+            ("1.0", "USD", "yesterday", "seen"),
+            ("1.0", "USD", "2026-13-01", "seen"),
+        ] {
+            let error = priced(amount, currency, seen).expect_err(named);
+            assert!(error.contains(named), "{error}");
+        }
+    }
+}
