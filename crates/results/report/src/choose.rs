@@ -166,7 +166,7 @@ fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
         .flat_map(|need| need.bounds.iter().map(move |bound| (need, bound)));
     let mut failed = bounds.filter_map(|(need, bound)| {
         let value = bound.property.of(sensor)?;
-        (!bound.holds(value)).then(|| {
+        (!bound.property.is_reached() && !bound.holds(value)).then(|| {
             let ends = bound.property.interval(sensor);
             let is_unsure = ends.is_some_and(|ends| ends.into_iter().any(|end| bound.holds(end)));
             let unsure = match is_unsure {
@@ -189,13 +189,19 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let bounds = needs
         .iter()
         .flat_map(|need| need.bounds.iter().map(move |bound| (need, bound)));
-    let mut unknown = bounds.filter(|(_, bound)| bound.property.of(sensor).is_none());
-    unknown.next().map(|(need, bound)| {
-        format!(
-            "`{}` needs {bound}, and its {} is not known",
-            need.words, bound.property
-        )
-    })
+    let mut unproven = bounds.filter_map(|(need, bound)| {
+        let property = bound.property;
+        let reason = match property.of(sensor) {
+            None => "is not known".to_owned(),
+            Some(value) if property.is_reached() && !bound.holds(value) => format!(
+                "that was tried is {}, which need not be its limit",
+                property.shown(value)
+            ),
+            Some(_) => return None,
+        };
+        Some(format!("`{}` needs {bound}, and its {property} {reason}", need.words))
+    });
+    unproven.next()
 }
 
 fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidate {
@@ -308,17 +314,13 @@ mod tests {
             .map(|candidate| candidate.name.as_str())
             .collect();
         assert_eq!(names, ["MagicTac"]);
-        assert!(
-            choice.dropped[0].reason.contains("0.7 N"),
-            "{:?}",
-            choice.dropped
-        );
-        assert_eq!(choice.open[0].name, "mine");
-        assert!(
-            choice.open[0].reason.contains("not known"),
-            "{:?}",
-            choice.open
-        );
+        let [tried, mine] = choice.open.as_slice() else {
+            panic!("{:?}", choice.open);
+        };
+        let reason = "its greatest normal force that was tried is 0.7 N, which need not be its limit";
+        assert!(tried.reason.contains(reason), "{tried:?}");
+        assert_eq!(mine.name, "mine");
+        assert!(mine.reason.contains("not known"), "{mine:?}");
     }
 
     #[test]

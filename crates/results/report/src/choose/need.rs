@@ -95,9 +95,19 @@ impl Need {
         let words = WORDS.iter().map(|word| {
             let bounds = word.bounds.iter().map(|(property, is_least, value)| {
                 let (property, is_least, value) = (*property, *is_least, *value);
-                format!("excludes unless {}", Bound { property, is_least, value })
+                format!(
+                    "excludes unless {}",
+                    Bound {
+                        property,
+                        is_least,
+                        value
+                    }
+                )
             });
-            let ranks = word.ranks.iter().map(|property| format!("ranks by {property}"));
+            let ranks = word
+                .ranks
+                .iter()
+                .map(|property| format!("ranks by {property}"));
             let meaning: Vec<String> = bounds.chain(ranks).collect();
             format!("  {:<26} {}", word.names.join(" | "), meaning.join(", "))
         });

@@ -60,6 +60,11 @@ impl Property {
         }
     }
 
+    /// True of greatest depths and forces: the greatest that a source tried, which need not be the limit of the gel.
+    pub(super) fn is_reached(self) -> bool {
+        matches!(self, Property::GreatestDepth | Property::GreatestForce)
+    }
+
     /// The metric and channel of the score that it is, where it is one.
     pub(super) fn score(self) -> Option<(&'static str, &'static str)> {
         match self {

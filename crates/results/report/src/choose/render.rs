@@ -97,8 +97,10 @@ impl Choice {
             table.note(format!("Not ranked: {}: {}.", barred.name, barred.reason));
         }
         if !self.unknown.is_empty() {
+            let known = self.ranked.len() + self.open.len() + self.dropped.len() + self.barred.len();
             table.note(format!(
-                "No number that is asked for is known exactly of: {}.",
+                "{known} of {} sensors have a number that is asked for; none is known of: {}.",
+                known + self.unknown.len(),
                 self.unknown.join(", ")
             ));
         }

@@ -56,11 +56,17 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
 
 /// The number of results, and of sensors where that is another.
 fn evaluated(studies: &[Study]) -> String {
-    let units = studies.iter().map(|study| (&study.sensor, &study.serial, &study.gel));
+    let units = studies
+        .iter()
+        .map(|study| (&study.sensor, &study.serial, &study.gel));
     let units = units.collect::<BTreeSet<_>>().len();
     match units == studies.len() {
         true => counted(units, "tactile sensor"),
-        false => format!("{} of {}", counted(studies.len(), "result"), counted(units, "tactile sensor")),
+        false => format!(
+            "{} of {}",
+            counted(studies.len(), "result"),
+            counted(units, "tactile sensor")
+        ),
     }
 }
 
@@ -105,10 +111,7 @@ fn divided(studies: &[Study]) -> String {
     let Some(splits) = values(studies, "split") else {
         return String::new();
     };
-    let mut out = format!(
-        " Samples were divided by the split {}",
-        listed(&splits)
-    );
+    let mut out = format!(" Samples were divided by the split {}", listed(&splits));
     if let Some(seeds) = values(studies, "seed") {
         out += &format!(" (seed {})", listed(&seeds));
     }
@@ -196,7 +199,8 @@ fn unseen(studies: &[Study]) -> String {
             listed(&seen)
         ),
     };
-    predicted + " scores that use no predictions, such as sensitivity, uniformity and hysteresis, are of all samples that they apply to."
+    predicted
+        + " scores that use no predictions, such as sensitivity, uniformity and hysteresis, are of all samples that they apply to."
 }
 
 /// What intervals and p values do not contain.

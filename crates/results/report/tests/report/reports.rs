@@ -324,9 +324,9 @@ fn methods_say_how_it_was_done_and_nothing_that_is_not_known() {
         pictures: &[],
         triples: &[],
     });
-    assert!(page.contains(
-        "We evaluated 1 tactile sensor (x) with TacEva of an unknown version.</p>"
-    ));
+    assert!(
+        page.contains("We evaluated 1 tactile sensor (x) with TacEva of an unknown version.</p>")
+    );
 }
 
 #[test]
@@ -343,7 +343,11 @@ fn methods_are_true_of_every_part_dataset_and_sensor() {
         let fitted_on = if is_own { "sha256:a" } else { "sha256:b" };
         result["provenance"]["model"]["fitted_on"] = fitted_on.into();
         let presses = serde_json::json!({"sha256:a": {"complete": 12}});
-        result["provenance"]["presses"] = if is_pressed { presses } else { serde_json::json!({}) };
+        result["provenance"]["presses"] = if is_pressed {
+            presses
+        } else {
+            serde_json::json!({})
+        };
         let mut other = result.clone();
         if !is_same_sensor {
             other["subject"]["sensor"] = "two".into();
@@ -352,18 +356,32 @@ fn methods_are_true_of_every_part_dataset_and_sensor() {
         let case = format!("{part} {is_own} {is_same_sensor} {is_pressed}");
         let is_seen = is_own && part != "test";
         assert_eq!(page.contains("which is no test;"), is_seen, "{case}");
-        assert_eq!(page.contains("samples that the model had not seen; scores"), !is_seen, "{case}");
+        assert_eq!(
+            page.contains("samples that the model had not seen; scores"),
+            !is_seen,
+            "{case}"
+        );
         let counted = "We evaluated 2 results of 1 tactile sensor";
         assert_eq!(page.contains(counted), is_same_sensor, "{case}");
-        assert_eq!(page.contains("A protocol made 12 presses"), is_pressed, "{case}");
+        assert_eq!(
+            page.contains("A protocol made 12 presses"),
+            is_pressed,
+            "{case}"
+        );
     }
 }
 
 #[test]
 fn the_study_is_cited_with_all_of_its_authors() {
     let page = page(&[drawn("one", 30, 1.0)]);
-    let entry = page.split("@article{taceva-study").nth(1).expect("an entry");
-    let authors = entry.lines().find(|line| line.contains("author")).expect("they are named");
+    let entry = page
+        .split("@article{taceva-study")
+        .nth(1)
+        .expect("an entry");
+    let authors = entry
+        .lines()
+        .find(|line| line.contains("author"))
+        .expect("they are named");
     assert_eq!(authors.matches(" and ").count(), 5, "{authors}");
     assert!(!page.contains("others}"));
 }
