@@ -20,7 +20,7 @@ const PLAIN_BYTES: usize = 17;
 /// The longest cell that is read at once, without its sign.
 const WINDOW: usize = 8;
 
-/// The number in a cell of `text` that can be scored: `Some(None)` if the cell is empty, `None` if it holds something else.
+/// Parses the number in a cell of `text`: `Some(None)` if the cell is empty, `None` if it holds something else.
 pub(super) fn parse_number(text: &str, cell: Range<usize>) -> Option<Option<f64>> {
     if let Some(number) = parse_short(text.as_bytes(), cell.clone()) {
         return Some(Some(number));
@@ -37,7 +37,7 @@ pub(super) fn parse_number(text: &str, cell: Range<usize>) -> Option<Option<f64>
     is_scorable(number).then_some(Some(number))
 }
 
-/// The decimal text with its point moved by `places` to the right, read and rounded once.
+/// Decimal text with its point moved `places` to the right, parsed and rounded once.
 pub(super) fn parse_shifted(cell: &str, places: i32) -> Option<f64> {
     let (mantissa, exponent) = match cell.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
@@ -132,8 +132,8 @@ fn eight_digits(digits: u64) -> u64 {
     fours.wrapping_mul((10_000 << 32) + 1) >> 32
 }
 
-/// The finite number in `cell` in the unit that it is kept in, `None` if the cell is empty; the error says why there is none. Where the factor
-/// between the units is a power of ten, the decimal point is moved before the number is read.
+/// Finite number in `cell`, converted to the unit it is kept in; `None` if the cell is empty. The error says why there is none.
+/// Where the factor between the units is a power of ten, the decimal point is moved before parsing.
 pub(crate) fn number_in_unit(cell: &str, unit: &SourceUnit) -> Result<Option<f64>, String> {
     let Some(number) = number(cell)? else {
         return Ok(None);
@@ -152,7 +152,7 @@ pub(crate) fn number(cell: &str) -> Result<Option<f64>, String> {
     parse_number(cell, 0..cell.len()).ok_or_else(|| not_a_number(cell))
 }
 
-/// Why `cell` holds no number that could be scored, and what to write instead, where that can be guessed.
+/// Reason that `cell` holds no usable number, with a hint where one is known.
 pub(crate) fn not_a_number(cell: &str) -> String {
     match cell.parse::<f64>() {
         Ok(number) if number.is_finite() => {
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// What is read from `cell`, wherever in a text it stands.
+    /// Result of parsing `cell`, which does not depend on its position in the text.
     fn read(cell: &str) -> Option<Option<f64>> {
         let found = parse_number(cell, 0..cell.len());
         for before in ["7", "12.5,-8,9.", "1.5\n-1234567.25,", "µ,µ,µ,µ,µ,µ,-"] {
