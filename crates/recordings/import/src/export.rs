@@ -114,8 +114,7 @@ impl<'a> ExportPlan<'a> {
     }
 
     /// Writes the new folder `target` on `jobs` threads, with a `map.toml`. An import by that map restores samples, labels, times, signals,
-    /// the
-    /// origin of each row, and pictures of the same pixels. Equal datasets give equal bytes on any number of threads.
+    /// the origin of each row, and pictures of the same pixels. Equal datasets give equal bytes on any number of threads.
     ///
     /// # Units
     /// Each channel in the unit of the dataset, stated in the map.

@@ -204,8 +204,7 @@ impl ForeignTable {
     }
 
     /// Names that may contain the unit of `name`, a number in the column `base`: the element's own name, then that of the column. For the
-    /// column
-    /// `value` that is the name of the file.
+    /// column `value` that is the name of the file.
     pub(crate) fn names_with_units(&self, name: &str, base: &str) -> Vec<String> {
         let at = name.strip_prefix(base).unwrap_or_default();
         let at: Option<usize> = at.trim_matches(['[', ']']).parse().ok();

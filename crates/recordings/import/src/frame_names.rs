@@ -39,8 +39,7 @@ pub struct FrameMap {
     /// Frame without contact, relative to the source folder; `None` if unknown.
     pub reference: Option<String>,
     /// Column that names the frame without contact of each row, relative to `folder`. If all rows name the same frame, it becomes that of
-    /// the
-    /// recording; otherwise the attribute `reference`.
+    /// the recording; otherwise the attribute `reference`.
     pub reference_column: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Sensors as data: construction, limits and published numbers, each with its source.
+//! Catalogue of sensors: construction, limits and published numbers, each with its source.
 
 mod alike;
 mod builtin;
@@ -16,7 +16,7 @@ pub use list::{details, list};
 pub use published::{Missing, Published, Roughly, Source};
 pub use read::CatalogueError;
 
-/// The sensors and studies that come with the program, by name.
+/// Built-in sensors and studies, by name.
 ///
 /// ```
 /// let sensors = taceva_report::catalogue::all();
@@ -35,7 +35,7 @@ pub fn all() -> Vec<Sensor> {
     sensors
 }
 
-/// The sensor called `name`, whatever its case.
+/// Sensor called `name`, ignoring case.
 pub fn find(name: &str) -> Option<Sensor> {
     let wanted = name.to_lowercase();
     all()
@@ -43,7 +43,7 @@ pub fn find(name: &str) -> Option<Sensor> {
         .find(|sensor| sensor.name.to_lowercase() == wanted)
 }
 
-/// A hint for an unknown `name`.
+/// Hint for an unknown `name`.
 pub fn hint(name: &str) -> String {
     match nearest(name) {
         Some(nearest) => format!("did you mean `{nearest}`? `taceva catalogue list` shows all"),
@@ -51,7 +51,7 @@ pub fn hint(name: &str) -> String {
     }
 }
 
-/// The name of the catalogue that is most like `name`, if one is like it at all.
+/// Catalogue name most similar to `name`; `None` if none is similar.
 ///
 /// ```
 /// assert_eq!(taceva_report::catalogue::nearest("gelsigt").as_deref(), Some("GelSight"));

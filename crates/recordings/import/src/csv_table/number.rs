@@ -132,8 +132,8 @@ fn eight_digits(digits: u64) -> u64 {
     fours.wrapping_mul((10_000 << 32) + 1) >> 32
 }
 
-/// Finite number in `cell`, converted to the unit it is kept in; `None` if the cell is empty. The error says why there is none.
-/// Where the factor between the units is a power of ten, the decimal point is moved before parsing.
+/// Finite number in `cell`, converted to the unit it is kept in; `None` if the cell is empty. The error says why there is none. Where the
+/// factor between the units is a power of ten, the decimal point is moved before parsing.
 pub(crate) fn number_in_unit(cell: &str, unit: &SourceUnit) -> Result<Option<f64>, String> {
     let Some(number) = number(cell)? else {
         return Ok(None);

@@ -31,8 +31,7 @@ struct JsonRow {
 
 impl JsonRows {
     /// Reads the rows at the pointer `rows` in the file at `path`. A step `*` matches each member. Without a pointer, rows are the elements
-    /// of a
-    /// list, or any other value as a whole.
+    /// of a list, or any other value as a whole.
     ///
     /// # Errors
     /// [`DatasetError::Table`] naming the line of invalid JSON, or if the pointer leads nowhere.

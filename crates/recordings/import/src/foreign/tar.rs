@@ -292,8 +292,7 @@ struct Records {
     size: Option<u64>,
 }
 
-/// Parses consecutive records `LENGTH KEY=VALUE
-/// `.
+/// Parses consecutive records `LENGTH KEY=VALUE\n`.
 fn records(mut text: &[u8], at: u64) -> Result<Records, TarError> {
     let mut found = Records::default();
     while !text.is_empty() && text[0] != 0 {

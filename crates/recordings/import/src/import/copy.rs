@@ -71,13 +71,11 @@ impl ImportPlan {
     }
 
     /// As [`run`](ImportPlan::run), but replaces the dataset at `target` if there is one. Readers see the old dataset until the new one is
-    /// complete
-    /// and durable.
+    /// complete and durable.
     ///
     /// # Errors
     /// As [`run`](ImportPlan::run); `target` is then unchanged. [`DatasetError::Request`] if `target` is no dataset, or holds files that
-    /// are no part
-    /// of one.
+    /// are no part of one.
     pub fn replace(
         self,
         target: &Path,

@@ -96,8 +96,7 @@ pub struct FrameSummary {
     /// Frame without contact; `None` if unknown.
     pub reference: Option<PathBuf>,
     /// Number of different frames without contact, if rows name different ones. These pictures are not copied. The attribute `reference`,
-    /// or
-    /// `reference_VIEW`, names them.
+    /// or `reference_VIEW`, names them.
     pub references: u64,
 }
 

@@ -49,8 +49,7 @@ impl fmt::Display for Suspicion {
 const LEAST_VALUES: usize = 3;
 
 /// Plausible magnitudes of gel contacts in a unit. At least one must reach `small`; the median must not exceed `large`, nor the 95th
-/// percentile
-/// `most`. `typical` is the usual range.
+/// percentile `most`. `typical` is the usual range.
 struct Plausible {
     small: f64,
     large: f64,

@@ -45,8 +45,7 @@ impl JoinMatches {
     }
 
     /// Checks that no table joined by row number serves two main tables, as each would begin with its first row. `main` is the table of
-    /// `other`, one of
-    /// `tables`. `are_files` is true if each main table is a file that is one row.
+    /// `other`, one of `tables`. `are_files` is true if each main table is a file that is one row.
     pub(in crate::import) fn check_counted_once(
         &self,
         other: &JoinMatches,
