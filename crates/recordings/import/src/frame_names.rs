@@ -13,7 +13,7 @@ pub(crate) fn reference_attribute(view: Option<&str>) -> String {
     }
 }
 
-/// Index of a picture if the map names no column: the row number in the picture's own table.
+/// Index of a picture if the map names no column: the row number within its table.
 pub(crate) const OWN_ROW: &str = "the row of its table";
 
 /// Location and colour order of the frames of one view.

@@ -17,7 +17,7 @@ pub(crate) struct Light {
     pub(crate) is_low: bool,
 }
 
-/// One scene relative to the reference light, for unscaled predictions.
+/// One scene relative to the reference light, for predictions before limiting to the model's bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scene {
     pub(crate) name: String,

@@ -181,7 +181,7 @@ mod tests {
         let said = |which: &[usize], metric: &str| words(&studies, &names, which, metric, "Fxy");
         let expected = " (their labels differ in spread: a 0.04 N to b 0.17 N)";
         assert_eq!(said(&[0, 1, 2], "mae"), expected);
-        // Without samples nobody knows the labels of the repeated presses.
+        // Without samples, the labels of the repeated presses are unknown.
         let of_calibration =
             " (their labels of calibration differ in spread: a 0.04 N to b 0.17 N)";
         assert_eq!(said(&[0, 1, 2], "repeatability"), of_calibration);

@@ -65,8 +65,8 @@ impl CsvTable {
 
     /// Finite number in a cell, converted to the unit it is kept in; `None` if the cell is empty.
     ///
-    /// Where the factor between the units is a power of ten, the decimal point is moved before the number is read, so that
-    /// `1212.4 um` is the binary64 nearest to 1.2124 mm.
+    /// If the units differ by a power of ten, the decimal point is moved before parsing. So `1212.4 um` is the binary64 nearest to 1.2124
+    /// mm.
     ///
     /// # Errors
     /// [`DatasetError::Table`] if the cell holds no finite number, or one too large for its unit.

@@ -77,10 +77,10 @@ fn parse_plain(cell: &[u8]) -> Option<f64> {
     Some(if negative { -magnitude } else { magnitude })
 }
 
-/// As [`parse_plain`], of up to eight bytes and a sign, all looked at together: branches on where the point is and on how many
-/// digits follow cannot be predicted.
+/// As [`parse_plain`], for up to eight bytes and a sign, processed together. Branches on the position of the point and the number of
+/// following digits would be unpredictable.
 ///
-/// The window ends with the cell, so that the last digit always stands in its highest byte.
+/// The window ends with the cell, so that the last digit is in its highest byte.
 fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
     let negative = *text.get(cell.start)? == b'-';
     let length = cell.len().checked_sub(usize::from(negative))?;
@@ -99,7 +99,7 @@ fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
         return None;
     } else {
         let point = points.trailing_zeros() as usize / 8;
-        // What stands before the point moves up by a byte, over the point.
+        // The digits before the point move up by a byte, over the point.
         let ahead = (1 << (8 * point)) - 1;
         let kept = bytes & !(ahead << 8 | 0xff);
         (kept | (bytes & ahead) << 8, WINDOW - 1 - point)
@@ -125,7 +125,7 @@ fn zero_bytes(bytes: u64) -> u64 {
     !(((bytes & LOW_BITS) + LOW_BITS) | bytes | LOW_BITS)
 }
 
-/// The number whose decimal digits are the bytes, the first in the lowest: neighbours are joined to pairs, fours, eight.
+/// Number from eight decimal digits, one per byte, the first in the lowest byte. Neighbours are combined to pairs, fours, eight.
 fn eight_digits(digits: u64) -> u64 {
     let pairs = digits.wrapping_mul((10 << 8) + 1) >> 8 & 0x00ff_00ff_00ff_00ff;
     let fours = pairs.wrapping_mul((100 << 16) + 1) >> 16 & 0x0000_ffff_0000_ffff;

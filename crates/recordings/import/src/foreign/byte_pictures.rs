@@ -101,7 +101,7 @@ byte_columns!(ArrowTable, path);
 byte_columns!(
     LeRobot,
     folder,
-    // The Lance library reads no null among numbers, so NaN alone marks an absent one.
+    // LeRobot reads no null among numbers, so NaN alone marks an absent one.
     fn present(cell: Cell) -> Cell {
         match cell {
             Cell::Number(number) if number.is_nan() => Cell::Null,

@@ -11,7 +11,7 @@ use crate::results::{Made, PUBLISHED, Study, by_published_r2};
 use taceva_results::{Interval, Score};
 
 impl Sensor {
-    /// Converts results to a sensor for [`choose`](crate::choose): their numbers, and opacity as far as results state it. Limits come from
+    /// Converts results to a sensor for `choose`: their numbers, and opacity as far as results state it. Limits come from
     /// the catalogue sensor of the same name; they stay unknown without one, and for simulated sensors.
     pub fn of_study(study: &Study) -> Sensor {
         let result = |score: &Score| {

@@ -117,7 +117,7 @@ mod tests {
         let reversed = order_of([("GelSightWM", 0.3), ("GelSight", 0.2), ("ViTacTip", 0.1)]);
         let words = reversed.expect("three are published");
         assert!(words.contains("in 0 of 3 pairs") && words.contains("τ −1.00"));
-        // One sensor has no order, and what was never published is in none.
+        // One sensor has no order, and an unpublished sensor takes no part in one.
         assert_eq!(order(&[study("GelSight", 0.1)]), None);
         assert_eq!(order(&[study("GelSight", 0.1), study("mine", 0.2)]), None);
     }
