@@ -4,12 +4,12 @@ use std::fs::{self, File};
 use std::io;
 use std::path::Path;
 
-/// Replaces the file at `path` by what `write` writes to `beside`, a path in the same folder.
+/// Replaces the file at `path` by the file that `write` writes to `beside`, a path in the same folder.
 ///
-/// A reader of `path` sees the old file or the new one, at any moment. When this returns, the new file is durable.
+/// A reader of `path` sees the old or the new file at any time. On return the new file is durable.
 ///
 /// # Errors
-/// Those of `write`, and of the file system; `beside` is removed then.
+/// Errors of `write` and of the file system; `beside` is then removed.
 pub fn replace<E: From<io::Error>>(
     path: &Path,
     beside: &Path,
@@ -21,17 +21,17 @@ pub fn replace<E: From<io::Error>>(
         Ok(())
     });
     if written.is_err() {
-        // The first error is the one that is returned; a file left behind does no harm.
+        // Returns the first error; a remaining file does no harm.
         drop(fs::remove_file(beside));
     }
     written?;
     Ok(sync_folder(parent_of(path))?)
 }
 
-/// Forces the names in `folder` to disk. Does nothing where a folder cannot be opened as a file, as on Windows.
+/// Syncs the names in `folder` to disk. No-op if folders cannot be opened as files, as on Windows.
 ///
 /// # Errors
-/// Those of the file system.
+/// Errors of the file system.
 pub fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(unix) {
         File::open(folder)?.sync_all()?;
@@ -39,7 +39,7 @@ pub fn sync_folder(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The folder that holds `path`; `.` for a bare name.
+/// Folder that contains `path`; `.` for a bare name.
 ///
 /// ```
 /// use std::path::Path;

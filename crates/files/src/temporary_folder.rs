@@ -1,4 +1,4 @@
-//! Folders for what is in progress: of random names, for their owner alone, cleared by whoever meets what a killed process left.
+//! Temporary folders with random names and owner-only access. Leftovers of killed processes are removed.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -6,12 +6,12 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-/// The file by which a folder is known to be one of ours; it is locked as long as its process lives.
+/// Marker file of our folders, locked while their process lives.
 const MARKER: &str = ".taceva-temporary";
-/// Times that a folder is made anew which vanished before it was locked.
+/// Limit of attempts, as another process may remove a folder before it is locked.
 const CREATIONS: u32 = 16;
 
-/// A folder of a random name that nobody else may enter, removed when it is let go.
+/// Folder with a random name and owner-only access, removed on drop.
 ///
 /// ```
 /// use taceva_files::TemporaryFolder;
@@ -27,14 +27,14 @@ const CREATIONS: u32 = 16;
 #[derive(Debug)]
 pub struct TemporaryFolder {
     folder: TempDir,
-    /// Holds the lock.
+    /// Keeps the lock.
     _marker: File,
 }
 
 impl TemporaryFolder {
-    /// Makes a folder in `parent` whose name begins with `prefix`, and removes those of that prefix that killed processes of the same owner left there.
+    /// Creates a folder in `parent` whose name begins with `prefix`. Removes leftovers of the same prefix and owner from killed processes.
     ///
-    /// No name is taken over: what is there already stays, be it a link, a folder of somebody else, or one without our marker.
+    /// Existing entries are kept: links, folders of other owners, and folders without our marker.
     ///
     /// # Errors
     /// [`io::Error`] of the file system.
@@ -50,7 +50,7 @@ impl TemporaryFolder {
                 .create_new(true)
                 .open(&path)?;
             marker.try_lock()?;
-            // Taken for a leftover between its making and its lock.
+            // Another process removed it as a leftover before it was locked.
             if !path.exists() {
                 continue;
             }
@@ -71,13 +71,13 @@ impl TemporaryFolder {
     }
 }
 
-/// Removes the folders in `parent` that bear the prefix and the marker, belong to the owner of `own`, and are held by nobody.
+/// Removes the unlocked folders in `parent` that have the prefix and marker and belong to the owner of `own`.
 fn clear(parent: &Path, prefix: &str, own: &Path) {
     let entries = fs::read_dir(parent).into_iter().flatten().flatten();
     for entry in entries {
         let name = entry.file_name();
         let is_like = name.to_str().is_some_and(|name| name.starts_with(prefix));
-        // The type of the entry itself: a link is none.
+        // Type of the entry itself, without following links.
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
         let path = entry.path();
         if !is_like || !is_folder || path == own || !is_of_owner(&path, own) {
@@ -88,13 +88,13 @@ fn clear(parent: &Path, prefix: &str, own: &Path) {
             continue;
         }
         if File::open(&marker).is_ok_and(|marker| marker.try_lock().is_ok()) {
-            // What cannot be removed now is met by the next one.
+            // The next process retries a failed removal.
             drop(fs::remove_dir_all(&path));
         }
     }
 }
 
-/// True if both folders belong to one owner.
+/// True if both folders have the same owner.
 #[cfg(unix)]
 fn is_of_owner(path: &Path, own: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

@@ -1,4 +1,4 @@
-//! A JSON value as it is digested: by what it says, not by how it is written.
+//! Canonical form of a JSON value for its digest, independent of formatting.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -6,14 +6,14 @@ use std::fmt;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use sha2::{Digest as _, Sha256};
 
-/// A JSON value in which the order of keys, spaces and the form of a number play no part. A key that is written twice is refused.
+/// JSON value without key order, spaces and number form. Duplicate keys are rejected.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Canonical {
     Null,
     Bool(bool),
-    /// A whole number, `2.0` and `2` alike.
+    /// Whole number; `2.0` and `2` are equal.
     Whole(i128),
-    /// The bits of any other number.
+    /// Bits of any other number.
     Real(u64),
     Text(String),
     List(Vec<Canonical>),
@@ -31,7 +31,7 @@ impl Canonical {
         hasher.finalize().into()
     }
 
-    /// Every value begins with its kind and, where that leaves it open, its length, so that no two values run together.
+    /// Prefixes every value with its kind and, if needed, its length, so that the encoding is unambiguous.
     fn add_to(&self, hasher: &mut Sha256) {
         match self {
             Canonical::Null => hasher.update(b"n"),
@@ -100,7 +100,7 @@ impl<'de> Visitor<'de> for Reader {
     }
 
     fn visit_f64<E>(self, value: f64) -> Result<Canonical, E> {
-        // Beyond this a number may stand for several whole ones.
+        // Larger numbers may represent several integers.
         let is_whole = value.fract().to_bits() << 1 == 0 && value.abs() < 9_007_199_254_740_992.0;
         #[expect(clippy::cast_possible_truncation, reason = "whole and below 2^53")]
         let whole = value as i128;

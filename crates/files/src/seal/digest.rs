@@ -1,10 +1,10 @@
-//! A digest as text.
+//! Digests as text.
 
 use sha2::{Digest as _, Sha256};
 
 pub(crate) const PREFIX: &str = "sha256:";
 
-/// A digest as files write it.
+/// Digest in the form of files.
 pub(crate) fn text_of(digest: &[u8]) -> String {
     format!("{PREFIX}{}", hexadecimal(digest))
 }
@@ -13,7 +13,7 @@ pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The SHA-256 of `bytes`, written `sha256:` and 64 hexadecimal digits.
+/// SHA-256 of `bytes`, as `sha256:` and 64 hexadecimal digits.
 pub fn digest_of_bytes(bytes: &[u8]) -> String {
     text_of(&Sha256::digest(bytes))
 }

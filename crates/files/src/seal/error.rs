@@ -4,24 +4,24 @@
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SealError {
-    /// Content that was changed after it was sealed.
+    /// Content that changed after sealing.
     #[error(
         "{} was changed after it was sealed; restore it, or accept a deliberate edit with `taceva reseal FILE --reason …`",
         what(key)
     )]
     Changed {
-        /// The key whose value was changed, where it is known.
+        /// Key of the changed value, if known.
         key: Option<String>,
     },
-    /// Missing seal, though files of this version have one.
+    /// Missing seal in a file whose version requires one.
     #[error(
         "the seal is gone, which files of this version have; restore it, or accept the file as it is with `taceva reseal FILE --reason …`"
     )]
     Gone,
-    /// Seal without a file that it belongs to.
+    /// Seal without its file.
     #[error("a seal without the file that it belongs to")]
     Alone,
-    /// The seal itself cannot be read.
+    /// Unreadable seal.
     #[error("the seal cannot be read: {problem}")]
     Unreadable {
         /// Problem with the seal.

@@ -1,16 +1,16 @@
-//! The seal of a file and its history of accepted edits.
+//! Seal of a file, with its history of accepted edits.
 
 use serde::{Deserialize, Serialize};
 
-/// An accepted edit.
+/// Accepted edit.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edit {
     /// Date of the edit: `2026-11-22`.
     pub date: String,
-    /// The digest before, or `unsealed`.
+    /// Digest before the edit, or `unsealed`.
     pub from: String,
-    /// The digest of the content that was accepted, without this entry.
+    /// Digest of the accepted content, without this entry.
     pub to: String,
     /// Reason, in the words of the person who accepted the edit.
     pub reason: String,
@@ -28,16 +28,16 @@ impl std::fmt::Display for Edit {
     }
 }
 
-/// Enough digits of a digest to distinguish it from another.
+/// Shortens a digest to enough digits to distinguish it.
 fn short(digest: &str) -> &str {
     digest.get(..15).unwrap_or(digest)
 }
 
-/// A file whose seal holds.
+/// File with a valid seal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Opened {
-    /// The digest of what it says, `sha256:…`.
+    /// Digest of its content, `sha256:…`.
     pub digest: String,
-    /// The edits that were accepted, oldest first.
+    /// Accepted edits, oldest first.
     pub history: Vec<Edit>,
 }

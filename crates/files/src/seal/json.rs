@@ -1,4 +1,4 @@
-//! JSON whose last key is its seal, over the values of all others.
+//! JSON with a seal over all other values as its last key.
 
 use sha2::{Digest as _, Sha256};
 
@@ -8,12 +8,12 @@ use crate::seal::error::SealError;
 use crate::seal::history::{Edit, Opened};
 use crate::seal::keys::{self, Keys};
 
-/// The last key.
+/// Name of the seal's key.
 const SEAL: &str = "seal";
-/// The key of the edits that were accepted.
+/// Key of the accepted edits.
 const HISTORY: &str = "history";
 
-/// `text`, a JSON object without a seal, with its seal as the last key.
+/// Seals `text`, a JSON object, by appending the seal as its last key.
 ///
 /// # Errors
 /// [`SealError::Content`] if it is no JSON object, or has a seal.
@@ -21,7 +21,7 @@ pub fn seal(text: &str) -> Result<String, SealError> {
     seal_with(text, &[])
 }
 
-/// As [`seal`], over bytes beside the text as well, each under its name.
+/// As [`seal`], also over named bytes outside the text.
 ///
 /// # Errors
 /// As [`seal`].
@@ -33,15 +33,15 @@ pub fn seal_with(text: &str, attached: &[(&str, &[u8])]) -> Result<String, SealE
     with_entries(text, &[(SEAL, seal_entry(&parsed))])
 }
 
-/// Checks that `text` says what it said when it was sealed, whatever its spaces and the order of its keys.
+/// Checks that the content of `text` equals the sealed one, ignoring spaces and key order.
 ///
 /// # Errors
-/// [`SealError`]: changed, with the key where it is known; no seal; a seal alone.
+/// [`SealError`]: changed content, with the key if known; no seal; a seal alone.
 pub fn check(text: &str) -> Result<Opened, SealError> {
     check_with(text, &[])
 }
 
-/// As [`check`], of a file that was sealed with the same bytes beside it.
+/// As [`check`], for a file sealed with the same bytes outside the text.
 ///
 /// # Errors
 /// As [`check`].
@@ -61,7 +61,7 @@ pub fn check_with(text: &str, attached: &[(&str, &[u8])]) -> Result<Opened, Seal
     }
 }
 
-/// `text` accepted as it is: with one more entry of its history and a seal that holds. A text whose seal holds already is returned unchanged.
+/// Accepts `text` as it is: adds a history entry and a valid seal. Returns a text with a valid seal unchanged.
 ///
 /// # Errors
 /// [`SealError::Content`] if it is no JSON object; [`SealError::Alone`].
@@ -82,7 +82,7 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
         to: parsed.digest.clone(),
         reason: reason.to_owned(),
     });
-    // Written anew: what a person edits by hand is read by people, so keys stay where they were.
+    // Pretty-printed for readers, with the original key order.
     let mut value: serde_json::Map<String, serde_json::Value> =
         serde_json::from_str(text).map_err(|error| content(error.to_string()))?;
     value.remove(SEAL);
@@ -93,7 +93,7 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
     Ok(format!("{}\n", seal(&edited)?.trim_end()))
 }
 
-/// Content of a text: its value, its seal and the digests of its keys.
+/// Parsed text: value, seal and digests of the keys.
 struct Parsed {
     rest: Canonical,
     digest: String,
@@ -147,7 +147,7 @@ impl Parsed {
         })
     }
 
-    /// As a line of keys reads once it was written.
+    /// Keys as parsed from a line of keys.
     fn keys(&self) -> Keys {
         let mut keys = keys::of(&self.rest);
         keys.extend(self.attached.clone());
@@ -155,7 +155,7 @@ impl Parsed {
     }
 }
 
-/// The digest and the line of keys of a seal.
+/// Digest and line of keys of a seal.
 fn seal_of(seal: Canonical) -> Result<(String, String), SealError> {
     let unreadable = |problem: &str| SealError::Unreadable {
         problem: problem.to_owned(),
@@ -178,7 +178,7 @@ fn seal_entry(parsed: &Parsed) -> String {
     format!("{{\"digest\": \"{}\", \"keys\": {line}}}", parsed.digest)
 }
 
-/// `text`, an object, with entries before its end: nothing else in it is written anew.
+/// Inserts entries at the end of the object `text`, without reformatting the rest.
 fn with_entries(text: &str, entries: &[(&str, String)]) -> Result<String, SealError> {
     let no_object = || content("no JSON object".to_owned());
     let (head, tail) = text.rsplit_once('}').ok_or_else(no_object)?;

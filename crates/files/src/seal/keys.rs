@@ -1,19 +1,19 @@
-//! First digits of the digest of each value, kept beside the seal, by which a changed key is named.
+//! Shortened digests of all values, stored with the seal to name a changed key.
 
 use std::collections::BTreeMap;
 
 use crate::seal::canonical::Canonical;
 use crate::seal::digest::hexadecimal;
 
-/// Levels of nested keys that are distinguished.
+/// Limit of nested key levels.
 const LEVELS: usize = 3;
-/// Beyond so many, keys are not distinguished.
+/// Limit of the number of keys, above which none are stored.
 const MOST: usize = 4_096;
 
-/// The first digits of the digest of each value, by its key: `metrics.mae.Fz`, `studies[1].provenance.seed`.
+/// Shortened digest of each value, by its key: `metrics.mae.Fz`, `studies[1].provenance.seed`.
 pub(crate) type Keys = BTreeMap<String, String>;
 
-/// The keys of `value`; none where there are too many.
+/// Keys of `value`; empty if there are too many.
 pub(crate) fn of(value: &Canonical) -> Keys {
     let mut keys = Keys::new();
     add(value, "", LEVELS, &mut keys);
@@ -49,7 +49,7 @@ fn add(value: &Canonical, path: &str, levels: usize, keys: &mut Keys) {
     }
 }
 
-/// The first key whose value is another one now than it was, is new, or is gone.
+/// First key whose value was changed, added or removed.
 pub(crate) fn first_change(was: &Keys, is: &Keys) -> Option<String> {
     if was.is_empty() {
         return None;
@@ -58,7 +58,7 @@ pub(crate) fn first_change(was: &Keys, is: &Keys) -> Option<String> {
     names.find(|name| was.get(*name) != is.get(*name)).cloned()
 }
 
-/// One line: `mae.Fz=1a2b3c4d;…`, which no key breaks, since what would is percent-encoded.
+/// Encodes keys as one line: `mae.Fz=1a2b3c4d;…`. Separators in names are percent-encoded.
 pub(crate) fn to_line(keys: &Keys) -> String {
     let entries = keys.iter().map(|(name, digits)| {
         let name: String = name
@@ -74,7 +74,7 @@ pub(crate) fn to_line(keys: &Keys) -> String {
     entries.collect::<Vec<_>>().join(";")
 }
 
-/// Parses a line of [`to_line`]; encoded names stay encoded on both sides of a comparison.
+/// Parses a line of [`to_line`]. Encoded names stay encoded on both sides of a comparison.
 pub(crate) fn from_line(line: &str) -> Keys {
     line.split(';')
         .filter_map(|entry| entry.split_once('='))

@@ -1,4 +1,4 @@
-//! TOML whose last table is its seal, over every byte before it: comments count as well.
+//! TOML with a seal over all preceding bytes, comments included, as its last table.
 
 use crate::seal::canonical::Canonical;
 use crate::seal::digest::{PREFIX, digest_of_bytes};
@@ -6,10 +6,10 @@ use crate::seal::error::SealError;
 use crate::seal::history::{Edit, Opened};
 use crate::seal::keys::{self, Keys};
 
-/// The line with which the seal begins.
+/// First line of the seal.
 const SEAL: &str = "[seal]";
 
-/// `body`, TOML, with its seal as the last table.
+/// Seals `body`, TOML, by appending the seal as its last table.
 ///
 /// # Errors
 /// [`SealError::Content`] if it is no TOML, or has a seal.
@@ -27,10 +27,10 @@ pub fn seal(body: &str) -> Result<String, SealError> {
     ))
 }
 
-/// Checks that `text` is what it was when it was sealed, to the byte.
+/// Checks that `text` is unchanged since sealing, byte by byte.
 ///
 /// # Errors
-/// [`SealError`]: changed, with the key where it is known; no seal; a seal alone.
+/// [`SealError`]: changed content, with the key if known; no seal; a seal alone.
 pub fn check(text: &str) -> Result<Opened, SealError> {
     let Some((body, seal)) = split(text) else {
         return Err(SealError::Gone);
@@ -53,7 +53,7 @@ pub fn check(text: &str) -> Result<Opened, SealError> {
     })
 }
 
-/// `text` accepted as it is: with one more entry of its history and a seal that holds. A text whose seal holds already is returned unchanged.
+/// Accepts `text` as it is: adds a history entry and a valid seal. Returns a text with a valid seal unchanged.
 ///
 /// # Errors
 /// [`SealError::Content`] if it is no TOML; [`SealError::Alone`].
@@ -86,7 +86,7 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
     seal(&format!("{}\n\n{entry}", body.trim_end()))
 }
 
-/// The text before the last table, and that table, if it is the seal.
+/// Splits the text before its last table, if that is the seal.
 fn split(text: &str) -> Option<(&str, &str)> {
     let at = match text.rfind(&format!("\n{SEAL}")) {
         Some(before) => before + 1,
@@ -96,7 +96,7 @@ fn split(text: &str) -> Option<(&str, &str)> {
     Some(text.split_at(at))
 }
 
-/// The seal as it is written.
+/// Seal as written.
 struct Written {
     digest: String,
     keys: String,

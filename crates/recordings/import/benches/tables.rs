@@ -1,4 +1,4 @@
-//! How fast tables are parsed: `cargo bench -p taceva-import`.
+//! Benchmark of table parsing: `cargo bench -p taceva-import`.
 
 use std::fmt::Write;
 

@@ -7,7 +7,7 @@ use taceva_dataset::internal::{is_foreign_folder, quoted, shown};
 
 use crate::layouts::Preset;
 
-/// The command that makes a dataset of the folder at `path`, if it has a known layout or a table.
+/// Returns the command that imports the folder at `path`, if it has a known layout or a table.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -35,7 +35,7 @@ pub fn advice(path: &Path) -> Option<String> {
     })
 }
 
-/// The CSV tables in the folder at `path` or in a folder of it, sorted by name.
+/// CSV tables in the folder at `path` and in its direct subfolders, sorted by name.
 fn tables(path: &Path) -> Vec<String> {
     let inside = |folder: &Path| fs::read_dir(folder).into_iter().flatten().flatten();
     let deeper = inside(path).filter(|entry| entry.path().is_dir());

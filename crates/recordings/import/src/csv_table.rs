@@ -1,4 +1,4 @@
-//! A table of text, read whole and fast: columns are parsed when asked for.
+//! Text table read whole into memory. Columns are parsed on request.
 
 mod cells;
 mod columns;
@@ -44,18 +44,18 @@ pub struct CsvTable {
     text: String,
     blocks: Vec<Block>,
     rows: usize,
-    /// The line of each row, where quoted cells may hold line ends; else lines are counted in the text.
+    /// Line of each row if quoted cells may hold line ends; `None` if lines are counted in the text.
     lines: Option<Vec<u64>>,
-    /// The same, counted in the text once a line is asked for.
+    /// Cache of the lines counted in the text, filled on the first request.
     counted: OnceLock<Vec<u64>>,
-    /// Lines of the text that the file does not have: the names of columns of a file without a header.
+    /// Lines of the text that are missing in the file: the column names of a headerless file.
     added_lines: u64,
-    /// Lines of the file that the text does not have: the rows before a part.
+    /// Lines of the file that are missing in the text: the rows before a part.
     left_out_lines: u64,
 }
 
 impl CsvTable {
-    /// No text of more bytes is read at once; [`CsvParts`](crate::CsvParts) reads tables of any length.
+    /// Limit of the text read at once, bytes. [`CsvParts`](crate::CsvParts) reads tables of any length.
     pub const MOST_BYTES: u64 = limits::TABLE_BYTES;
 
     /// Reads the file at `path` on all cores.
@@ -77,7 +77,7 @@ impl CsvTable {
         CsvTable::of_text(path, text, delimiter, jobs)
     }
 
-    /// Reads the file at `path`, which has no header: its columns are called by their position, from `0`.
+    /// Reads the headerless file at `path`. Columns are named by their position, from `0`.
     ///
     /// # Errors
     /// As [`read`](CsvTable::read).
@@ -115,12 +115,12 @@ impl CsvTable {
         &self.path
     }
 
-    /// The digest of its text.
+    /// Digest of the text.
     pub fn digest(&self) -> Digest {
         Digest::of(self.text.as_bytes())
     }
 
-    /// The names of the columns.
+    /// Names of the columns.
     pub fn names(&self) -> &[String] {
         &self.names
     }
@@ -130,12 +130,12 @@ impl CsvTable {
         self.rows
     }
 
-    /// Whether there is a column called `name`.
+    /// True if the table has a column called `name`.
     pub fn has(&self, name: &str) -> bool {
         self.names.iter().any(|known| known == name)
     }
 
-    /// Where the column called `name` stands.
+    /// Position of the column called `name`.
     ///
     /// # Errors
     /// [`DatasetError::Table`], listing the columns there are and suggesting the nearest.
@@ -179,7 +179,7 @@ impl CsvTable {
             .ok_or_else(|| self.not_a_number(row, column))
     }
 
-    /// The error that a cell holds something else than `expected`.
+    /// Error for a cell that holds something other than `expected`.
     ///
     /// # Panics
     /// If there is no such row or column.
@@ -190,7 +190,7 @@ impl CsvTable {
         }
     }
 
-    /// Where a row (from 0) stands in the file, in the column at `column`.
+    /// Place of a row (from 0) and column in the file, for messages.
     pub fn place(&self, row: usize, column: usize) -> Place {
         let place = Place::line(&self.path, self.line(row));
         match self.names.get(column) {
@@ -207,7 +207,7 @@ impl CsvTable {
         line - self.added_lines + self.left_out_lines
     }
 
-    /// The line of each row, in one pass over the text: where rows keep their place, every one is asked for.
+    /// Counts the line of every row in one pass over the text.
     fn count_lines(&self) -> Vec<u64> {
         let (mut line, mut counted) = (1, 0);
         let rows = 0..self.rows;
@@ -298,26 +298,26 @@ fn as_text(path: &Path, mut bytes: Vec<u8>) -> Result<String, DatasetError> {
     Ok(text)
 }
 
-/// The line, from 1, on which the byte at `offset` stands.
+/// Line, from 1, of the byte at `offset`.
 fn line_at(text: &[u8], offset: usize) -> u64 {
     1 + text[..offset].iter().filter(|byte| **byte == b'\n').count() as u64
 }
 
-/// How many cells the first row of `text` has.
+/// Number of cells in the first row of `text`; 1 if it cannot be read.
 fn cells_of_first_row(text: &str, delimiter: u8) -> usize {
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(delimiter)
         .has_headers(false)
         .from_reader(text.as_bytes());
     let mut record = csv::StringRecord::new();
-    // What cannot be read is said when all of it is read.
+    // An unreadable row is reported when the whole text is read.
     match reader.read_record(&mut record) {
         Ok(true) => record.len(),
         _ => 1,
     }
 }
 
-/// The separator that the header has most of; a comma if it has none.
+/// The most frequent separator in the header; a comma if it has none.
 fn delimiter_of(header: &str) -> u8 {
     let count = |delimiter: u8| header.bytes().filter(|byte| *byte == delimiter).count();
     let mut best = b',';

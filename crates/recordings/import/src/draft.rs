@@ -1,4 +1,4 @@
-//! A first map for a folder that nobody has described: what is sure, what is guessed, what only its lab knows.
+//! Drafts a first map for an undescribed folder: certain lines, guesses, and gaps that only the lab can fill.
 
 mod channels;
 mod clips;
@@ -20,10 +20,10 @@ use survey::FileGroup;
 use tables::SeenTable;
 use taceva_dataset::DatasetError;
 
-/// The most tables that are read for a draft.
+/// Limit of tables read for a draft.
 const TABLES: usize = 64;
 
-/// A map with gaps to fill in, each `"?"`: units that neither names nor headers say, columns of which two fit alike; an import refuses them, naming the line.
+/// Import map with gaps to fill in, each `"?"`, such as unstated units and ambiguous columns. An import rejects them and names the line.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -38,7 +38,7 @@ pub struct MapDraft {
 }
 
 impl MapDraft {
-    /// Looks at the files in `folder`: names, headers, 200 rows of each kind of table, the first picture of each array.
+    /// Examines the files in `folder`: names, headers, 200 rows of each kind of table, the first picture of each array.
     ///
     /// # Errors
     /// [`DatasetError::Io`] if the folder cannot be read; [`DatasetError::Request`] if nothing in it is a table or a picture.
@@ -68,7 +68,7 @@ impl MapDraft {
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
-        // A LeRobot dataset is one table, whatever files it has.
+        // A LeRobot dataset is one table made of many files.
         let lerobot = groups
             .iter()
             .find_map(|group| SeenTable::of_lerobot(&source, group));
@@ -122,13 +122,13 @@ impl MapDraft {
         })
     }
 
-    /// The map, with comments that say why each line stands there.
+    /// Text of the map, with comments that give the reason of each line.
     pub fn text(&self) -> &str {
         &self.text
     }
 }
 
-/// True if a map has no line that an import could read labels, pictures or taxels by.
+/// True if a map has no line from which an import could read labels, pictures or taxels.
 fn is_empty(map: &str) -> bool {
     const READ: [&str; 5] = [
         "[frame]",
@@ -148,7 +148,7 @@ fn is_empty(map: &str) -> bool {
     })
 }
 
-/// The preset whose layout the folder has, if its map fits: its files are there, and what it names is in them.
+/// Preset for the layout of the folder, if its map fits: the folder holds the files and columns that it names.
 fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
     let preset = Preset::recognised(folder)?;
     let fits = match preset.is_drafted() {
@@ -162,7 +162,7 @@ fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
     fits.then(|| preset.name())
 }
 
-/// True if the pictures are the samples, and `table` lies beside them, such as a mean background.
+/// True if the pictures are the samples and `table` only accompanies them, such as a mean background.
 fn are_beside(folder: &SourceFolder, table: &SeenTable<'_>, pictures: &FileGroup) -> bool {
     let has_pictures = !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
     let is_other =
@@ -174,7 +174,7 @@ fn are_beside(folder: &SourceFolder, table: &SeenTable<'_>, pictures: &FileGroup
         && table.rows != pictures.paths.len()
 }
 
-/// The table whose rows are the samples: one that names pictures before one of taxels, then the one with the most channels.
+/// Table whose rows are the samples: prefers tables that name pictures, then tables of taxels, then the most channels.
 fn main_table<'t, 'g>(
     folder: &SourceFolder,
     tables: &'t [SeenTable<'g>],

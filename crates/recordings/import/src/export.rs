@@ -1,4 +1,4 @@
-//! A dataset for other programs: its table as CSV, or the whole in a form that they read, with the map that brings it back.
+//! Exports a dataset for other programs: its table as CSV, or the whole dataset with a map that imports it again.
 
 mod cells;
 mod content;
@@ -26,10 +26,10 @@ use picture::Pictures;
 
 pub use form::ExportForm;
 
-/// The map in the folder of an export.
+/// File name of the map in an export folder.
 const MAP: &str = "map.toml";
 
-/// What was exported.
+/// Result of an export.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
@@ -52,21 +52,21 @@ const MAP: &str = "map.toml";
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ExportReport {
-    /// How many samples there are.
+    /// Number of samples.
     pub samples: u64,
-    /// Number of pictures: of each view one for each sample.
+    /// Number of pictures; each view has one per sample.
     pub pictures: u64,
-    /// How many pictures were encoded anew, so that their bytes are not those of the dataset; their pixels are the same.
+    /// Number of pictures that were re-encoded. Their bytes differ from the dataset, their pixels are equal.
     pub encoded_anew: u64,
-    /// What the dataset says and the map of the export cannot, in words.
+    /// Facts of the dataset that the map of the export cannot hold, in words.
     pub left_out: Vec<String>,
-    /// Whether the map beside it imports it again: not where some samples have a picture and others none.
+    /// True if the map imports the export again. False if some samples have a picture and others none.
     pub is_importable: bool,
-    /// The map that brings the export back.
+    /// Path of the map that imports the export.
     pub map: PathBuf,
 }
 
-/// An export that can be made: the dataset has samples.
+/// Export of a dataset that has samples.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
@@ -113,11 +113,11 @@ impl<'a> ExportPlan<'a> {
         }
     }
 
-    /// Writes the new folder `target` on `jobs` threads, and `map.toml` into it: an import of the folder by that map gives the samples, labels, times,
-    /// signals and the origin of each row again, and pictures of the same pixels. The same dataset gives the same bytes, on any number of threads.
+    /// Writes the new folder `target` on `jobs` threads, with a `map.toml`. An import by that map restores samples, labels, times, signals,
+    /// the origin of each row, and pictures of the same pixels. Equal datasets give equal bytes on any number of threads.
     ///
     /// # Units
-    /// Each channel in the unit that the dataset keeps it in, which the map states.
+    /// Each channel in the unit of the dataset, stated in the map.
     ///
     /// # Errors
     /// [`DatasetError::TargetExists`]; [`DatasetError::Sample`] if the form cannot hold one as it is; [`DatasetError::Image`] and
@@ -131,7 +131,7 @@ impl<'a> ExportPlan<'a> {
         let ExportPlan { dataset, form } = self;
         let table = dataset.table();
         let mut columns = table.columns();
-        // An import measures the brightness of each picture again; by which view the dataset is seen here is nothing that it says.
+        // An import measures the brightness of each picture again, and the view selected here is no fact of the dataset.
         columns.retain(|column| {
             let is_seen = column.name == "source_frame" && !table.views().is_empty();
             column_kind(column.name) != "intensity"
@@ -181,7 +181,7 @@ impl<'a> ExportPlan<'a> {
     }
 }
 
-/// Writes the labels of `dataset` as CSV: one row for each sample, bare channel names, an empty cell where there is no value.
+/// Writes the labels of `dataset` as CSV: one row per sample, bare channel names, an empty cell for an absent value.
 ///
 /// Numbers are in the shortest form that reads back to the same binary64; the units are those of the header. The column
 /// `frame` is relative to the folder of the dataset.

@@ -1,4 +1,4 @@
-//! Tables as other programs wrote them: rows of cells that are asked for by the name of a column.
+//! Tables of other programs: rows of cells, read by column name.
 
 mod arrays;
 mod byte_pictures;
@@ -46,7 +46,7 @@ pub(crate) use json::JsonRows;
 pub(crate) use messages::{is_recording, topics};
 pub(crate) use pictures::{Picture, Pictures};
 
-/// A table of any form.
+/// Table of any form.
 #[derive(Debug)]
 pub(crate) enum ForeignTable {
     Delimited(DelimitedTable),
@@ -55,45 +55,45 @@ pub(crate) enum ForeignTable {
     Columns(ColumnTable),
 }
 
-/// How a table is written.
+/// Form of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum TableForm {
     /// Cells between separators.
     Delimited(TextForm),
-    /// JSON, whose rows are what the pointer leads to: a step `*` stands for each member, the empty pointer for the whole.
+    /// JSON with a pointer to the rows: a step `*` matches each member, and the empty pointer is the whole value.
     Json {
         rows: Option<String>,
     },
-    /// A JSON value a line.
+    /// One JSON value per line.
     JsonLines,
-    /// No table: every file is a row.
+    /// No table: each file is a row.
     Files,
-    /// Arrays, whose rows are what they hold at one place of the first axis; `rows` names a group, several with `*`, or a table in it.
+    /// Arrays, with rows along the first axis. `rows` names a group, several groups with `*`, or a table in the file.
     Arrays {
         format: ArrayFormat,
         rows: Option<String>,
-        /// The file is one row, each array of it a cell.
+        /// True if the file is one row, with each array as a cell.
         is_whole: bool,
     },
     Parquet,
-    /// A stream or a file of Arrow.
+    /// Arrow stream or file.
     Arrow,
-    /// The messages of a topic of a recording: MCAP, rosbag2 or a bag of ROS 1.
+    /// Messages of one topic of a recording: MCAP, rosbag2 or a ROS 1 bag.
     Messages {
         topic: Option<String>,
     },
-    /// A folder as LeRobot writes it, versions 2.1 and 3.0.
+    /// LeRobot folder, version 2.1 or 3.0.
     LeRobot,
-    /// A shard of WebDataset.
+    /// WebDataset shard.
     WebDataset,
-    /// The frames of a clip: so many a second, or at the times that the clip states; the first at a time in seconds.
+    /// Frames of a clip at `rate`, Hz, or at the times stated by the clip. The first frame is at `start_s`.
     Clip {
         rate: Option<f64>,
         start_s: f64,
     },
 }
 
-/// The message of an error about the file at `path`, without the path: the error around it names that.
+/// Error message about the file at `path`, without the path, which the outer error names.
 pub(crate) fn said(path: &Path, error: &impl fmt::Display) -> String {
     let text = error.to_string();
     let rest = text.strip_prefix(&format!("{}: ", path.display()));
@@ -101,7 +101,7 @@ pub(crate) fn said(path: &Path, error: &impl fmt::Display) -> String {
 }
 
 impl ForeignTable {
-    /// The table at `path`.
+    /// Reads the table at `path`.
     pub(crate) fn read(path: &Path, form: &TableForm) -> Result<ForeignTable, DatasetError> {
         Ok(match form {
             TableForm::Delimited(form) => {
@@ -161,7 +161,7 @@ impl ForeignTable {
         }
     }
 
-    /// Whether there is a column of exactly this name.
+    /// True if the table has a column of exactly this name.
     pub(crate) fn has(&self, name: &str) -> bool {
         match self {
             ForeignTable::Delimited(table) => table.has(name),
@@ -171,7 +171,7 @@ impl ForeignTable {
         }
     }
 
-    /// What a row (from 0) has in the column called `name`, without surrounding blanks; empty where it has nothing.
+    /// Cell of a row (from 0) in the column called `name`, without surrounding blanks; empty if absent.
     ///
     /// # Errors
     /// [`DatasetError::Table`] if no row has such a column.
@@ -186,7 +186,7 @@ impl ForeignTable {
         }
     }
 
-    /// The unit in which the file counts the times in a column, where it says that they are times: `us`. Their cells are in seconds.
+    /// Unit of a time column as stated by the file, such as `us`; `None` for other columns. The cells are converted to seconds.
     pub(crate) fn time_unit(&self, name: &str) -> Option<&'static str> {
         match self {
             ForeignTable::Columns(table) => table.time_unit(name),
@@ -194,7 +194,7 @@ impl ForeignTable {
         }
     }
 
-    /// What the file says of the numbers in a column; in each of its groups where that differs.
+    /// Attributes that the file states for a column, one entry for each differing group.
     pub(crate) fn stated(&self, name: &str) -> Vec<Stated> {
         match self {
             ForeignTable::Columns(table) => table.stated(name),
@@ -203,8 +203,8 @@ impl ForeignTable {
         }
     }
 
-    /// The names that may say the unit of `name`, a number in the column `base`: its own name, that of the column, that of the file where columns
-    /// have none.
+    /// Names that may contain the unit of `name`, a number in the column `base`: the element's own name, then that of the column. For the
+    /// column `value` that is the name of the file.
     pub(crate) fn names_with_units(&self, name: &str, base: &str) -> Vec<String> {
         let at = name.strip_prefix(base).unwrap_or_default();
         let at: Option<usize> = at.trim_matches(['[', ']']).parse().ok();
@@ -220,7 +220,7 @@ impl ForeignTable {
         names
     }
 
-    /// Cell of a table of text whose point may group digits, and the number of such cells in the column.
+    /// Example cell whose point may group digits, with the number of such cells in the column.
     pub(crate) fn grouped_digits(&self, name: &str) -> Option<(String, u64)> {
         match self {
             ForeignTable::Delimited(table) => table.grouped_digits(name),
@@ -228,7 +228,7 @@ impl ForeignTable {
         }
     }
 
-    /// Whether the file says that a column holds integers, or lists of them.
+    /// True if the file states that a column holds integers or lists of integers.
     pub(crate) fn holds_integers(&self, name: &str) -> bool {
         match self {
             ForeignTable::Columns(table) => table.holds_integers(name),
@@ -237,7 +237,7 @@ impl ForeignTable {
         }
     }
 
-    /// The name of a row, where rows have names: the member of a JSON object.
+    /// Name of a row, if rows have names, as the members of a JSON object.
     pub(crate) fn key(&self, row: usize) -> Option<&str> {
         match self {
             ForeignTable::Json(table) => table.key(row),
@@ -245,7 +245,7 @@ impl ForeignTable {
         }
     }
 
-    /// Where a row stands, in the column called `name`.
+    /// Place of a row and column, for messages.
     pub(crate) fn place(&self, row: usize, name: &str) -> Place {
         match self {
             ForeignTable::Delimited(table) => table.place(row, name),
@@ -257,7 +257,7 @@ impl ForeignTable {
         }
     }
 
-    /// The names of all columns, where a table lists them.
+    /// Names of all columns, where the table lists them.
     pub(crate) fn names(&self) -> Vec<String> {
         match self {
             ForeignTable::Delimited(table) => table.names().to_vec(),
@@ -267,7 +267,7 @@ impl ForeignTable {
         }
     }
 
-    /// For each row the clip that `key` names, relative to the folder of the table, and the frame in it.
+    /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
     pub(crate) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, DatasetError> {
         match self {
             ForeignTable::Columns(table) => table.clips(key),
@@ -275,7 +275,7 @@ impl ForeignTable {
         }
     }
 
-    /// The distances of the codes of `key`, where it is a depth map.
+    /// Distances of the codes of `key`, if it is a depth map.
     pub(crate) fn depth(&self, key: &str) -> Option<DepthCodes> {
         match self {
             ForeignTable::Columns(table) => table.depth(key),
@@ -283,7 +283,7 @@ impl ForeignTable {
         }
     }
 
-    /// Reads columns that will be asked for, where that is faster together.
+    /// Reads columns in advance, if reading them together is faster.
     pub(crate) fn read_ahead(&self, names: &[&str]) -> Result<(), DatasetError> {
         match self {
             ForeignTable::Columns(table) => table.read_ahead(names),
@@ -291,7 +291,7 @@ impl ForeignTable {
         }
     }
 
-    /// Counts the chunks that were never written of the arrays that are these columns, by file and array.
+    /// Counts unwritten chunks of the arrays behind these columns, by file and array.
     pub(crate) fn count_absent_chunks(
         &self,
         folder: &SourceFolder,
@@ -307,7 +307,7 @@ impl ForeignTable {
         Ok(())
     }
 
-    /// The columns that a draft of a map looks at.
+    /// Columns that a draft of a map examines.
     pub(crate) fn columns(&self) -> Vec<String> {
         match self {
             ForeignTable::Json(table) => table.leaves(),
@@ -315,7 +315,7 @@ impl ForeignTable {
         }
     }
 
-    /// The closed lists of classes that numbers of columns are positions in, as the file states them.
+    /// Class lists stated by the file, for columns whose numbers index them.
     pub(crate) fn classes(&self) -> Vec<(String, Vec<String>)> {
         match self {
             ForeignTable::Columns(table) => table.classes(),
@@ -323,7 +323,7 @@ impl ForeignTable {
         }
     }
 
-    /// What the numbers of a column are called, as the file states it; empty where it does not.
+    /// Names of the numbers in a column, as the file states them; empty if it does not.
     pub(crate) fn element_names(&self, column: &str) -> Vec<String> {
         match self {
             ForeignTable::Columns(table) => table.element_names(column),
@@ -331,7 +331,7 @@ impl ForeignTable {
         }
     }
 
-    /// What of its file is not read and is no column, each with the reason.
+    /// Unread items of the file, each with the reason.
     pub(crate) fn unread(&self) -> Vec<String> {
         match self {
             ForeignTable::Columns(table) => table.unread(),
@@ -339,7 +339,7 @@ impl ForeignTable {
         }
     }
 
-    /// What of it seems to hold pictures.
+    /// Columns that seem to hold pictures.
     pub(crate) fn picture_columns(&self) -> Vec<PictureColumn> {
         match self {
             ForeignTable::Columns(table) => table.picture_columns(),
@@ -347,7 +347,7 @@ impl ForeignTable {
         }
     }
 
-    /// The pictures that belong to its rows, by the number of the row.
+    /// Pictures of the rows, by row number.
     pub(crate) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, DatasetError> {
         match self {
             ForeignTable::Columns(table) => table.pictures(names),
@@ -360,7 +360,7 @@ impl ForeignTable {
         }
     }
 
-    /// The error that there is no column called `name`; it lists those there are.
+    /// Error for a missing column `name`. Lists the existing ones.
     pub(crate) fn no_column(&self, name: &str) -> DatasetError {
         if let ForeignTable::Columns(table) = self
             && let Some(problem) = table.why_absent(name)
@@ -385,7 +385,7 @@ impl ForeignTable {
         }
     }
 }
-/// `place` in the column called `name`, if it has a name.
+/// Adds the column `name` to `place`, unless it is empty.
 fn named(place: Place, name: &str) -> Place {
     match name {
         "" => place,

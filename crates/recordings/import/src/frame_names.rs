@@ -1,11 +1,11 @@
-//! Where the frames of an import are.
+//! Locations of the frames of an import.
 
 use taceva_dataset::ChannelOrder;
 
-/// The attribute that says which frame without contact a row names, where rows name different ones.
+/// Attribute that names the frame without contact of a row, if rows name different ones.
 const REFERENCE_ATTRIBUTE: &str = "reference";
 
-/// The attribute that says which frame without contact of `view` a row names, where rows name different ones.
+/// Attribute that names the frame without contact of `view` in a row, if rows name different ones.
 pub(crate) fn reference_attribute(view: Option<&str>) -> String {
     match view {
         None => REFERENCE_ATTRIBUTE.to_owned(),
@@ -13,10 +13,10 @@ pub(crate) fn reference_attribute(view: Option<&str>) -> String {
     }
 }
 
-/// The position of a picture where a map names no column for it: the row in its own table, whatever columns that has.
+/// Index of a picture if the map names no column: the row number within its table.
 pub(crate) const OWN_ROW: &str = "the row of its table";
 
-/// Where the frames are.
+/// Location and colour order of the frames of one view.
 ///
 /// ```
 /// use taceva_dataset::ChannelOrder;
@@ -28,23 +28,23 @@ pub(crate) const OWN_ROW: &str = "the row of its table";
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FrameMap {
-    /// The view that they are of, such as a finger or an eye; `None` where a row has one picture alone.
+    /// View of the frames, such as a finger or an eye; `None` if a row has only one picture.
     pub view: Option<String>,
-    /// How a row names its frame.
+    /// Rule by which a row names its frame.
     pub names: FrameNames,
-    /// The folder that file names are relative to, relative to the source folder; `None`: that of the table.
+    /// Base folder of file names, relative to the source folder; `None` for the folder of the table.
     pub folder: Option<String>,
-    /// The order of the colours in the files.
+    /// Colour order in the files.
     pub channel_order: ChannelOrder,
-    /// The frame without contact, relative to the source folder; `None` if none is known.
+    /// Frame without contact, relative to the source folder; `None` if unknown.
     pub reference: Option<String>,
-    /// The column that names the frame without contact of each row, relative to `folder` as frames are: kept as that of the recording where all
-    /// rows name the same, else as the attribute `reference`.
+    /// Column that names the frame without contact of each row, relative to `folder`. If all rows name the same frame, it becomes that of
+    /// the recording; otherwise the attribute `reference`.
     pub reference_column: Option<String>,
 }
 
 impl FrameMap {
-    /// Frames in files relative to the folder of the table, with colours in `channel_order` and without a frame without contact.
+    /// Frames in files relative to the folder of the table, in `channel_order`, without a frame without contact.
     pub fn new(names: FrameNames, channel_order: ChannelOrder) -> FrameMap {
         FrameMap {
             view: None,
@@ -57,7 +57,7 @@ impl FrameMap {
     }
 }
 
-/// How a row names its frame.
+/// Rule by which a row names its frame.
 ///
 /// ```
 /// use taceva_import::FrameNames;
@@ -69,20 +69,20 @@ impl FrameMap {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum FrameNames {
-    /// A column holds the path.
+    /// Column with the path.
     Column(String),
-    /// A path in which `{column}` stands for the cell of that column.
+    /// Path in which `{column}` is replaced by the cell of that column.
     Pattern(String),
     /// Frames in one array.
     Array(ArrayFrames),
-    /// The column of the table that holds the bytes of a PNG, JPEG or TIFF file.
+    /// Column with the bytes of a PNG, JPEG or TIFF file.
     Bytes(String),
     /// Frames of a clip.
     Video(VideoFrames),
 }
 
 impl FrameNames {
-    /// Whether the frames are in the file of the table.
+    /// True if the frames are in the file of the table.
     pub(crate) fn is_in_table(&self) -> bool {
         match self {
             FrameNames::Bytes(_) => true,
@@ -103,19 +103,19 @@ impl FrameNames {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ArrayFrames {
-    /// The file, relative to the source folder, in which `{column}` stands for the cell of that column; `None`: that of the table.
+    /// File relative to the source folder, in which `{column}` is replaced by the cell of that column; `None` for the file of the table.
     pub file: Option<String>,
-    /// The array in it; `None` where the file holds one alone.
+    /// Array in the file; `None` if it holds only one.
     pub path: Option<String>,
-    /// The column that holds the position in the array, from 0; `row` is the number of the row.
+    /// Column with the position in the array, from 0; `row` is the row number.
     pub index: String,
-    /// What the axes are; `None` where their lengths tell.
+    /// Axis order; `None` if the lengths decide.
     pub layout: Option<ArrayLayout>,
-    /// The numbers of black and of full, and the bits that a pixel is kept in; `None` of pixels that are whole numbers of 8 or 16 bits.
+    /// Values of black and full scale, with the bits per stored pixel; `None` for integers of 8 or 16 bits.
     pub range: Option<PixelRange>,
 }
 
-/// What the axes of an array of frames are.
+/// Axis order of an array of frames.
 ///
 /// ```
 /// use taceva_import::ArrayLayout;
@@ -135,7 +135,7 @@ pub enum ArrayLayout {
 }
 
 impl ArrayLayout {
-    /// The word for it in a map.
+    /// Word for the layout in a map.
     pub const fn name(self) -> &'static str {
         match self {
             ArrayLayout::Nhwc => "nhwc",
@@ -145,7 +145,7 @@ impl ArrayLayout {
     }
 }
 
-/// How numbers of any type become pixels: `black` 0, `full` the greatest number of `bits`, what is between in proportion and rounded.
+/// Linear mapping from numbers to pixels of 8 or 16 bits: `black` becomes 0, `full` the greatest value. Results are rounded.
 ///
 /// ```
 /// use taceva_import::PixelRange;
@@ -162,23 +162,23 @@ pub struct PixelRange {
 }
 
 impl PixelRange {
-    /// From the number of black to that of full in 8 or 16 bits; `None` if they are no range, or the bits are others.
+    /// Range from black to full scale in 8 or 16 bits; `None` if it is empty or not finite, or for other bits.
     pub fn new([black, full]: [f64; 2], bits: u8) -> Option<PixelRange> {
         let is_range = black.is_finite() && full.is_finite() && (full - black).abs() > 0.0;
         (is_range && matches!(bits, 8 | 16)).then_some(PixelRange { black, full, bits })
     }
 
-    /// The bits that a pixel is kept in.
+    /// Bits per stored pixel.
     pub fn bits(&self) -> u8 {
         self.bits
     }
 
-    /// The numbers of black and of full.
+    /// Values of black and full scale.
     pub fn ends(&self) -> [f64; 2] {
         [self.black, self.full]
     }
 
-    /// The pixel of `number`; `None` outside of the range.
+    /// Pixel of `number`; `None` outside the range.
     pub fn pixel(&self, number: f64) -> Option<u16> {
         let share = (number - self.black) / (self.full - self.black);
         let most = if self.bits == 8 { 255.0 } else { 65_535.0 };
@@ -193,7 +193,7 @@ impl PixelRange {
 }
 
 impl ArrayFrames {
-    /// The frames in `file`, which holds one array alone, such as a `.npy` file; the column `index` holds the position in the array.
+    /// Frames of `file`, which holds a single array, such as a `.npy` file. The column `index` holds the position in the array.
     pub fn new(file: impl Into<String>, index: impl Into<String>) -> ArrayFrames {
         ArrayFrames {
             file: Some(file.into()),
@@ -216,17 +216,17 @@ impl ArrayFrames {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VideoFrames {
-    /// The clip, relative to the source folder, in which `{column}` stands for the cell of that column; of a LeRobot dataset the name of
+    /// Clip relative to the source folder, in which `{column}` is replaced by the cell of that column. For a LeRobot dataset: the name of
     /// the feature.
     pub file: String,
-    /// The column that holds the number of the frame in the order in which they are shown, from 0; `row` is the number of the row.
+    /// Column with the frame number in display order, from 0; `row` is the row number.
     pub index: String,
-    /// The distances of black and of full in a depth map, mm; `None` of pictures, and of a depth map in whole millimetres.
+    /// Distances of black and full scale in a depth map, mm; `None` for pictures, and for a depth map in whole millimetres.
     pub range: Option<PixelRange>,
 }
 
 impl VideoFrames {
-    /// The frames of the clip `file`; the column `index` holds the number of the frame.
+    /// Frames of the clip `file`. The column `index` holds the frame number.
     pub fn new(file: impl Into<String>, index: impl Into<String>) -> VideoFrames {
         VideoFrames {
             file: file.into(),

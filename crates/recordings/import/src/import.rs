@@ -1,4 +1,4 @@
-//! Making a dataset of the folder of a lab, by a map that says what its columns are.
+//! Imports the folder of a lab as a dataset, by a map of its columns.
 
 mod archive;
 mod copy;

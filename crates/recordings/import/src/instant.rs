@@ -1,22 +1,23 @@
-//! Instants as text: ISO 8601 dates and times, and times of day.
+//! Times as text: ISO 8601 dates and times, and times of day.
 
-/// An instant that a cell writes as text.
+/// Instant written as text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct TextInstant {
-    /// Days since 1 January 1970; `None` of a time of day.
+    /// Days since 1 January 1970; `None` for a time of day.
     day: Option<i64>,
     /// Seconds since midnight of that day.
     second: i64,
     /// Digits of the fraction of a second.
     fraction: String,
-    /// Seconds that the clock is before UTC; `None` where the text says no zone.
+    /// UTC offset, s, positive ahead of UTC; `None` if the text has no zone.
     zone_s: Option<i64>,
 }
 
 const DAY_S: i64 = 86_400;
 
 impl TextInstant {
-    /// The instant in `cell`: `2024-10-27 02:59:59.000`, `2024-10-27T02:59:59+01:00`, `20241027T025959Z`, `2024/10/27 02:59:59,5`, `03:21:28.429`.
+    /// Parses the instant in `cell`: `2024-10-27 02:59:59.000`, `2024-10-27T02:59:59+01:00`, `20241027T025959Z`, `2024/10/27 02:59:59,5`,
+    /// `03:21:28.429`.
     pub(crate) fn parse(cell: &str) -> Option<TextInstant> {
         let cell = cell.trim().trim_matches('"');
         let (day, time) = match cell.split_once(['T', 't', ' ']) {
@@ -39,7 +40,7 @@ impl TextInstant {
         if !(2..=3).contains(&parts.len()) || !is_day(&parts) || !is_of_digits(fraction) {
             return None;
         }
-        // Minutes and seconds alone are no time of day: `12:30` may be a ratio.
+        // Minutes and seconds alone are ambiguous: `12:30` may be a ratio.
         if day.is_none() && (parts.len() < 3 || zone_s.is_some()) {
             return None;
         }
@@ -59,23 +60,22 @@ impl TextInstant {
         })
     }
 
-    /// True without a date.
+    /// True for a time of day without a date.
     pub(crate) fn is_of_day(&self) -> bool {
         self.day.is_none()
     }
 
-    /// True with a time zone.
+    /// True if the text has a time zone.
     pub(crate) fn has_zone(&self) -> bool {
         self.zone_s.is_some()
     }
 
-    /// Seconds since midnight, without their fraction.
+    /// Seconds since midnight, without fraction.
     pub(crate) fn second_of_day(&self) -> i64 {
         self.second
     }
 
-    /// Seconds since 1970 as decimal text, or since midnight of the first of several `days` of a time of day; a zone that the text does not
-    /// say is `zone_s`, or that of the clock that was read.
+    /// Seconds since 1970 as decimal text. For a time of day: seconds since midnight, plus `days` days. `zone_s` replaces a missing zone.
     pub(crate) fn seconds(&self, zone_s: Option<i64>, days: i64) -> String {
         let zone_s = match self.day {
             Some(_) => self.zone_s.or(zone_s).unwrap_or_default(),
@@ -85,7 +85,7 @@ impl TextInstant {
         match (self.fraction.as_str(), whole < 0) {
             ("", _) => whole.to_string(),
             (fraction, false) => format!("{whole}.{fraction}"),
-            // Before 1970 the fraction leads towards it.
+            // Before 1970 the fraction counts in the positive direction.
             (fraction, true) => {
                 let places = fraction.len().min(18);
                 let unit = 10_i64.pow(u32::try_from(places).unwrap_or_default());
@@ -96,7 +96,7 @@ impl TextInstant {
     }
 }
 
-/// The seconds that `zone` is before UTC: `Z`, `+02:00`, `-0530`, `+01`.
+/// UTC offset of `zone`, s: `Z`, `+02:00`, `-0530`, `+01`.
 pub(crate) fn zone_seconds(zone: &str) -> Option<i64> {
     if matches!(zone, "Z" | "z" | "UTC") {
         return Some(0);
@@ -116,7 +116,7 @@ pub(crate) fn zone_seconds(zone: &str) -> Option<i64> {
     (hours <= 14 && minutes < 60).then_some(sign * (hours * 3_600 + minutes * 60))
 }
 
-/// The time without its zone, and that zone.
+/// Splits the zone off a time.
 fn zoned(time: &str) -> Option<(&str, Option<i64>)> {
     let time = time.trim_end();
     let at = time.find(['Z', 'z', '+', '-']).or_else(|| time.find("UTC"));
@@ -137,7 +137,7 @@ fn day_of(date: &str) -> Option<i64> {
     let [year, month, day] = parts.as_slice() else {
         return None;
     };
-    // A day before the month, or the month before the day, is nobody's guess.
+    // Dates with an ambiguous order of day and month are rejected.
     if year.len() != 4 || !(1..=2).contains(&month.len()) || !(1..=2).contains(&day.len()) {
         return None;
     }
@@ -152,7 +152,7 @@ fn day_of(date: &str) -> Option<i64> {
     if !(1..=length).contains(&day) {
         return None;
     }
-    // Years that begin in March end with the day that is sometimes there (Howard Hinnant, "chrono-compatible low-level date algorithms").
+    // Years that begin in March have the leap day at their end (Howard Hinnant, "chrono-compatible low-level date algorithms").
     let year = if month <= 2 { year - 1 } else { year };
     let era = year.div_euclid(400);
     let of_era = year.rem_euclid(400);

@@ -1,4 +1,4 @@
-//! The layouts that are known by name: what lies where, what of it is read, what it leaves open.
+//! Layouts known by name: their files, the data read, and the gaps.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -17,7 +17,7 @@ macro_rules! files {
     };
 }
 
-/// The presets by name, in the order in which folders are recognised: a file a preset, its map and behind that its `[preset]`.
+/// Preset files by name, in recognition order. Each holds the map, followed by its `[preset]` section.
 const FILES: &[(&str, &str)] = files![
     "bristol",
     "py3dcal",
@@ -37,19 +37,19 @@ const FILES: &[(&str, &str)] = files![
     "diffusion-zarr",
 ];
 
-/// Begins what a file says of the preset, behind its map.
+/// Header of the preset section, behind the map.
 const SECTION: &str = "[preset]\n";
 
-/// A file or folder without which a folder does not have the layout.
+/// File or folder that a layout requires.
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Need {
-    /// Any of these, relative to the folder; `*` stands for any characters within a name. The map names the first, and reads that which is there.
+    /// Alternatives relative to the folder, with `*` for any characters within a name. The map names the first; the existing one is read.
     pub(crate) any_of: Vec<String>,
     pub(crate) what: String,
 }
 
-/// Texts of the map that others replace where no file is like `absent`.
+/// Replacements in the map, applied if no file matches `absent`.
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Instead {
@@ -57,13 +57,13 @@ pub(crate) struct Instead {
     pub(crate) replace: Vec<[String; 2]>,
 }
 
-/// A fit of the map to a folder that takes a function of its own.
+/// Adaptation of the map to a folder by its own function.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Fit {
     Bristol,
     DiffusionZarr,
-    /// The map is a draft of the folder, in the units that the layout is written in.
+    /// Uses a draft of the folder as the map, in the layout's units.
     Draft,
     Poseit,
     ToolForce,
@@ -71,25 +71,25 @@ pub(crate) enum Fit {
     Univtac,
 }
 
-/// What is known of a layout.
+/// Description of a layout.
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Layout {
     #[serde(skip)]
     name: &'static str,
-    /// The map, or the comments above it where it is drafted.
+    /// Map, or its leading comments if the map is drafted.
     #[serde(skip)]
     pub(crate) map: &'static str,
     layout: String,
     reads: String,
     leaves_open: String,
     pub(crate) needs: Vec<Need>,
-    /// A pattern that other folders lack, where what the layout needs is common.
+    /// Pattern that other folders lack, for a layout whose required files are common.
     mark: Option<String>,
     #[serde(default)]
     pub(crate) instead: Vec<Instead>,
     pub(crate) fit: Option<Fit>,
-    /// Whether lines of columns that the first table lacks are left out.
+    /// True if map lines for columns absent from the first table are dropped.
     #[serde(default)]
     pub(crate) drops_absent_columns: bool,
 }
@@ -107,7 +107,7 @@ impl Layout {
     }
 }
 
-/// A layout whose map is built in.
+/// Layout with a built-in map.
 ///
 /// ```
 /// use taceva_import::Preset;
@@ -121,7 +121,7 @@ impl Layout {
 pub struct Preset(&'static Layout);
 
 impl Preset {
-    /// Every preset.
+    /// All presets, in recognition order.
     pub fn all() -> impl Iterator<Item = Preset> {
         static LAYOUTS: OnceLock<Vec<Layout>> = OnceLock::new();
         let layouts = LAYOUTS.get_or_init(|| {
@@ -140,12 +140,12 @@ impl Preset {
         self.0
     }
 
-    /// The name on the command line.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         self.0.name
     }
 
-    /// What lies where in the folder.
+    /// Files of the layout and their place in the folder.
     ///
     /// ```
     /// assert!(taceva_import::Preset::from_name("py3dcal").is_some_and(|preset| preset.layout().contains("annotations/probe_data.csv")));
@@ -154,7 +154,7 @@ impl Preset {
         &self.0.layout
     }
 
-    /// What of it is read, with the units that are taken for it.
+    /// Data that is read, with the assumed units.
     ///
     /// ```
     /// assert!(taceva_import::Preset::from_name("tool-force").is_some_and(|preset| preset.reads().contains("Fz")));
@@ -163,7 +163,7 @@ impl Preset {
         &self.0.reads
     }
 
-    /// What the layout does not say, or what of it is not read.
+    /// Facts that the layout leaves open, and data that is not read.
     ///
     /// ```
     /// assert!(taceva_import::Preset::from_name("gelsight-live").is_some_and(|preset| preset.leaves_open().contains("force")));
@@ -172,12 +172,12 @@ impl Preset {
         &self.0.leaves_open
     }
 
-    /// The preset called `name`.
+    /// Preset called `name`.
     pub fn from_name(name: &str) -> Option<Preset> {
         Preset::all().find(|preset| preset.name() == name)
     }
 
-    /// The preset whose layout the folder at `source` has.
+    /// Preset whose layout matches the folder at `source`.
     pub(crate) fn recognised(source: &Path) -> Option<Preset> {
         let is_there = |pattern: &str| has_match(source, pattern);
         Preset::all().find(|preset| {
@@ -188,10 +188,10 @@ impl Preset {
         })
     }
 
-    /// Whether everything that the layout needs is in the folder.
+    /// Checks that the folder has everything the layout requires.
     ///
     /// # Errors
-    /// [`DatasetError::Path`] naming what was expected where.
+    /// [`DatasetError::Path`] naming the missing file or folder and its place.
     pub(crate) fn check(self, folder: &SourceFolder) -> Result<(), DatasetError> {
         let facts = self.facts();
         let is_there = |pattern: &String| has_match(folder.path(), pattern);
@@ -219,7 +219,7 @@ impl Preset {
     }
 }
 
-/// A file of a form that is not read, and the command that converts it.
+/// File of an unreadable form, with the command that converts it.
 fn unread(folder: &SourceFolder) -> Option<String> {
     let entries = std::fs::read_dir(folder.path()).ok()?.flatten();
     let mut names: Vec<String> = entries

@@ -1,4 +1,4 @@
-//! Layouts that are common enough to need no map from the user: a map that is built in, fitted to the folder.
+//! Presets: built-in maps of common layouts, fitted to the folder.
 
 mod draft_map;
 mod fit;
@@ -13,10 +13,10 @@ use taceva_dataset::DatasetError;
 use crate::layouts::{Fit, Preset};
 
 impl Preset {
-    /// The map for the folder at `source`, with comments that say what of it was verified: what `import --preset` reads, to be printed and adapted.
+    /// Map for the folder at `source`, as `import --preset` uses it. Its comments state the verified facts. It may be printed and adapted.
     ///
     /// # Errors
-    /// [`DatasetError::Path`] naming the file that was expected if the folder has another layout; those of reading the first table.
+    /// [`DatasetError::Path`] naming the expected file if the folder has another layout; errors of reading the first table.
     ///
     /// ```
     /// use taceva_import::Preset;
@@ -38,7 +38,7 @@ impl Preset {
         }
     }
 
-    /// The map for the folder at `source`: the columns its table has, the folder its images are in, the colours they have.
+    /// Parsed map for the folder at `source`, fitted to its columns, image folder and colours.
     ///
     /// # Errors
     /// As [`text`](Preset::text).

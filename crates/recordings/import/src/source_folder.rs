@@ -1,16 +1,16 @@
-//! A folder of a lab, out of which no path leads.
+//! Source folder of an import, which confines all paths.
 
 use std::path::{Path, PathBuf};
 
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::check_relative;
 
-/// A foreign folder: paths that lead out of it are refused.
+/// Foreign folder. Paths that leave it are rejected.
 #[derive(Clone, Debug)]
 pub(crate) struct SourceFolder {
-    /// As the caller wrote it: for messages.
+    /// Path as the caller wrote it, for messages.
     given: PathBuf,
-    /// Without links: for comparison.
+    /// Path without links, for comparison.
     canonical: PathBuf,
 }
 
@@ -29,7 +29,7 @@ impl SourceFolder {
         &self.given
     }
 
-    /// How the file at `path`, and what is called `part` in it, is named in the folder: with `/` on every system.
+    /// Path relative to the folder, followed by `part`, with `/` on every system.
     pub(crate) fn inside(&self, path: &Path, part: &str) -> String {
         let inside = path.strip_prefix(&self.given).unwrap_or(path);
         let file = inside.to_string_lossy().replace('\\', "/");
@@ -39,7 +39,7 @@ impl SourceFolder {
         }
     }
 
-    /// The file `relative` to `base`, a folder inside this one.
+    /// Path of the file `relative` to `base`, a folder inside this one.
     pub(crate) fn file(&self, base: &Path, relative: &str) -> Result<PathBuf, DatasetError> {
         let refused = |problem: &str| DatasetError::Path {
             place: None,

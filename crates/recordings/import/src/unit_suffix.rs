@@ -1,21 +1,21 @@
-//! Unit that the name of a column says: `Fz_mN`, `Fz (lbf)`, `Fz/mN`, `Fz, mN`, `pose_mm.x`.
+//! Unit in a column name: `Fz_mN`, `Fz (lbf)`, `Fz/mN`, `Fz, mN`, `pose_mm.x`.
 
 use taceva_core::{SourceUnit, Unit};
 
-/// Unit in the name of a column, found where names carry one: in brackets, or behind a separator.
+/// Unit in the name of a column, in brackets or behind a separator.
 ///
-/// Small letters may mean several units: `torque_nm` is in N·m, `depth_nm` in nanometres.
+/// Lower-case spellings may be ambiguous: `torque_nm` is in N·m, `depth_nm` in nanometres.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct UnitSuffix {
-    /// The text in the name.
+    /// Unit text in the name.
     written: String,
-    /// The name without it.
+    /// Name without the unit.
     pub(crate) base: String,
     units: Vec<SourceUnit>,
     is_bracketed: bool,
 }
 
-/// Spellings in small letters without separators, and the units that they may mean.
+/// Lower-case spellings without separators, with their possible units.
 const SPELLINGS: &[(&[&str], &[&str])] = &[
     (&["n", "newton", "newtons"], &["N"]),
     (&["mn", "millinewton", "millinewtons"], &["mN"]),
@@ -145,7 +145,7 @@ const SPELLINGS: &[(&[&str], &[&str])] = &[
     (&["pf", "picofarad"], &["pF"]),
 ];
 
-/// Words that may stand behind a unit of one letter: `force_N_raw`.
+/// Words that may follow a one-letter unit: `force_N_raw`.
 const QUALIFIERS: [&str; 18] = [
     "raw",
     "filtered",
@@ -168,7 +168,7 @@ const QUALIFIERS: [&str; 18] = [
 ];
 
 impl UnitSuffix {
-    /// The unit in `name`, if it says one. Names of a part, as `pose_mm.x` and `/Fz/mN`, are searched from their end.
+    /// Finds the unit in `name`. Names with parts, such as `pose_mm.x` and `/Fz/mN`, are searched from their end.
     pub(crate) fn of(name: &str) -> Option<UnitSuffix> {
         if let Some(found) = in_brackets(name) {
             return Some(found);
@@ -176,7 +176,7 @@ impl UnitSuffix {
         let parts: Vec<&str> = name.split(['.', '/', ':']).collect();
         (0..parts.len()).rev().find_map(|at| {
             let is_last = at + 1 == parts.len();
-            // `Fz/mN`: the part before is what the unit belongs to.
+            // In `Fz/mN` the unit belongs to the part before it.
             let is_alone = is_last && parts[..at].iter().any(|part| !part.is_empty());
             let found = behind_separator(parts[at], is_alone)?;
             let mut others = parts.clone();
@@ -190,18 +190,18 @@ impl UnitSuffix {
         })
     }
 
-    /// The text in the name.
+    /// Unit text in the name.
     pub(crate) fn written(&self) -> &str {
         &self.written
     }
 
-    /// The unit of such a quantity that the name says.
+    /// Unit of the given quantity, if the name may mean one.
     pub(crate) fn of_quantity(&self, quantity: Unit) -> Option<SourceUnit> {
         let mut units = self.units.iter();
         units.find(|unit| unit.unit() == quantity).copied()
     }
 
-    /// The unit that the name says, if it can mean no other.
+    /// Unit of the name, if it is unambiguous.
     pub(crate) fn any_unit(&self) -> Option<SourceUnit> {
         match self.units.as_slice() {
             [only] => Some(*only),
@@ -209,14 +209,14 @@ impl UnitSuffix {
         }
     }
 
-    /// True of a name that says counts or volts.
+    /// True if the unit is counts or volts.
     pub(crate) fn is_unscaled(&self) -> bool {
         let is_raw = |unit: &SourceUnit| matches!(unit.unit(), Unit::Count | Unit::Volt);
         self.units.iter().all(is_raw)
     }
 
-    /// Contradiction between the name and a map that states `unit`; `None` where both agree, or the name says another quantity that may
-    /// be of a neighbour: an array `ft [N]` holds torques too.
+    /// Contradiction between the name and a map that states `unit`. `None` if they agree, or if the name has another quantity: an array `ft
+    /// [N]` also holds torques.
     pub(crate) fn contradiction(&self, unit: &SourceUnit) -> Option<String> {
         let is_same = |own: &SourceUnit| {
             own.unit() == unit.unit() && own.convert(1.0).to_bits() == unit.convert(1.0).to_bits()
@@ -250,7 +250,7 @@ impl UnitSuffix {
     }
 }
 
-/// Units that `text` may mean; none of a text that is no unit.
+/// Possible units of `text`; empty if it is no unit.
 fn units_of(text: &str) -> Vec<SourceUnit> {
     let text = text.trim();
     if text.is_empty()
@@ -264,7 +264,7 @@ fn units_of(text: &str) -> Vec<SourceUnit> {
         .chars()
         .filter(|letter| !matches!(letter, '·' | '*' | '-' | '.' | ' ' | '_' | '⋅'))
         .collect();
-    // Case matters where it is written as units are: `mN` is no `MN`.
+    // Exact case wins: `mN` differs from `MN`.
     for exact in [text, bare.as_str()] {
         let is_small = exact.chars().all(|letter| !letter.is_uppercase());
         if !is_small && let Ok(unit) = SourceUnit::parse(exact) {
@@ -291,7 +291,7 @@ fn units_of(text: &str) -> Vec<SourceUnit> {
         .collect()
 }
 
-/// The unit in the last brackets of `name` that hold one.
+/// Unit in the last brackets of `name` that contain one.
 fn in_brackets(name: &str) -> Option<UnitSuffix> {
     let mut end = name.len();
     while let Some(close) = name[..end].rfind([')', ']', '}', '>']) {
@@ -318,7 +318,7 @@ fn in_brackets(name: &str) -> Option<UnitSuffix> {
     None
 }
 
-/// The unit of a part of a name that stands behind `_`, `-`, a comma or a blank; of a part that is nothing else where `is_alone`.
+/// Unit behind `_`, `-`, a comma or a blank in a part of a name. With `is_alone` the part may be only a unit.
 fn behind_separator(part: &str, is_alone: bool) -> Option<UnitSuffix> {
     let separators = ['_', '-', ' ', ','];
     let mut tokens: Vec<(usize, &str)> = Vec::new();

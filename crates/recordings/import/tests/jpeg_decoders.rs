@@ -1,4 +1,4 @@
-//! How far the pixels of our decoder of JPEG are from those of libjpeg, which most programs decode with: measured on pictures of every kind.
+//! Compares pixels of our JPEG decoder with libjpeg, the most common decoder, on pictures of every kind.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -10,10 +10,10 @@ use taceva_dataset::Dataset;
 use taceva_import::{ImportMap, ImportPlan};
 use taceva_needs::{Need, skip};
 
-/// The greatest difference that `docs/your-recording.md` states, of 255 levels.
+/// Limit of the difference that `docs/your-recording.md` states, of 255 levels.
 const MOST: u8 = 3;
 
-/// What the picture at `path` decodes to here.
+/// Pixels of the picture at `path` from our decoder.
 fn ours(path: &Path, order: &str) -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a folder");
     fs::copy(path, folder.path().join("1.jpg")).expect("copied");
@@ -31,7 +31,7 @@ fn ours(path: &Path, order: &str) -> Vec<u8> {
     frame.bytes().to_vec()
 }
 
-/// What libjpeg's own program decodes it to; `None` where it is not installed.
+/// Pixels of the same picture from libjpeg's own program; `None` if it is not installed.
 fn libjpegs(path: &Path) -> Option<Vec<u8>> {
     let output = Command::new("djpeg")
         .args(["-dct", "int", "-pnm"])

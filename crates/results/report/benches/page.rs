@@ -1,4 +1,4 @@
-//! How long a page takes, from results and samples in memory.
+//! Benchmark of rendering a page from results and samples in memory.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
@@ -11,7 +11,7 @@ fn main() {
     divan::main();
 }
 
-/// The whole page of one sensor.
+/// Whole page of one sensor.
 #[divan::bench(args = [1_000, 100_000], sample_count = 5)]
 fn page(bencher: Bencher<'_, '_>, samples: usize) {
     let studies = [support::drawn("drawn", samples, 1.0)];

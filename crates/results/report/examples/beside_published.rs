@@ -19,11 +19,11 @@ use taceva_report::{FormattedValue, Study, Table, catalogue};
 const METRICS: [&str; 3] = ["mae", "r2", "smape"];
 const CHANNELS: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
 
-/// What an interval of an error is wide, about, and one of a rank correlation: to the twentieth they are printed.
+/// Approximate interval widths of an error and of a rank correlation. Numbers are printed to a twentieth of them.
 const ERROR: f64 = 0.01;
 const TAU: f64 = 0.4;
 
-/// One sensor's number, as it was published and as it was found with one seed.
+/// Number of a sensor: published, and found with one seed.
 #[derive(Clone, Copy, Debug)]
 struct Number {
     published: f64,
@@ -31,7 +31,7 @@ struct Number {
     ends: Option<[f64; 2]>,
 }
 
-/// The studies of each seed, by the name of their sensor.
+/// Studies of each seed, by sensor name.
 type Seeds = BTreeMap<u64, BTreeMap<String, Study>>;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -140,7 +140,7 @@ fn number(name: &str, study: &Study, metric: &str, channel: &str) -> Option<Numb
     })
 }
 
-/// What a cell says of one sensor's number with every seed, and whether their mean is at least as good as published.
+/// Cell for a sensor's number over all seeds. True if their mean is at least as good as the published number.
 fn cell(numbers: &[Number], better: Better) -> (String, bool) {
     let found: Vec<f64> = numbers.iter().map(|number| number.found).collect();
     let (mean, published) = (mean(&found), numbers[0].published);

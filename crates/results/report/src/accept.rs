@@ -1,4 +1,4 @@
-//! Whether results keep to limits, one by one.
+//! Checks results against limits.
 
 mod sheet;
 mod template;
@@ -15,76 +15,76 @@ use crate::number::numeral;
 use crate::results::Study;
 use taceva_results::Interval;
 
-/// The version of limits that is written, and the only one that is read.
+/// Version of limit files, the only one accepted.
 const LIMITS_VERSION: u32 = 1;
 
-/// The limits that a sensor is accepted by.
+/// Limits for the acceptance of a sensor.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LimitsFile {
-    /// 1, also where the file does not say.
+    /// Version of the file; 1 by default.
     #[serde(default = "limits_version")]
     limits_version: u32,
-    /// What the limits are for, such as a production line; may be empty.
+    /// Purpose of the limits, such as a production line; may be empty.
     #[serde(default)]
     pub name: String,
-    /// The limits, in order.
+    /// Limits, in order.
     #[serde(default, rename = "limit")]
     pub limits: Vec<Limit>,
 }
 
-/// A limit of one score.
+/// Limit of one score.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limit {
-    /// The metric, with the name of a variant if it is one: `mae`, `hysteresis.ratio`.
+    /// Metric, followed by the name of a variant if there is one: `mae`, `hysteresis.ratio`.
     pub metric: String,
-    /// The channel or plane.
+    /// Channel or plane.
     pub channel: String,
-    /// The unit of the limit; that of the score must be the same.
+    /// Unit of the limit, which must be that of the score.
     pub unit: String,
-    /// What the score must not exceed.
+    /// Greatest accepted value.
     pub most: Option<f64>,
-    /// What the score must not fall below.
+    /// Least accepted value.
     pub least: Option<f64>,
-    /// Whether the whole interval must keep to the limit, and not the value alone.
+    /// True if the whole interval must meet the limit, instead of the value alone.
     #[serde(default)]
     pub whole_interval: bool,
 }
 
-/// Why limits cannot be read.
+/// Error while reading limits.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LimitsError {
-    /// The file is no TOML, or has other keys than it may have.
+    /// The file is no TOML, or has unknown keys.
     #[error("{0}")]
     Toml(#[from] toml::de::Error),
-    /// A value is none of those that are accepted.
+    /// A value is not accepted.
     #[error("limit {number}: {problem}")]
     Limit {
-        /// The number of the limit in the file, counted from 1; 0 where no single limit is meant.
+        /// Number of the limit in the file, from 1; 0 for an error of the whole file.
         number: usize,
-        /// What is wrong, and what is accepted.
+        /// The problem, with the accepted values.
         problem: String,
     },
 }
 
-/// Whether one limit is kept, and by which value.
+/// Result of checking one limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// The limit.
+    /// Checked limit.
     pub limit: Limit,
-    /// The value, if there is one.
+    /// Value of the score, if there is one.
     pub value: Option<f64>,
     /// Both ends of its interval.
     pub ends: Option<[f64; 2]>,
-    /// How many samples the score is computed from.
+    /// Number of samples behind the score.
     pub n: u64,
-    /// Whether the limit is kept.
+    /// True if the limit is met.
     pub is_kept: bool,
-    /// Why it is not kept, or that it is kept without an interval, in words.
+    /// Reason that the limit is not met, or a remark that it is met without an interval.
     pub reason: Option<String>,
-    /// Whether the score takes part in verdicts, and if not, why; a limit on a score that takes none is not kept.
+    /// Standing of the score. A limit on a score without a part in verdicts counts as not met.
     pub standing: Standing,
 }
 
@@ -93,7 +93,7 @@ fn limits_version() -> u32 {
 }
 
 impl LimitsFile {
-    /// The limits in `text`.
+    /// Parses the limits in `text`.
     ///
     /// ```
     /// use taceva_report::LimitsFile;
@@ -109,7 +109,7 @@ impl LimitsFile {
     /// ```
     ///
     /// # Errors
-    /// [`LimitsError`] with the line or the number of the limit.
+    /// [`LimitsError`] with the line, or the number of the limit.
     pub fn read(text: &str) -> Result<LimitsFile, LimitsError> {
         let file: LimitsFile = toml::from_str(text)?;
         let refuse = |number: usize, problem: String| Err(LimitsError::Limit { number, problem });
@@ -148,7 +148,7 @@ impl LimitsFile {
     }
 }
 
-/// The finding of each limit on the scores of `study`, in the order of the limits. A limit on a score that is missing or has no value is not kept.
+/// Checks each limit on the scores of `study`, in the order of the limits. A missing score or value breaks its limit.
 pub fn accept(study: &Study, limits: &LimitsFile) -> Vec<Finding> {
     limits
         .limits
@@ -175,7 +175,7 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
         finding.reason = Some("there is no such score".to_owned());
         return finding;
     };
-    // A limit without a variant is one on what verdicts go by.
+    // A limit without a variant applies to the variant that decides verdicts.
     let decided_by = score.decided_by().map(|decides| decides.name.as_str());
     let variant = variant.or(decided_by);
     finding.n = score.n;
@@ -210,7 +210,7 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
     finding
 }
 
-/// Whether an interval reaches across the limit.
+/// True if an interval crosses the limit.
 fn is_crossed(limit: &Limit, ends: Option<[f64; 2]>) -> bool {
     ends.is_some_and(|[low, high]| {
         let is_above = limit.most.is_some_and(|most| high > most);
@@ -219,7 +219,7 @@ fn is_crossed(limit: &Limit, ends: Option<[f64; 2]>) -> bool {
     })
 }
 
-/// How a value breaks the limit, if it does.
+/// Describes the violation of a limit; `None` if the value meets it.
 fn broken(limit: &Limit, unit: Unit, value: f64, ends: Option<[f64; 2]>) -> Option<String> {
     if unit.symbol() != limit.unit {
         return Some(format!(

@@ -1,4 +1,4 @@
-//! Benchmarks of models as rows.
+//! Model benchmarks as table rows.
 
 use taceva_metrics::Better;
 
@@ -7,9 +7,9 @@ use crate::results::{ModelBench, ModelRow};
 use crate::table::{Column, Direction, Table};
 
 impl ModelBench {
-    /// One row for each model: its times, and the error of each channel with its interval.
+    /// Table with one row per model: its times, and the error of each channel with its interval.
     pub fn table(&self) -> Table {
-        // Times and errors alike: less is better.
+        // Lower is better for times and errors.
         let lower = |name: String| Column::new(name).direction(Direction::Is(Better::Lower));
         let channels = self.channels();
         let mut columns = vec![Column::new("model")];
@@ -64,7 +64,7 @@ impl ModelRow {
             Some(self.predict_s),
             Some(self.latency_s * 1e3),
         ];
-        // A model that failed took no time that means anything.
+        // The times of a failed model are meaningless.
         let time = |time: Option<f64>| match (time, &self.failed) {
             (Some(time), None) => numeral(time),
             (None, _) | (_, Some(_)) => "–".to_owned(),

@@ -1,4 +1,4 @@
-//! Sensors as data: construction, limits and published numbers, each with its source.
+//! Catalogue of sensors: construction, limits and published numbers, each with its source.
 
 mod alike;
 mod builtin;
@@ -22,7 +22,7 @@ pub use published::{Missing, Published, Roughly, Source};
 pub use question::Question;
 pub use read::CatalogueError;
 
-/// The sensors and studies that come with the program, by name.
+/// Built-in sensors and studies, by name.
 ///
 /// ```
 /// let sensors = taceva_report::catalogue::all();
@@ -46,7 +46,7 @@ pub fn find(name: &str) -> Option<Sensor> {
     named(name).ok()
 }
 
-/// A hint for an unknown `name`.
+/// Hint for an unknown `name`.
 pub fn hint(name: &str) -> String {
     match nearest(name) {
         Some(nearest) => format!("did you mean `{nearest}`? `taceva catalogue list` shows all"),

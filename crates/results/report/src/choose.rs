@@ -1,4 +1,4 @@
-//! Which sensor for a task: hard needs drop, soft ones rank, and every step shows the numbers that decided.
+//! Chooses a sensor for a task: hard needs drop sensors, soft needs rank them, and each step shows its numbers.
 
 mod evidence;
 mod need;
@@ -16,85 +16,84 @@ use taceva_metrics::Standing;
 
 use crate::catalogue::{Kind, Sensor};
 
-/// A shortlist and how it came about.
+/// Shortlist, with the steps that led to it.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// Those that remain, the best first.
+    /// Sensors that meet the needs, the best first.
     pub ranked: Vec<Candidate>,
-    /// Those that would remain, but of which it is not known whether they meet a hard need; in the order of their names.
+    /// Sensors for which a hard need is undecided, as a number is unknown; ordered by name.
     pub open: Vec<Open>,
-    /// Those that a need dropped.
+    /// Sensors that break a hard need.
     pub dropped: Vec<Dropped>,
-    /// Those that are not ranked, because a number that a need uses takes no part in verdicts.
+    /// Unranked sensors, because a number that a need uses takes no part in verdicts.
     pub barred: Vec<Dropped>,
-    /// Sensors of which no number that a need asks for is known.
+    /// Sensors with none of the numbers that the needs use.
     pub unknown: Vec<String>,
-    /// The differences between ranked sensors that tests show; `None` where nothing was tested, as with published numbers.
+    /// Significant differences between ranked sensors; `None` if nothing was tested, as with published numbers.
     pub evidence: Option<Vec<Evidence>>,
-    /// A sentence on those errors, among the numbers that rank, whose labels differ in spread between the sensors.
+    /// Sentence on ranking errors whose labels differ in spread between the sensors.
     pub spread: Option<String>,
-    /// Whether samples behind the numbers are simulated.
+    /// True if samples behind the numbers are simulated.
     pub simulated: bool,
-    /// Sensors whose greatest depth or force a need asks for; both are taken from the catalogue, not from their results.
+    /// Sensors whose greatest depth or force a need uses. Both come from the catalogue instead of results.
     pub limits_of_catalogue: Vec<String>,
 }
 
-/// A sensor that meets every hard need, as far as is known.
+/// Sensor that meets every hard need, as far as known.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// Its name.
+    /// Name of the sensor.
     pub name: String,
-    /// The mean over soft needs of its share of the best; 1 where nothing ranks.
+    /// Mean share of the best over soft needs, 0 to 1; 1 without soft needs.
     pub share: f64,
-    /// Every number that was used.
+    /// Numbers used.
     pub steps: Vec<Step>,
 }
 
-/// One number of one sensor against one need.
+/// One number of a sensor against one need.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// The need as it was given.
+    /// Need as given.
     pub need: String,
-    /// The property: `MAE Fxy`.
+    /// Property: `MAE Fxy`.
     pub property: Property,
-    /// The number; none if it is not known.
+    /// Number; `None` if unknown.
     pub value: Option<f64>,
-    /// Its interval of 95 %, if there is one.
+    /// Interval of 95 %, if there is one.
     pub interval: Option<[f64; 2]>,
-    /// Whether the number takes part in verdicts, and if not, why.
+    /// Standing of the number.
     pub standing: Standing,
-    /// Its share of the best of those that remain; none for hard needs and unknown numbers.
+    /// Share of the best among the remaining sensors; `None` for hard needs and unknown numbers.
     pub share: Option<f64>,
-    /// Whether the need is a hard one, which does not rank.
+    /// True for a hard need, which does not rank.
     pub is_bound: bool,
-    /// Whether the interval of the number reaches beyond the bound of a hard need, which the number itself meets.
+    /// True if the number meets a hard need but its interval crosses the bound.
     pub is_unsure: bool,
 }
 
-/// A sensor of which a hard need asks what is not known.
+/// Sensor with an unknown number for a hard need.
 #[derive(Clone, Debug)]
 pub struct Open {
-    /// Its name.
+    /// Name of the sensor.
     pub name: String,
-    /// The need, and what is not known.
+    /// Need, with the unknown property.
     pub reason: String,
 }
 
-/// A sensor that is not ranked.
+/// Sensor that is not ranked.
 #[derive(Clone, Debug)]
 pub struct Dropped {
-    /// Its name.
+    /// Name of the sensor.
     pub name: String,
-    /// The need that it does not meet, with the number that decided, or why its number takes no part.
+    /// Broken need with the deciding number, or the reason that the number takes no part in verdicts.
     pub reason: String,
 }
 
 /// Chooses among `sensors` for `needs`.
 ///
-/// A hard need drops every sensor whose number is known not to meet it, and sets those apart of which that number is not known: what nobody
-/// knows recommends nothing. A sensor is not ranked if a need uses a score of it that takes no part in verdicts. Studies of sensors are no sensors. A soft need ranks those that remain: a sensor has the share of
-/// the best that its number has, the mean over the numbers of the need; a number that is not known counts as a share of 0, since it
-/// recommends nothing. The rank is the mean over soft needs; equals share a place, and stay in the order of their names.
+/// A hard need drops every sensor whose number breaks it, and sets apart those whose number is unknown. A score without a part in verdicts
+/// bars the sensor from ranking. Studies of sensors are skipped. A soft need ranks the remaining sensors by the mean share of the best over
+/// its numbers; an unknown number counts as 0. The rank is the mean over soft needs. Equal sensors share a place, in order of their names.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose};
@@ -147,7 +146,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     choice
 }
 
-/// The first number of `sensor` that a need uses and that takes no part in verdicts.
+/// First number of `sensor` that a need uses and that takes no part in verdicts.
 fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let properties = needs
         .iter()
@@ -159,7 +158,7 @@ fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     barred.next()
 }
 
-/// The first hard need that `sensor` is known not to meet.
+/// First hard need that `sensor` breaks.
 fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let bounds = needs
         .iter()
@@ -184,7 +183,7 @@ fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     failed.next()
 }
 
-/// The first hard need of which it is not known whether `sensor` meets it.
+/// First hard need for which the number of `sensor` is unknown.
 fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let bounds = needs
         .iter()

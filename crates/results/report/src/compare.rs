@@ -1,4 +1,4 @@
-//! Whether sensors or models differ: every pair, every score, with intervals and in words.
+//! Tests whether sensors or models differ: every pair and score, with intervals and in words.
 
 mod comparability;
 mod estimate;
@@ -26,61 +26,61 @@ use crate::results::Study;
 use remarks::Remarks;
 use taceva_results::Score;
 
-/// What to compare, and how.
+/// Options of a comparison.
 #[derive(Clone, Debug, Default)]
 pub struct CompareRequest {
-    /// The metrics that are compared; all that are one number and better on one side, if empty.
+    /// Metrics to compare. Empty selects all with a single number and a better direction.
     pub metrics: Vec<String>,
-    /// How far apart scores may be and still count as equal, by `mae` or `mae.Fz`; the longer name comes first.
+    /// Equivalence margin by `mae` or `mae.Fz`; the longer name takes precedence.
     pub margins: BTreeMap<String, f64>,
-    /// The seed of the random signs of the sign-flip test.
+    /// Seed of the random signs of the sign-flip test.
     pub seed: u64,
 }
 
-/// One answer for each pair of studies and each score that both have, metric by metric.
+/// Answers for each pair of studies and each common score, metric by metric.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// The names of the studies, in their order.
+    /// Names of the studies, in their order.
     pub names: Vec<String>,
-    /// Every pair of studies that have the same score.
+    /// Answers for every pair of studies with a common score.
     pub answers: Vec<Answer>,
-    /// What a reader must know before comparing them.
+    /// Notes for readers of the comparison.
     pub notes: Vec<String>,
     /// Remarks on the verdicts, by score.
     asides: Vec<Remarks>,
 }
 
-/// One score of two studies.
+/// Comparison of one score between two studies.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// The metric.
+    /// Metric.
     pub metric: String,
-    /// The channel or plane.
+    /// Channel or plane.
     pub channel: String,
-    /// Whether lower or higher scores are better.
+    /// Better direction of the score.
     pub direction: Better,
-    /// The variant of the metric that was compared; `None` where it is the value itself.
+    /// Compared variant of the metric; `None` for the value itself.
     pub decided_by: Option<String>,
-    /// The unit of both scores.
+    /// Unit of both scores.
     pub unit: Unit,
-    /// Both scores, where they are numbers.
+    /// Both scores, if they are numbers.
     pub scores: Sides<Option<f64>>,
-    /// The positions of both studies.
+    /// Positions of both studies.
     pub sides: Sides<usize>,
-    /// What it says: decided by Holm's procedure among all pairs and channels of the metric.
+    /// Verdict by Holm's procedure over all pairs and channels of the metric.
     pub verdict: Verdict,
-    /// The difference behind it, if there is one, with both p values and the interval of the same decision.
+    /// Difference behind the verdict, with both p values and the interval of the same decision.
     pub difference: Option<Difference>,
-    /// Why there is no answer.
+    /// Reason that there is no verdict.
     pub reason: Option<String>,
-    /// Whether each score takes part in verdicts, and if not, why.
+    /// Standing of each score.
     pub standings: Sides<Standing>,
-    /// Whether each score is of one training of a model that draws, so that another seed would move it.
+    /// True for a score from a single training of a model with a random seed.
     pub one_training: Sides<bool>,
 }
 
 impl Answer {
-    /// What it says with the names of the studies in the place of A and B: `MagicTac better by …`.
+    /// Verdict in words, with the names of the studies for A and B: `MagicTac better by …`.
     pub fn words(&self, names: &[String]) -> String {
         match &self.reason {
             Some(reason) => format!("no answer: {reason}"),
@@ -103,7 +103,7 @@ impl Answer {
         }
     }
 
-    /// The studies for which the skill of the model is unknown.
+    /// Studies whose models have an unknown skill.
     fn unknown<'n>(&self, names: &'n [String]) -> Vec<&'n str> {
         let sides = [
             (self.standings.a, self.sides.a),
@@ -115,7 +115,7 @@ impl Answer {
         unknown.map(|(_, at)| names[at].as_str()).collect()
     }
 
-    /// The studies of which one training of a model that draws was scored.
+    /// Studies scored on a single training of a model with a random seed.
     fn drawn<'n>(&self, names: &'n [String]) -> Vec<&'n str> {
         let sides = [
             (self.one_training.a, self.sides.a),
@@ -125,7 +125,7 @@ impl Answer {
         drawn.map(|(_, at)| names[at].as_str()).collect()
     }
 
-    /// The position of the study that is shown to be better.
+    /// Position of the significantly better study.
     pub fn better(&self) -> Option<usize> {
         match self.verdict.better()? {
             Side::A => Some(self.sides.a),
@@ -134,23 +134,23 @@ impl Answer {
     }
 }
 
-/// A pair before its p value is adjusted.
+/// Pair before adjustment of its p value.
 struct Pair<'a> {
     scores: Sides<&'a Score>,
     sides: Sides<usize>,
     difference: Result<Difference, String>,
-    /// The reason why two predictions of one truth were not compared in pairs, in words.
+    /// Reason that two predictions of one truth were not compared in pairs.
     unpaired: Option<String>,
 }
 
 /// Compares every pair of `studies`.
 ///
-/// The mean absolute error is compared sample by sample where both studies predict the same samples (the sign-flip test, by contact point);
-/// everything else by the intervals of both, on their own scales. The pairs and channels of one metric are one family of Holm's
-/// procedure: verdict, p value and interval of an answer come from that one decision.
+/// The mean absolute error is compared sample by sample if both studies predict the same samples (sign-flip test, by contact point). Other
+/// scores are compared by their intervals, on their own scales. The pairs and channels of one metric form one family of Holm's procedure,
+/// which yields verdict, p value and interval of an answer.
 ///
-/// Where a metric names a variant by which verdicts go (`excess` of `r_spatial`, `debiased` of `uniformity`, `pooled` of `repeatability`), that is
-/// what is compared, and its values stand in the answers.
+/// If a metric names a variant for verdicts (`excess` of `r_spatial`, `debiased` of `uniformity`, `pooled` of `repeatability`), the answers
+/// compare and contain that variant.
 pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     let names = crate::names::names(studies);
     let deciding: Vec<Study> = studies.iter().map(Study::deciding).collect();
@@ -180,7 +180,7 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     }
 }
 
-/// That nothing, or not everything, was measured.
+/// Note that some or all samples are simulated.
 fn simulated(studies: &[Study]) -> Option<String> {
     let simulated = studies.iter().filter(|study| study.is_simulated()).count();
     match simulated {
@@ -192,7 +192,7 @@ fn simulated(studies: &[Study]) -> Option<String> {
     }
 }
 
-/// Whose differences rest on one training of a model that draws, with the way to try others.
+/// Note on differences that depend on a single training of a model with a random seed, with the way to try other seeds.
 fn trainings(names: &[String], answers: &[Answer]) -> Option<String> {
     let shown = answers.iter().filter(|answer| answer.better().is_some());
     let drawn: BTreeSet<&str> = shown.flat_map(|answer| answer.drawn(names)).collect();
@@ -220,7 +220,7 @@ fn asides(studies: &[Study], names: &[String], answers: &[Answer]) -> Vec<Remark
     asides
 }
 
-/// The metrics that are asked for and that some study has, in the order of the first.
+/// Requested metrics that a study has, in order of their first appearance.
 fn metrics(studies: &[Study], request: &CompareRequest) -> Vec<String> {
     let mut metrics: Vec<String> = Vec::new();
     for score in studies.iter().flat_map(|study| &study.scores) {
@@ -274,7 +274,7 @@ fn pairs<'a>(
     pairs
 }
 
-/// The difference of two scores, with the reason why two predictions of one truth were not compared in pairs.
+/// Difference of two scores, with the reason that two predictions of one truth were not compared in pairs.
 fn difference(
     scores: Sides<&Score>,
     studies: Sides<&Study>,
@@ -299,7 +299,7 @@ fn difference(
     (difference, unpaired)
 }
 
-/// Decides about those pairs that were tested.
+/// Adjusts and decides the tested pairs together.
 fn decide_together(pairs: &mut [Pair<'_>]) {
     let tested = pairs.iter();
     let tested = tested.filter_map(|pair| pair.difference.as_ref().ok().cloned());

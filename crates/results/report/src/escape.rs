@@ -1,20 +1,20 @@
-//! Foreign text where it cannot do harm: names of sensors, ids of samples and reasons may hold anything.
+//! Escapes foreign text: names of sensors, ids of samples and reasons may contain anything.
 
 use maud::html;
 use taceva_core::is_obeyed;
 
-/// Text that SVG prints as it stands, in elements and in quoted attributes; what it cannot print is shown as `U+FFFD`.
+/// Escaped text for SVG elements and quoted attributes. Unprintable characters become `U+FFFD`.
 pub(crate) fn svg(text: &str) -> String {
     html! { (obeyed_replaced(text)) }.into_string()
 }
 
-/// `U+FFFD` in place of every letter that a reader's program obeys instead of showing it, but for ends of lines and tabs.
+/// Replaces control characters, except line ends and tabs, by `U+FFFD`.
 pub(crate) fn obeyed_replaced(text: &str) -> String {
     let is_replaced = |letter| is_obeyed(letter) && !matches!(letter, '\n' | '\t');
     text.replace(is_replaced, "\u{fffd}")
 }
 
-/// Text that LaTeX prints as it stands.
+/// Escaped text for LaTeX.
 pub fn latex(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
@@ -55,7 +55,7 @@ pub fn latex(text: &str) -> String {
     escaped
 }
 
-/// Text in a cell of a Markdown table that is printed as it stands: on one line, and no markup.
+/// Escaped text for a cell of a Markdown table: one line without markup.
 pub fn markdown(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -73,7 +73,7 @@ pub fn markdown(text: &str) -> String {
     escaped
 }
 
-/// Text for a terminal: by the one rule for foreign names, [`taceva_core::shown`].
+/// Escaped text for a terminal, by [`taceva_core::shown`].
 pub fn terminal(text: &str) -> String {
     taceva_core::shown(text).to_string()
 }

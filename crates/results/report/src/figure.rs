@@ -1,4 +1,4 @@
-//! A figure: marks on a canvas, with a title, what it shows in words, and what a reader must know.
+//! Figure: marks on a canvas, with title, caption and description.
 
 mod canvas;
 mod grid;
@@ -22,44 +22,45 @@ pub(crate) use scale::{Scale, extent};
 pub use svg::STYLE;
 pub(crate) use words::{axis_label, directed, middle_cut, short};
 
-/// A finished figure.
+/// Finished figure.
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// A name for files and links: `sensitivity`.
+    /// Name for files and links: `sensitivity`.
     pub id: String,
-    /// What it is.
+    /// Title.
     pub title: String,
-    /// What a reader must know: what is drawn, of how many samples, what was left out.
+    /// Caption: drawn quantity, number of samples, omissions.
     pub caption: String,
-    /// What the figure shows, in words, for screen readers.
+    /// Content in words, for screen readers.
     pub description: String,
     pub(crate) canvas: Canvas,
 }
 
 impl Figure {
-    /// As SVG for a page whose style holds [`STYLE`].
+    /// SVG for a page whose style contains [`STYLE`].
     pub fn inline(&self) -> String {
         svg::write(self, false)
     }
 
-    /// As SVG that stands alone, on white.
+    /// Standalone SVG on white.
     pub fn svg(&self) -> String {
         svg::write(self, true)
     }
 
-    /// As PDF of one page: vectors, on white, with the glyphs that it uses embedded.
+    /// PDF of one page with vectors on white and embedded glyphs.
     ///
-    /// A letter that no font built in has is drawn as a box with its code point; [`Figure::letters_without_glyph`] names them.
+    /// A letter without a glyph in the built-in fonts becomes a box with its code point; [`Figure::letters_without_glyph`] lists these
+    /// letters.
     pub fn pdf(&self) -> Vec<u8> {
         pdf::write(self)
     }
 
-    /// The letters of its labels that no font built in has, in order of their code points.
+    /// Letters of its labels without a glyph in the built-in fonts, in order of code points.
     pub fn letters_without_glyph(&self) -> BTreeSet<char> {
         pdf::letters_without_glyph(self)
     }
 
-    /// How many marks it consists of: lines, areas, boxes, groups of points and labels.
+    /// Number of marks: lines, areas, boxes, groups of points and labels.
     pub fn marks(&self) -> usize {
         self.canvas.marks.len()
     }

@@ -1,4 +1,4 @@
-//! The figures of results: each a pure function of studies, absent where they have nothing to draw.
+//! Figures of results. Each is a pure function of studies, and absent without data.
 
 mod crosstalk;
 mod gaps;
@@ -24,9 +24,9 @@ pub use race::{Race, RacePoint, race};
 use crate::figure::Figure;
 use crate::results::Study;
 
-/// Every figure that `studies` have something to draw of, in the order of reports.
+/// All figures with data in `studies`, in report order.
 ///
-/// Figures of samples are there where the samples are at hand.
+/// Figures of samples require the samples.
 pub fn figures(studies: &[Study]) -> Vec<Figure> {
     let all = [
         vec![histograms::draw(studies)],
@@ -49,5 +49,5 @@ pub fn figures(studies: &[Study]) -> Vec<Figure> {
     all.into_iter().flatten().flatten().collect()
 }
 
-/// The six channels, in the order of reports.
+/// The six channels, in report order.
 pub(crate) const SIX: [&str; 6] = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"];

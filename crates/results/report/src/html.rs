@@ -1,4 +1,4 @@
-//! One-file pages: open from disk, need no network, and let nothing but their own style and script act.
+//! Single-file pages that open from disk without network access and run only their own style and script.
 
 mod comparison;
 mod data_address;
@@ -35,23 +35,23 @@ use crate::markup::{counted, fold, folded_glossary};
 use crate::results::Study;
 use crate::scores::ScoreTable;
 
-/// What a report shows.
+/// Content of a report.
 #[derive(Clone, Copy, Debug)]
 pub struct Report<'a> {
-    /// The title of the page: the name of the scene or the recording.
+    /// Title of the page: name of the scene or the recording.
     pub title: &'a str,
-    /// The results.
+    /// Results.
     pub studies: &'a [Study],
-    /// Pictures of samples, as [`picks`] asked for them; may be empty.
+    /// Pictures of the samples selected by [`picks`]; may be empty.
     pub pictures: &'a [Picture],
-    /// What each sensor sees, untouched and pressed; may be empty.
+    /// Pictures of each sensor, untouched and pressed; may be empty.
     pub triples: &'a [Triple],
 }
 
-/// The report as one HTML file.
+/// Renders a report as one HTML file.
 ///
-/// It opens from disk, asks for nothing from outside, and its content security policy allows nothing but its own style and script, whose
-/// digests it names. The same results give the same bytes.
+/// The page opens from disk without external requests. Its content security policy allows only its own style and script, by their digests.
+/// Equal results give equal bytes.
 pub fn report(report: &Report<'_>) -> String {
     let studies = report.studies;
     if studies.is_empty() {

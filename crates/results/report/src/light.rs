@@ -1,4 +1,4 @@
-//! What light does to the errors of a sensor: the scenes of its robustness to lighting, and how they are said.
+//! Effect of light on the errors of a sensor: the scenes of its lighting robustness, in numbers and words.
 
 use taceva_metrics::Flag;
 
@@ -6,29 +6,29 @@ use crate::number::numeral;
 use crate::results::Study;
 use taceva_results::{Score, Value};
 
-/// The metric that says it.
+/// Metric of lighting robustness.
 const METRIC: &str = "r_light";
 
-/// The scenes of light of one score.
+/// Light scenes of one score.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Light {
     pub(crate) scenes: Vec<Scene>,
-    /// Whether in some scene the light hardly changed.
+    /// True if the light hardly changed in some scene.
     pub(crate) is_low: bool,
 }
 
-/// One scene beside the untouched light, by predictions as the model gives them.
+/// One scene relative to the reference light, for predictions before limiting to the model's bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scene {
     pub(crate) name: String,
-    /// Brightness over that of untouched light.
+    /// Ratio of brightness to the reference light.
     pub(crate) light: Option<f64>,
-    /// Mean absolute error over that in untouched light.
+    /// Ratio of the mean absolute error to that in reference light.
     pub(crate) error: Option<f64>,
 }
 
 impl Light {
-    /// The scenes of `score`; none of a score of another metric, of planes, and of results that do not say them.
+    /// Scenes of `score`; empty for other metrics, planes, and results without scenes.
     pub(crate) fn of(score: &Score) -> Light {
         let found = score.variant("scenes").filter(|_| score.metric == METRIC);
         let scenes = match found.map(|variant| &variant.value) {
@@ -66,7 +66,7 @@ impl Light {
         ))
     }
 
-    /// `light changed by 0.0089 % to 10.1 %: low stimulus`, where the score is flagged as such.
+    /// `light changed by 0.0089 % to 10.1 %: low stimulus`, if the score has that flag.
     pub(crate) fn low_stimulus(&self) -> Option<String> {
         if !self.is_low {
             return None;
@@ -85,8 +85,8 @@ impl Light {
     }
 }
 
-/// What light does to each study, whichever part its score takes in verdicts: `ViTacTip: errors become 66 to 325 times as large in the lit
-/// scenes`; nothing of other metrics.
+/// Effect of light on each study, whatever its standing: `ViTacTip: errors become 66 to 325 times as large in the lit scenes`. Empty for
+/// other metrics.
 pub(crate) fn words(studies: &[Study], names: &[String], metric: &str, channel: &str) -> String {
     let of_one = |(study, name): (&Study, &String)| {
         let light = Light::of(study.score(metric, channel)?);
@@ -101,7 +101,7 @@ pub(crate) fn words(studies: &[Study], names: &[String], metric: &str, channel: 
     }
 }
 
-/// `66 to 325`, or one number if both are the same to three digits.
+/// `66 to 325`, or one number if both are equal to three digits.
 fn range(low: f64, high: f64) -> String {
     let [low, high] = [low, high].map(numeral);
     match low == high {

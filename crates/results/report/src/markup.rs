@@ -1,4 +1,4 @@
-//! Pieces of pages: scrolling tables, folds, links of metrics and their glossary.
+//! Parts of pages: scrolling tables, folds, links of metrics and their glossary.
 
 mod fold;
 mod glossary;

@@ -1,9 +1,9 @@
-//! Names of studies, and names in a row of words.
+//! Names of studies, and lists of names in words.
 
 use crate::figure::short;
 use crate::results::Study;
 
-/// The names of studies, made distinct where sensors have the same name.
+/// Names of the studies, made distinct if sensors share a name.
 pub fn names(studies: &[Study]) -> Vec<String> {
     let name = |(at, study): (usize, &Study)| {
         let same = |other: &&Study| other.sensor == study.sensor;
@@ -25,7 +25,7 @@ pub fn names(studies: &[Study]) -> Vec<String> {
     studies.iter().enumerate().map(name).collect()
 }
 
-/// Names in a row of words: `A, B and C`.
+/// Names as a list in words: `A, B and C`.
 pub(crate) fn listed(names: &[String]) -> String {
     match names {
         [] => String::new(),

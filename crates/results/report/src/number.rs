@@ -1,31 +1,31 @@
-//! Numbers as people read them: as many digits as their interval supports, no minus before a zero, and no rounding error as a result.
+//! Formats numbers: as many digits as the interval supports, no negative zero, no rounding errors.
 
 use taceva_core::Unit;
 
 use taceva_results::{Interval, Score, Value};
 
-/// What is smaller is what rounding leaves of zero, in any of our units: a millionth of a nanometre, of a piconewton, of a microsecond.
+/// Limit below which a number is a rounding error of zero, in any unit: a millionth of a nanometre, piconewton or microsecond.
 const ROUNDING: f64 = 1e-12;
-/// Decimals beyond which small numbers are written with a power of ten.
+/// Number of decimals beyond which small numbers are written with a power of ten.
 const MOST: usize = 6;
-/// Numbers from here on are never written with a power of ten for being small.
+/// Lower limit of numbers that are always written without a negative power of ten.
 const SMALL: f64 = 1e-4;
-/// Decimals more than its width asks for that an interval has where an end would print as 0 without being 0.
+/// Limit of additional decimals of an interval with an end that would otherwise print as 0.
 const BEYOND: usize = 3;
 
-/// A value and the ends of its interval, to the digit that the interval supports.
+/// Value and interval, formatted to the digits that the interval supports.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FormattedValue {
-    /// The value; empty if there is none.
+    /// Value; empty if there is none.
     pub value: String,
     /// Both ends of the interval, if there is one.
     pub interval: Option<[String; 2]>,
-    /// Why there is no value, or no interval.
+    /// Reason that the value or the interval is absent.
     pub reason: Option<String>,
 }
 
 impl FormattedValue {
-    /// Prints `value` to a twentieth of the width of `interval`; without one to four digits.
+    /// Formats `value` to a twentieth of the width of `interval`, or to four digits without one.
     pub fn of(value: &Value, interval: Option<&Interval>) -> FormattedValue {
         let Some(number) = value.number() else {
             return FormattedValue {
@@ -43,10 +43,10 @@ impl FormattedValue {
         }
     }
 
-    /// Prints a number to a twentieth of the width between `ends`; without them, or if they are equal, to four digits.
+    /// Formats a number to a twentieth of the width between `ends`, or to four digits if they are absent or equal.
     ///
-    /// Numbers below 10⁻¹² are rounding errors and print as 0; a minus never stands before a zero. An end that is not 0 never prints as 0:
-    /// the interval has up to three more decimals then, and what they do not show has a power of ten.
+    /// Numbers below 10⁻¹² are rounding errors and print as 0, and zeros have no minus sign. An end other than 0 never prints as 0: the
+    /// interval gets up to three more decimals, then a power of ten.
     ///
     /// ```
     /// use taceva_report::FormattedValue;
@@ -56,7 +56,7 @@ impl FormattedValue {
     pub fn number(number: f64, ends: Option<[f64; 2]>) -> FormattedValue {
         let all = ends.into_iter().flatten().chain([number]);
         let greatest = all.map(f64::abs).fold(0.0, f64::max);
-        // A width that is rounding error is none.
+        // A width of rounding-error size counts as absent.
         let widths = ends.map(|[low, high]| (high - low) / 20.0);
         let width = widths.filter(|width| *width > greatest * 1e-9);
         let step = width.unwrap_or(number / 1e3).abs();
@@ -85,7 +85,7 @@ impl FormattedValue {
         }
     }
 
-    /// Value, unit and interval in a row, `0.55 mm (0.34 … 0.76)`; or why there is none.
+    /// Value, unit and interval in one phrase, `0.55 mm (0.34 … 0.76)`, or the reason that the value is absent.
     pub fn phrase(&self, unit: &str) -> String {
         match (&self.interval, &self.reason) {
             _ if self.value.is_empty() => self.reason.clone().unwrap_or_default(),
@@ -95,12 +95,12 @@ impl FormattedValue {
     }
 }
 
-/// A score as one phrase: `0.55 mm (0.34 … 0.76)`, or why there is none.
+/// Score as one phrase: `0.55 mm (0.34 … 0.76)`, or the reason that the value is absent.
 pub fn with_interval(score: &Score) -> String {
     FormattedValue::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit))
 }
 
-/// ` N`, or nothing for a ratio.
+/// Unit behind a space, ` N`; empty for a ratio.
 pub fn spaced(unit: Unit) -> String {
     match unit {
         Unit::One => String::new(),
@@ -108,12 +108,12 @@ pub fn spaced(unit: Unit) -> String {
     }
 }
 
-/// A number with `decimals` decimals; one that is 0 to them has no sign.
+/// Number with `decimals` decimals, without a minus sign if they are all 0.
 pub(crate) fn fixed(number: f64, decimals: usize) -> String {
     unsigned_zero(format!("{number:.decimals$}"))
 }
 
-/// A number with three digits, as figures have room for, a true minus and no idle zeros; rounding errors are 0.
+/// Number with three digits for figures, a typographic minus and no trailing zeros. Rounding errors become 0.
 pub(crate) fn numeral(number: f64) -> String {
     match number.abs() < ROUNDING {
         true => "0".to_owned(),
@@ -121,7 +121,7 @@ pub(crate) fn numeral(number: f64) -> String {
     }
 }
 
-/// A number with three digits however small it is, as probabilities are.
+/// Number with three significant digits at any magnitude, as for probabilities.
 pub(crate) fn significant(number: f64) -> String {
     let size = number.abs();
     if size <= 0.0 {
@@ -132,7 +132,7 @@ pub(crate) fn significant(number: f64) -> String {
     } else {
         let decimals = (0..8).find(|&decimals| size * 10_f64.powi(decimals) >= 100.0);
         let text = fixed(number, decimals.map_or(8, i32_to_usize));
-        // Zeros that rounding made say how exact the number is: 0.9997 is 1.000, and 1 is 1.
+        // Zeros from rounding indicate precision: 0.9997 becomes 1.000, and 1 stays 1.
         let is_exact = text
             .parse::<f64>()
             .is_ok_and(|shown| (shown - number).abs() <= size * 1e-9);
@@ -147,7 +147,7 @@ pub(crate) fn significant(number: f64) -> String {
     }
 }
 
-/// A probability of at least 0.0001 with three digits, rounded up: never less than it is.
+/// Probability of at least 0.0001 with three digits, rounded up.
 pub(crate) fn at_most(probability: f64) -> String {
     let decimals = (0..8).find(|&decimals| probability * 10_f64.powi(decimals) >= 100.0);
     let steps = 10_f64.powi(decimals.unwrap_or(8));
@@ -160,12 +160,12 @@ pub(crate) fn at_most(probability: f64) -> String {
     significant(whole / steps)
 }
 
-/// With a true minus for a reader's eye.
+/// Replaces hyphens by the typographic minus.
 pub(crate) fn minus(text: &str) -> String {
     text.replace('-', "−")
 }
 
-/// A number with a power of ten, to the place of `decimals`.
+/// Number with a power of ten, accurate to `decimals` decimals.
 fn powered(number: f64, decimals: usize) -> String {
     let zeros = (0..).find(|&zeros| number.abs() * 10_f64.powi(zeros) >= 1.0 || zeros > 12);
     let zeros = zeros.map_or(0, i32_to_usize);
@@ -182,7 +182,7 @@ fn unsigned_zero(text: String) -> String {
     }
 }
 
-/// Whether it shows no digit but zeros before a power of ten.
+/// True if all digits before a power of ten are zeros.
 fn is_zero(text: &str) -> bool {
     let digits = text.split('e').next().unwrap_or_default();
     !digits.contains(|letter| ('1'..='9').contains(&letter))
@@ -201,7 +201,7 @@ fn what(value: &Value) -> &'static str {
     }
 }
 
-/// Decimals that show a step of `step`, from 0 to 15.
+/// Number of decimals that resolve a step of `step`, from 0 to 15.
 fn decimals(step: f64) -> usize {
     let found = (0..15).find(|&decimals| 10_f64.powi(-decimals) <= step);
     found.map_or(15, i32_to_usize)

@@ -1,4 +1,4 @@
-//! Results as pages and tables need them.
+//! Results in the form that pages and tables need.
 
 mod model_bench;
 mod provenance;
@@ -12,48 +12,48 @@ pub(crate) use standing::by_published_r2;
 use taceva_metrics::catalogue;
 use taceva_results::{EvaluationReport, OverSeeds, Provenance, ResultsError, Samples, Score, Skip};
 
-/// Definition of numbers that were published without one.
+/// Definition of numbers published without one.
 pub(crate) const PUBLISHED: &str = "published";
 
-/// Results of one sensor: an [`EvaluationReport`], or published numbers, as a reader sees them.
+/// Results of one sensor, from an [`EvaluationReport`] or from published numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Study {
-    /// The sensor model.
+    /// Sensor model.
     pub sensor: String,
-    /// The serial number of the unit, or `unknown`.
+    /// Serial number of the unit, or `unknown`.
     pub serial: String,
-    /// The id of the gel, or `unknown`.
+    /// Id of the gel, or `unknown`.
     pub gel: String,
-    /// The origin of the samples: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
+    /// Origin of the samples: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
     pub source: String,
-    /// Every score, in the order of reports.
+    /// Scores in report order.
     pub scores: Vec<Score>,
-    /// Metrics that were skipped, with the reasons.
+    /// Skipped metrics with the reasons.
     pub skipped: Vec<Skip>,
-    /// Provenance as names and texts, in the order of the file.
+    /// Provenance as names and texts, in file order.
     pub provenance: Vec<(String, String)>,
-    /// Entries of the provenance that the paragraph on methods reads one by one.
+    /// Provenance entries that the methods paragraph uses individually.
     pub made: Made,
-    /// Notes for a reader.
+    /// Notes for readers.
     pub notes: Vec<String>,
-    /// The scores with other seeds of the training, where the model was fitted with several.
+    /// Scores with other training seeds, if the model was fitted with several.
     pub over_seeds: Option<OverSeeds>,
-    /// The samples, where they are at hand; figures that need them are skipped otherwise.
+    /// Samples, if available; figures that need them are skipped otherwise.
     pub samples: Option<Samples>,
 }
 
 /// Model, samples and presses behind a result.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Made {
-    /// The name of the model: `ridge`.
+    /// Name of the model: `ridge`.
     pub model: Option<String>,
-    /// The settings of the model, chosen ones included, by name.
+    /// Settings of the model by name, including selected ones.
     pub settings: Vec<(String, String)>,
-    /// The number of samples of each part of the split, by its name: `train`, `validation`, `test`.
+    /// Number of samples by part of the split: `train`, `validation`, `test`.
     pub samples: Vec<(String, u64)>,
-    /// The number of presses of the recording, whatever their outcome; 0 where the result states none.
+    /// Number of presses in the recording, whatever their outcome; 0 if the result states none.
     pub presses: u64,
-    /// The digest of the table of truth, where two tables were scored.
+    /// Digest of the truth table, if two tables were scored.
     pub truth: Option<String>,
     /// The part that was scored, if the model was fitted on it or its settings were chosen on it.
     pub seen_part: Option<String>,
@@ -104,22 +104,22 @@ fn seen_part(provenance: &Provenance) -> Option<String> {
 }
 
 impl Study {
-    /// The evaluations in `text`, the JSON of `evaluate`, `score` or `run`.
+    /// Parses the evaluations in `text`, the JSON of `evaluate`, `score` or `run`.
     ///
     /// # Errors
-    /// Those of [`taceva_results::read`].
+    /// Errors of [`taceva_results::read`].
     pub fn read(text: &str) -> Result<Vec<Study>, ResultsError> {
         let reports = taceva_results::read(text)?;
         Ok(reports.into_iter().map(Study::from).collect())
     }
 
-    /// The score of one metric and channel or plane.
+    /// Score of a metric and a channel or plane.
     pub fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == metric && score.channel == channel)
     }
 
-    /// The study as verdicts see it: each score has the value and the interval of the variant that decides.
+    /// Study for verdicts: each score has the value and interval of its deciding variant.
     pub(crate) fn deciding(&self) -> Study {
         Study {
             scores: self.scores.iter().map(Score::deciding).collect(),
@@ -127,26 +127,26 @@ impl Study {
         }
     }
 
-    /// The scores of one metric.
+    /// Scores of one metric.
     pub fn of_metric<'a>(&'a self, metric: &'a str) -> impl Iterator<Item = &'a Score> {
         let scores = self.scores.iter();
         scores.filter(move |score| score.metric == metric)
     }
 
-    /// Whether scores of `metric` are of one training of a model that draws: with another seed they would be others.
+    /// True if scores of `metric` depend on a single training of a model with a random seed.
     pub(crate) fn is_one_training(&self, metric: &str) -> bool {
         let reads = catalogue::find(metric).is_some_and(|metric| metric.reads_predictions());
         let draws = self.made.settings.iter().any(|(key, _)| key == "seed");
         reads && draws && self.over_seeds.is_none()
     }
 
-    /// Whether its samples are simulated or synthetic, so that no real sensor was pressed.
+    /// True if its samples are simulated or synthetic, without a real sensor.
     pub fn is_simulated(&self) -> bool {
         matches!(self.source.as_str(), "simulated" | "synthetic")
     }
 }
 
-/// The studies in a result that is sealed here.
+/// Seals `text` and parses its studies.
 #[cfg(test)]
 pub(crate) fn unsealed(text: &str) -> Result<Vec<Study>, ResultsError> {
     let sealed = taceva_files::seal::json::seal(text).expect("an object");

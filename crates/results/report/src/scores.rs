@@ -1,4 +1,4 @@
-//! The scores of studies side by side: a row a score, a column a study; and its forms for papers and programs.
+//! Scores of studies side by side, one row per score and one column per study, with forms for papers and programs.
 
 mod forms;
 mod main;
@@ -12,63 +12,63 @@ use crate::number::{FormattedValue, fixed};
 use crate::results::Study;
 use taceva_results::{Interval, Score, Value};
 
-/// The scores of studies side by side.
+/// Scores of studies side by side.
 #[derive(Clone, Debug)]
 pub struct ScoreTable {
-    /// The names of the studies, in their order.
+    /// Names of the studies, in their order.
     pub names: Vec<String>,
-    /// Where the samples of each come from: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
+    /// Sample origin of each study: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
     pub sources: Vec<String>,
-    /// The rows, in the order of the catalogue.
+    /// Rows in catalogue order.
     pub rows: Vec<ScoreRow>,
-    /// How each score compares between each two studies.
+    /// Comparison of each score between each pair of studies.
     pub answers: Vec<Answer>,
-    /// Which channels have labels of different spread, in a sentence; none where all are alike.
+    /// Sentence on channels whose labels differ in spread; `None` if there are none.
     pub(crate) spread: Option<String>,
 }
 
-/// One score of every study.
+/// One score of all studies.
 #[derive(Clone, Debug)]
 pub struct ScoreRow {
-    /// The metric, with the name of the variant: `mae`, `r_spatial.within`.
+    /// Metric, followed by the name of the variant: `mae`, `r_spatial.within`.
     pub metric: String,
-    /// The channel or plane.
+    /// Channel or plane.
     pub channel: String,
-    /// The unit that all cells have.
+    /// Unit of all cells.
     pub unit: Unit,
-    /// Whether it is the score itself and not one of its variants.
+    /// True for the score itself, false for a variant.
     pub is_headline: bool,
-    /// One cell for each study; `None` for a study without the score.
+    /// One cell per study; `None` for a study without the score.
     pub cells: Vec<Option<ScoreCell>>,
 }
 
-/// A score of one study.
+/// Score of one study.
 #[derive(Clone, Debug)]
 pub struct ScoreCell {
-    /// The number itself, if there is one.
+    /// Number, if there is one.
     pub value: Option<f64>,
-    /// Value and interval as they are printed.
+    /// Value and interval as printed.
     pub formatted: FormattedValue,
     /// Both ends of its interval.
     pub ends: Option<[f64; 2]>,
-    /// How the interval was found.
+    /// Method of the interval.
     pub method: Option<String>,
-    /// Degrees of freedom of Student's t that the ends were made with, where the result says so.
+    /// Degrees of freedom of Student's t for the interval, if the result states them.
     pub degrees_of_freedom: Option<f64>,
-    /// How many samples it is computed from.
+    /// Number of samples.
     pub n: u64,
-    /// Samples left out because a value was no usable number.
+    /// Number of samples excluded for an unusable value.
     pub n_invalid: u64,
-    /// Whether it takes part in verdicts.
+    /// Standing in verdicts.
     pub standing: Standing,
-    /// Which share of its predictions lie beyond the bounds of the model, where that is known.
+    /// Share of predictions beyond the bounds of the model, if known.
     pub bounded_share: Option<f64>,
-    /// Whether it is shown to be better than every other cell of its row that takes part, at a level of 5 % after Holm's adjustment.
+    /// True if significantly better than every other cell of the row that takes part, at 5 % after Holm's adjustment.
     pub is_best: bool,
 }
 
 impl ScoreTable {
-    /// Every score and every variant that is one number.
+    /// Table of all scores and all variants with a single number.
     pub fn of(studies: &[Study]) -> ScoreTable {
         let mut rows: Vec<ScoreRow> = Vec::new();
         for (at, study) in studies.iter().enumerate() {
@@ -83,7 +83,7 @@ impl ScoreTable {
             let place = catalogue::ALL.iter().position(|known| known.id == metric);
             place.unwrap_or(usize::MAX)
         };
-        // Metrics that nobody knows come last, in the order in which they were met.
+        // Unknown metrics come last, in order of appearance.
         rows.sort_by_key(order);
         let answers = compare(studies, &CompareRequest::default()).answers;
         if studies.len() > 1 {
@@ -98,7 +98,7 @@ impl ScoreTable {
         }
     }
 
-    /// The scores themselves, of planes where there are any, without variants: what fits a page of a paper.
+    /// Scores without variants, of planes if there are any, to fit a page of a paper.
     #[must_use]
     pub fn headlines(&self) -> ScoreTable {
         const IN_PLANES: [(&str, &str); 4] =
@@ -123,7 +123,7 @@ impl ScoreTable {
     }
 }
 
-/// A number of a score, or the reason why there is none.
+/// Number of a score, or the reason that it is absent.
 struct Line<'a> {
     metric: String,
     score: &'a Score,
@@ -133,7 +133,7 @@ struct Line<'a> {
     is_headline: bool,
 }
 
-/// The score and its variants that are one number; maps and curves are for figures.
+/// The score and its single-number variants. Maps and curves appear in figures.
 fn lines(score: &Score) -> Vec<Line<'_>> {
     let mut lines = vec![Line {
         metric: score.metric.clone(),
@@ -164,7 +164,7 @@ impl Line<'_> {
     fn enter(&self, at: usize, studies: usize, rows: &mut Vec<ScoreRow>) {
         let is_mine = |row: &ScoreRow| {
             let is_named = row.metric == self.metric && row.channel == self.score.channel;
-            // What has no value has no unit either, and stands in the row of those that have.
+            // A score without a value has no unit, and joins the row of those that have one.
             let has_value = self.value.number().is_some();
             is_named && (row.unit == self.unit || !has_value || row.is_without_value())
         };
@@ -207,12 +207,12 @@ impl ScoreRow {
 }
 
 impl ScoreCell {
-    /// Whether it has a value that takes part in verdicts.
+    /// True if it has a value that takes part in verdicts.
     pub fn takes_part(&self) -> bool {
         self.value.is_some() && self.standing.takes_part()
     }
 
-    /// What a reader must know of its standing, in words: `no skill`, `bounded (12 %)`; none of a cell that simply counts.
+    /// Remark on its standing: `no skill`, `bounded (12 %)`; `None` for a cell that counts without remark.
     pub fn remark(&self) -> Option<String> {
         let words = self.standing.words().filter(|_| self.value.is_some())?;
         let share = self
@@ -225,7 +225,7 @@ impl ScoreCell {
     }
 }
 
-/// Which mean absolute errors are of labels of different spread.
+/// Sentence on mean absolute errors whose labels differ in spread.
 fn spread(studies: &[Study], rows: &[ScoreRow]) -> Option<String> {
     let errors = rows
         .iter()
@@ -236,7 +236,7 @@ fn spread(studies: &[Study], rows: &[ScoreRow]) -> Option<String> {
     crate::spread::note(studies, &crate::names::names(studies), &errors)
 }
 
-/// Marks the cell of each row that is shown to be better than all others that take part.
+/// Marks the cell of each row that is significantly better than all others that take part.
 fn mark_best(rows: &mut [ScoreRow], answers: &[Answer]) {
     for row in rows.iter_mut().filter(|row| row.is_headline) {
         let is_of_row =

@@ -1,6 +1,6 @@
-//! Digests as people read them: the first digits of each.
+//! Shortens digests for display.
 
-/// `text` with the first 12 digits of each digest in it; files hold all 64.
+/// `text` with each digest cut to its first 12 of 64 digits.
 #[must_use]
 pub fn short_digests(text: &str) -> String {
     const DIGITS: usize = 64;

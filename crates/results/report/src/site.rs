@@ -1,4 +1,4 @@
-//! The catalogue as a static site: a list that filters and sorts, and one page for each sensor, whose file name does not change.
+//! Catalogue as a static site: a sortable, filterable list, and one page per sensor with a stable file name.
 
 use maud::{Markup, html};
 
@@ -11,16 +11,16 @@ use crate::results::Study;
 
 const TITLE: &str = "Catalogue of vision-based tactile sensors";
 
-/// A file of the site.
+/// File of the site.
 #[derive(Clone, Debug)]
 pub struct SitePage {
-    /// Its name: `index.html`, `vitactip.html`.
+    /// File name: `index.html`, `vitactip.html`.
     pub file: String,
-    /// Its content, as HTML.
+    /// Content as HTML.
     pub text: String,
 }
 
-/// The pages of the site: the list first. `ours` are results of this program, which stand apart.
+/// Pages of the site, the list first. `ours` are results of this program, shown separately.
 pub fn site(sensors: &[Sensor], ours: &[Study]) -> Vec<SitePage> {
     let mut pages = vec![SitePage {
         file: "index.html".to_owned(),
@@ -59,7 +59,7 @@ fn index(sensors: &[Sensor], ours: &[Study]) -> String {
     document.finish()
 }
 
-/// Every sensor, with the filters of the list.
+/// List of all sensors with its filters.
 fn list<'a>(sensors: impl Iterator<Item = &'a Sensor>) -> Markup {
     let mechanisms = [
         ("imm", "IMM: intensity"),
@@ -132,7 +132,7 @@ fn row(sensor: &Sensor) -> Markup {
     }
 }
 
-/// Of how many properties the work itself says that it reports them.
+/// Number of properties that the work reports.
 fn properties_reported(entry: &Sensor) -> usize {
     let words = entry.reported.values();
     words.filter(|word| *word == "yes").count()

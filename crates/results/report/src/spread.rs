@@ -1,11 +1,11 @@
-//! The spread of labels of sensors: where labels vary little, errors in units are small.
+//! Spread of labels between sensors. If labels vary little, errors in units are small.
 
 use taceva_core::Unit;
 
 use crate::number::{numeral, spaced};
 use crate::results::Study;
 
-/// Metrics whose values follow the spread of the labels, and of which part of the protocol these labels are.
+/// Metrics whose values depend on label spread, with the part of the protocol that supplies the labels.
 const OF_LABELS: [(&str, &str); 9] = [
     ("mae", CALIBRATION),
     ("mae_euclid", CALIBRATION),
@@ -14,16 +14,16 @@ const OF_LABELS: [(&str, &str); 9] = [
     ("tolerance", CALIBRATION),
     ("r_spatial", "spatial"),
     ("repeatability", "repeatability"),
-    // Nothing is pressed there: what noise a model makes of that follows what it has learnt from.
+    // Nothing is pressed there, and the model's noise depends on its training labels.
     ("noise_equivalent_force", CALIBRATION),
     ("hysteresis", "load-unload"),
 ];
 const CALIBRATION: &str = "calibration";
-/// Spreads that differ by a greater factor are reported.
+/// Ratio of spreads above which a difference is reported.
 const ALIKE: f64 = 2.0;
 
-/// ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)`, where scores of those studies that are at `which` are compared
-/// and the labels of one spread more than twice as far as those of another; else nothing.
+/// ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)` for the compared studies at `which`, if label spreads differ
+/// by more than a factor of two; otherwise empty.
 pub(crate) fn words(
     studies: &[Study],
     names: &[String],
@@ -37,7 +37,7 @@ pub(crate) fn words(
     }
 }
 
-/// The scores among `scores`, metric and channel each, whose labels spread differently, in a sentence for below a table; none where all are alike.
+/// Sentence on those of `scores` (metric and channel) whose labels differ in spread, for below a table; `None` if there are none.
 pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)]) -> Option<String> {
     let all: Vec<usize> = (0..studies.len()).collect();
     let differing = scores.iter().filter_map(|(metric, channel)| {
@@ -57,8 +57,8 @@ pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)])
     })
 }
 
-/// `labels` and `ViTacTip 0.047 N to GelSightWM 0.174 N`, where those of one spread more than twice as far as those of another: the labels of the
-/// part of the protocol that the metric is made of, or, where samples of it are absent, `labels of calibration`.
+/// Returns `labels` and `ViTacTip 0.047 N to GelSightWM 0.174 N` if label spreads differ by more than a factor of two. The labels are those
+/// of the metric's part of the protocol or, without samples of it, `labels of calibration`.
 fn range(
     studies: &[Study],
     names: &[String],
@@ -90,7 +90,7 @@ fn range(
     (most.1 > ALIKE * least.1).then(|| (labels, range()))
 }
 
-/// Names, spreads of labels and units of those that have any.
+/// Names, label spreads and units of the studies with a known spread.
 fn spreads<'a>(
     studies: &[Study],
     names: &'a [String],
@@ -107,8 +107,8 @@ fn spreads<'a>(
     (!found.is_empty()).then_some(found)
 }
 
-/// How far the labels of a channel lie about their mean in a part of the protocol, of a plane the mean of both axes: from the samples, and without
-/// them, of the calibration, the root mean square error over √(1 − R²), which planes do not have.
+/// Standard deviation of a channel's labels in a part of the protocol; for a plane the mean over both axes. Without samples it is that of
+/// the calibration: the root mean square error over √(1 − R²), which planes do not have.
 fn spread(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let axes = match channel {
         "Pxy" => ["Px", "Py"],
@@ -129,7 +129,7 @@ fn of_channel(study: &Study, part: &str, channel: &str) -> Option<f64> {
     found.or_else(|| of_scores().filter(|_| part == CALIBRATION))
 }
 
-/// The standard deviation of the labels of a channel over a part of the protocol.
+/// Standard deviation of a channel's labels over a part of the protocol.
 fn of_samples(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let samples = study.samples.as_ref()?;
     let labels = samples.channel(channel)?;
@@ -137,7 +137,7 @@ fn of_samples(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let predicted = rows.iter().filter_map(|row| labels.pair(*row));
     let mut truths: Vec<f64> = predicted.map(|[truth, _]| truth).collect();
     if truths.is_empty() {
-        // Metrics of the truth alone ask for no prediction.
+        // Metrics of the truth alone need no prediction.
         let known = rows.iter().filter_map(|row| labels.truth(*row));
         truths = known.collect();
     }
@@ -181,7 +181,7 @@ mod tests {
         let said = |which: &[usize], metric: &str| words(&studies, &names, which, metric, "Fxy");
         let expected = " (their labels differ in spread: a 0.04 N to b 0.17 N)";
         assert_eq!(said(&[0, 1, 2], "mae"), expected);
-        // Without samples nobody knows the labels of the repeated presses.
+        // Without samples, the labels of the repeated presses are unknown.
         let of_calibration =
             " (their labels of calibration differ in spread: a 0.04 N to b 0.17 N)";
         assert_eq!(said(&[0, 1, 2], "repeatability"), of_calibration);

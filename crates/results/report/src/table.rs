@@ -1,4 +1,4 @@
-//! Tables: typed columns and cells, and one renderer for each format.
+//! Tables: typed columns and cells, with a renderer for each format.
 
 mod cell;
 mod column;
@@ -17,7 +17,7 @@ pub use words::Words;
 
 use taceva_metrics::Better;
 
-/// Rows of cells below the heads of columns.
+/// Table with heads and rows.
 ///
 /// # Shapes
 /// Every row has one cell for each column.
@@ -31,36 +31,36 @@ use taceva_metrics::Better;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
-    /// The title; text and LaTeX leave an empty one out.
+    /// Title; omitted in text and LaTeX if empty.
     pub caption: String,
-    /// The columns.
+    /// Columns.
     pub columns: Vec<Column>,
-    /// The rows.
+    /// Rows.
     pub rows: Vec<Row>,
     /// Remarks below the rows.
     pub notes: Vec<Words>,
 }
 
-/// One row of a table.
+/// Row of a table.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Row {
-    /// A cell for each column.
+    /// One cell per column.
     pub cells: Vec<Cell>,
-    /// Whether lower or higher values of this row are better; used with a column of [`Direction::OfRows`].
+    /// Better direction of this row, for a column of [`Direction::OfRows`].
     pub better: Option<Better>,
-    /// Whether LaTeX sets this row apart from the one above it.
+    /// True if LaTeX separates this row from the previous one.
     pub begins_group: bool,
 }
 
 impl Row {
-    /// What each cell says, without markup.
+    /// Text of each cell without markup.
     pub fn plain(&self) -> Vec<String> {
         self.cells.iter().map(Cell::plain).collect()
     }
 }
 
 impl Table {
-    /// A table without rows.
+    /// Table without rows.
     pub fn new<C: Into<Column>>(
         caption: impl Into<String>,
         columns: impl IntoIterator<Item = C>,
@@ -72,7 +72,7 @@ impl Table {
         }
     }
 
-    /// Adds a row. In a table with a column of [`Direction::OfMetrics`] the direction is that of the metric.
+    /// Adds a row. A column of [`Direction::OfMetrics`] sets its direction by the metric.
     pub fn push<C: Into<Cell>>(&mut self, cells: impl IntoIterator<Item = C>) {
         let cells: Vec<Cell> = cells.into_iter().map(Into::into).collect();
         let column = self.column_of(Direction::OfMetrics);
@@ -81,7 +81,7 @@ impl Table {
         self.push_directed(better, cells);
     }
 
-    /// Adds a row of which lower or higher numbers are better, as `better` says.
+    /// Adds a row with the better direction `better`.
     pub fn push_directed<C: Into<Cell>>(
         &mut self,
         better: Option<Better>,
@@ -99,13 +99,13 @@ impl Table {
         self.notes.push(words.into());
     }
 
-    /// The position of the first column with such a direction.
+    /// Position of the first column with this direction.
     fn column_of(&self, direction: Direction) -> Option<usize> {
         let mut columns = self.columns.iter();
         columns.position(|column| column.direction == direction)
     }
 
-    /// Whether the numbers of a column stand to the right: as it says, or because it holds at least one number and nothing but numbers.
+    /// True if a column is right-aligned: as set, or if it holds only numbers and at least one.
     fn is_right(&self, column: usize) -> bool {
         match self.columns[column].align {
             Align::Left => false,
@@ -118,7 +118,7 @@ impl Table {
         }
     }
 
-    /// The words of a row as people read them: with the sign of the direction behind the cell that names what the row is of.
+    /// Words of a row for readers, with the direction sign behind the cell that names the row.
     fn words_of(&self, row: &Row) -> Vec<Words> {
         let cells = self.columns.iter().zip(&row.cells);
         let cells = cells.map(|(column, cell)| {
@@ -128,7 +128,7 @@ impl Table {
         cells.collect()
     }
 
-    /// The heads of the columns and the cells of every row as programs read them: the direction is a word in a column `better`.
+    /// Column heads and cells for programs, with the direction as a word in a column `better`.
     fn for_programs(&self) -> (Vec<String>, Vec<Vec<Cell>>) {
         let directed = self.columns.iter();
         let directed = directed.map(|column| column.direction.is_by_row());

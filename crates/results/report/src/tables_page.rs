@@ -1,4 +1,4 @@
-//! A page of paragraphs, tables and figures that somebody else put together.
+//! Page of paragraphs, tables and figures from a caller.
 
 use maud::{Markup, html};
 
@@ -7,7 +7,7 @@ use crate::html::Document;
 use crate::markup::fold;
 use crate::table::Table;
 
-/// A page of paragraphs, tables and figures.
+/// Page of paragraphs, tables and figures.
 ///
 /// ```
 /// use taceva_report::{PagePart, PageSection, Table, TablesPage};
@@ -23,42 +23,42 @@ use crate::table::Table;
 /// ```
 #[derive(Clone, Debug)]
 pub struct TablesPage {
-    /// The title.
+    /// Title.
     pub title: String,
-    /// What must be seen first, as that nothing was measured.
+    /// Badge for an important fact, such as simulated samples.
     pub badge: Option<String>,
     /// Sentences below the title.
     pub lead: Vec<String>,
-    /// The sections.
+    /// Sections.
     pub sections: Vec<PageSection>,
 }
 
-/// A section of a page.
+/// Section of a page.
 #[derive(Clone, Debug)]
 pub struct PageSection {
-    /// A word for links.
+    /// Word for links.
     pub id: &'static str,
-    /// The title.
+    /// Title.
     pub title: &'static str,
-    /// What stands in it.
+    /// Content.
     pub parts: Vec<PagePart>,
 }
 
-/// What stands in a section.
+/// Part of a section.
 #[derive(Clone, Debug)]
 pub enum PagePart {
-    /// A paragraph.
+    /// Paragraph.
     Words(String),
-    /// A table.
+    /// Table.
     Table(Table),
-    /// A table behind a line that opens it: a word for links, and how much it holds.
+    /// Folded table: a word for links, and its size in words.
     Folded(&'static str, String, Table),
-    /// A figure with its caption.
+    /// Figure with its caption.
     Figure(Box<Figure>),
 }
 
 impl TablesPage {
-    /// As one HTML file that needs no network.
+    /// HTML file that needs no network.
     pub fn html(self) -> String {
         let lead = html! {
             @for sentence in &self.lead { p.lead { (sentence) } "\n" }

@@ -1,4 +1,4 @@
-//! Ties: sensors that have the very same best value; of gratings, how fine that is.
+//! Ties: sensors with the same best value, and for gratings the finest spacing.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,22 +10,22 @@ use crate::results::Study;
 use taceva_results::Samples;
 use taceva_results::Score;
 
-/// The metric of gratings, whose values are shares of few presses, so that they are often the same.
+/// Metric of gratings. Its values are shares of few presses, and therefore often equal.
 pub(crate) const GRATINGS: &str = "sr";
-/// How far a spacing may be missed, where a score does not say.
+/// Default tolerance of a spacing, mm, if a score states none.
 const TOLERANCE_MM: f64 = 0.05;
 const NM: f64 = 1e6;
 
-/// Several best of one score.
+/// Several best studies of one score.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tie {
-    /// The positions of those that are tied, at least two.
+    /// Positions of the tied studies, at least two.
     pub(crate) who: Vec<usize>,
     /// `tie: GelSight and TacTip have the same value, 0.42 mm/N`
     pub(crate) words: String,
 }
 
-/// One of those that may be tied.
+/// Candidate for a tie.
 struct Rival<'a> {
     at: usize,
     study: &'a Study,
@@ -34,7 +34,7 @@ struct Rival<'a> {
     value: f64,
 }
 
-/// The best of some values, the first of those that are equal; none where values only describe.
+/// Best of the values, the first of equal ones; `None` for descriptive values.
 pub(crate) fn best(
     values: impl IntoIterator<Item = (usize, f64)>,
     better: Better,
@@ -49,7 +49,7 @@ pub(crate) fn best(
     values.reduce(|best, next| if leads(next.1, best.1) { next } else { best })
 }
 
-/// Who is tied, bit by bit, where the best of those that take part are several; nothing of one winner and of values that only describe.
+/// Studies tied bit by bit for the best value among those that take part; `None` for a single winner and for descriptive values.
 pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &str) -> Option<Tie> {
     let named = studies.iter().zip(names).enumerate();
     let rivals = named.filter_map(|(at, (study, name))| {
@@ -89,7 +89,7 @@ pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &s
     })
 }
 
-/// How fine those tell that are tied at a share of `best`.
+/// Sentence on the finest spacing that the tied studies predict, at a share of `best`.
 fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
     let who: Vec<String> = tied.iter().map(|one| one.name.to_owned()).collect();
     let who = match who.len() {
@@ -153,8 +153,8 @@ fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
     )
 }
 
-/// The meaning of a prediction that is always the spacing of a board that was learnt: `, which is exactly right among 16 learnt boards at
-/// least 0.1 mm apart`; `None` where predictions lie between those spacings, or are not at hand.
+/// Meaning of predictions that always equal the spacing of a learnt board: `, which is exactly right among 16 learnt boards at least 0.1 mm
+/// apart`; `None` if predictions are between those spacings, or absent.
 fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
     let nanometres = |mm: f64| (mm * NM).round();
     let known: BTreeSet<u64> = boards(samples, kind)
@@ -182,15 +182,14 @@ fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
     })
 }
 
-/// The spacing of every grating of `kind` that was pressed.
+/// Spacing of every pressed grating of `kind`.
 fn boards<'a>(samples: &'a Samples, kind: &'a str) -> impl Iterator<Item = f64> + 'a {
     let rows = 0..samples.rows();
     let rows = rows.filter(move |row| samples.word("kind", *row) == Some(kind));
     rows.filter_map(|row| samples.number("spacing_mm", row))
 }
 
-/// The finest spacing from which on, up to the coarsest, every grating of `kind` is told to within `tolerance_mm`; none if not even the
-/// coarsest is.
+/// Finest spacing from which all coarser gratings of `kind` are predicted to within `tolerance_mm`; `None` if the coarsest is not.
 fn finest(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<f64> {
     let nanometres = |mm: f64| (mm * NM).round();
     let mut boards: BTreeMap<u64, bool> = BTreeMap::new();
@@ -207,7 +206,7 @@ fn finest(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<f64> {
         let is_right = predicted.is_some_and(|predicted| {
             (nanometres(predicted) - nanometres(truth)).abs() <= nanometres(tolerance_mm)
         });
-        // Spacings are positive, so their bits are in their order.
+        // Spacings are positive, so their bits sort like their values.
         *boards.entry(truth.max(0.0).to_bits()).or_insert(true) &= is_right;
     }
     let right = boards.iter().rev().take_while(|(_, is_right)| **is_right);

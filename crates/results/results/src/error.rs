@@ -1,10 +1,10 @@
-//! Reasons why results are refused.
+//! Errors of rejected results.
 
-/// Reason why results are refused.
+/// Reason that results are rejected.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ResultsError {
-    /// The text is no JSON.
+    /// Invalid JSON.
     #[error("not JSON: {0}")]
     Json(#[from] serde_json::Error),
     /// The seal is missing, unreadable or of other content.
@@ -13,7 +13,7 @@ pub enum ResultsError {
     /// The text names no schema of results.
     #[error("{found}: expected `taceva.evaluation/1.0` or `taceva.run/1.0`")]
     Schema {
-        /// The schema found.
+        /// Schema found.
         found: String,
     },
     /// Another version of the program wrote the results.
@@ -21,21 +21,21 @@ pub enum ResultsError {
         "schema `{found}`, written by TacEva {version}: expected `{expected}`; run `{command} …` again with this version"
     )]
     Version {
-        /// The schema found.
+        /// Schema found.
         found: String,
-        /// The version that wrote it, or `of an unknown version`.
+        /// Version that wrote it, or `of an unknown version`.
         version: String,
-        /// The schema of this version.
+        /// Schema of this version.
         expected: &'static str,
-        /// The command that makes the results anew.
+        /// Command that recreates the results.
         command: &'static str,
     },
-    /// A place holds another value than the schema says.
+    /// A value breaks the schema.
     #[error("{place}: {problem}")]
     Place {
-        /// The place: `metrics.mae.Fz.value`.
+        /// Path of the value: `metrics.mae.Fz.value`.
         place: String,
-        /// The value found and the value expected.
+        /// Value found and value expected.
         problem: String,
     },
 }

@@ -1,8 +1,8 @@
-//! Cells of CSV that a spreadsheet would take for a formula.
+//! Escapes CSV cells that a spreadsheet would take for a formula.
 
-/// Cell of words in a CSV table, with an apostrophe before what begins like a formula.
+/// Returns the text of a CSV cell, with an apostrophe before the beginning of a formula.
 ///
-/// [`unescape_csv`] takes it away again, so that names keep their meaning for programs:
+/// [`unescape_csv`] removes the apostrophe, so that names keep their meaning for programs:
 ///
 /// ```
 /// use taceva_results::{escape_csv, unescape_csv};
@@ -16,7 +16,7 @@ pub fn escape_csv(text: &str) -> String {
     }
 }
 
-/// Words of a cell that [`escape_csv`] has written.
+/// Text of a cell that [`escape_csv`] has written.
 pub fn unescape_csv(cell: &str) -> &str {
     match cell.strip_prefix('\'') {
         Some(text) if begins_like_a_formula(text) => text,
@@ -24,7 +24,7 @@ pub fn unescape_csv(cell: &str) -> &str {
     }
 }
 
-/// Whether a spreadsheet may take a text for a formula, or for one that was escaped; signs of full width are signs there too.
+/// True if a spreadsheet may take the text for a formula, or for an escaped one. Full-width signs count as well.
 fn begins_like_a_formula(text: &str) -> bool {
     text.trim_start_matches('\'')
         .starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠'])

@@ -2,18 +2,18 @@
 
 use taceva_metrics::Scale;
 
-/// A confidence interval of 95 %.
+/// Confidence interval of 95 %.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Interval {
     /// Both ends with their method.
     Ends {
-        /// The lower and the upper end, in the unit of the score.
+        /// Lower and upper end, in the unit of the score.
         ends: [f64; 2],
-        /// The method: `jackknife by point_id, G=32`.
+        /// Method: `jackknife by point_id, G=32`.
         method: String,
-        /// The standard error behind the ends, in the unit of the score.
+        /// Standard error behind the ends, in the unit of the score.
         standard_error: Option<f64>,
-        /// The number of clusters.
+        /// Number of clusters.
         clusters: Option<u64>,
         /// Degrees of freedom of Student's t.
         degrees_of_freedom: Option<f64>,
@@ -23,7 +23,7 @@ pub enum Interval {
 }
 
 impl Interval {
-    /// The interval that `taceva-metrics` computed.
+    /// Converts an interval of `taceva-metrics`.
     pub fn of(interval: &taceva_metrics::Interval) -> Interval {
         if let taceva_metrics::Interval::Undefined(reason) = interval {
             return Interval::Absent(reason.to_string());
@@ -45,7 +45,7 @@ impl Interval {
         }
     }
 
-    /// The method in words.
+    /// Method in words.
     pub fn method(&self) -> Option<&str> {
         match self {
             Interval::Ends { method, .. } => Some(method),
@@ -63,7 +63,7 @@ impl Interval {
         }
     }
 
-    /// The scale on which the ends lie about the value, by the words of the method.
+    /// Scale on which the interval was computed, parsed from the words of its method.
     pub fn scale(&self) -> Scale {
         const SCALES: [Scale; 4] = [Scale::Logarithm, Scale::Logit, Scale::Cut, Scale::Wilson];
         let method = self.method().unwrap_or_default();
@@ -71,7 +71,7 @@ impl Interval {
         SCALES.into_iter().find(is_named).unwrap_or(Scale::Own)
     }
 
-    /// The number of clusters, if the result or its method states it.
+    /// Number of clusters, if the result or its method states it.
     pub fn clusters(&self) -> Option<usize> {
         if let Interval::Ends {
             clusters: Some(clusters),

@@ -1,4 +1,4 @@
-//! Maps of JSON that keep the order of their keys.
+//! JSON maps with preserved key order.
 
 use std::fmt;
 use std::marker::PhantomData;

@@ -1,4 +1,4 @@
-//! Provenance of results: enough to make them again.
+//! Provenance of results, sufficient to reproduce them.
 
 use std::collections::BTreeMap;
 
@@ -7,62 +7,63 @@ use taceva_core::PressOutcome;
 
 /// Inputs and settings behind a result.
 ///
-/// Nothing here depends on the machine, the time or the number of jobs: the same inputs give the same bytes.
+/// Independent of the machine, the time and the number of jobs: equal inputs give equal bytes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Provenance {
-    /// The version of TacEva.
+    /// Version of TacEva.
     pub taceva: String,
-    /// The digest of the dataset.
+    /// Digest of the dataset.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dataset: Option<String>,
-    /// The recordings that were taken as one, in the order in which they were named; none where there is one.
+    /// Recordings joined for the result, in the order named; empty for a single recording.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<RecordingProvenance>,
-    /// The view of the frames, of a recording whose samples have several pictures: `left`, or `left+right` side by side.
+    /// View of the frames, for samples with several pictures: `left`, or `left+right` side by side.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
-    /// The digests of the tables, where there is no dataset.
+    /// Digests of the tables, if there is no dataset.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub tables: BTreeMap<String, String>,
-    /// The model and its digest.
+    /// Model with its digest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelProvenance>,
-    /// The division of samples into parts.
+    /// Split of the samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub split: Option<String>,
-    /// Findings on neighbouring samples that resemble each other, and their division.
+    /// Findings on neighbouring samples that resemble each other, and their split.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
-    /// The seed of everything that was drawn.
+    /// Seed of all random choices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
-    /// The part that was scored: `test`, `all`, …
+    /// Scored part: `test`, `all`, …
     #[serde(skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,
-    /// Samples a part, where there is a split.
+    /// Number of samples in each part, if there is a split.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub samples: BTreeMap<String, usize>,
-    /// Outcomes of all presses of each recording, by its digest, where a protocol pressed.
+    /// Press outcomes of each recording, by its digest, if a protocol pressed.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub presses: BTreeMap<String, BTreeMap<PressOutcome, u64>>,
-    /// Frames that it rests on, each once for learning and once for predicting, decoded now or when their features were kept.
+    /// Number of frames behind the result, each counted once for training and once for prediction, whether decoded now or for cached
+    /// features.
     pub frames_decoded: u64,
-    /// Third-party code that took part.
+    /// Third-party plugins involved.
     pub plugins: Vec<String>,
-    /// The digest of the table of samples that was written beside the result.
+    /// Digest of the table of samples written beside the result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples_table: Option<String>,
-    /// Accepted edits by hand of its inputs: file, date, reason and digests.
+    /// Accepted manual edits of its inputs: file, date, reason and digests.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<String>,
-    /// Notes for a reader.
+    /// Notes for readers.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
 impl Provenance {
-    /// The number of presses of each outcome, of all recordings together.
+    /// Number of presses by outcome, over all recordings.
     pub fn press_counts(&self) -> BTreeMap<PressOutcome, u64> {
         let mut counts = BTreeMap::new();
         for (outcome, count) in self.presses.values().flatten() {
@@ -71,7 +72,7 @@ impl Provenance {
         counts
     }
 
-    /// The provenance of both: common values, with all inputs of either.
+    /// Provenance of a combined result: common values, and the inputs of both.
     #[must_use]
     pub fn joined(mut self, other: &Provenance) -> Provenance {
         let same = |own: Option<String>, other: &Option<String>| {
@@ -103,11 +104,11 @@ impl Provenance {
         for (part, count) in &other.samples {
             *self.samples.entry(part.clone()).or_default() += count;
         }
-        // The same recording tells the same, however often it took part.
+        // A recording counts once, however often it took part.
         let presses = other.presses.iter();
         self.presses
             .extend(presses.map(|(digest, counts)| (digest.clone(), counts.clone())));
-        // Nobody writes the samples of several states.
+        // No table of samples is written for several states.
         self.samples_table = None;
         self.frames_decoded += other.frames_decoded;
         for note in &other.notes {
@@ -132,26 +133,26 @@ impl Provenance {
 /// Model behind a result.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelProvenance {
-    /// The name: `ridge`.
+    /// Name: `ridge`.
     pub name: String,
-    /// The settings, chosen ones included.
+    /// Settings, including selected ones.
     pub settings: BTreeMap<String, String>,
-    /// The digest of the model file; `unknown` of a model that a caller holds.
+    /// Digest of the model file; `unknown` for a model that the caller holds.
     pub digest: String,
-    /// The digest of the dataset it was fitted on; `unknown` of a model that was not fitted here.
+    /// Digest of the training dataset; `unknown` for a model fitted elsewhere.
     pub fitted_on: String,
-    /// `given`, where a caller holds the model and only its predictions were taken.
+    /// `given` if the caller holds the model and only its predictions were used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<String>,
 }
 
-/// Recording among those that a result is of.
+/// One of several recordings behind a result.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecordingProvenance {
-    /// The prefix of the names of its samples and contact points.
+    /// Prefix of the names of its samples and contact points.
     pub name: String,
-    /// Its digest.
+    /// Digest of the recording.
     pub digest: String,
-    /// The number of its samples, scored or not.
+    /// Number of its samples, scored or not.
     pub samples: usize,
 }

@@ -15,55 +15,55 @@ use crate::subject::Subject;
 /// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4; the schema after this one is 1.5.
 pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.0";
 
-/// Scores of one sensor with their subject and provenance.
+/// Scores of one sensor, with subject and provenance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvaluationReport {
     /// [`EVALUATION_SCHEMA`].
     pub schema: String,
-    /// The sensor.
+    /// Sensor.
     pub subject: Subject,
-    /// Every score, in the order of the catalogue.
+    /// Scores in catalogue order.
     #[serde(rename = "metrics", with = "by_metric")]
     pub scores: Vec<Score>,
-    /// Metrics that were skipped.
+    /// Skipped metrics.
     #[serde(default)]
     pub skipped: Vec<Skip>,
-    /// The inputs and settings behind the scores.
+    /// Inputs and settings behind the scores.
     #[serde(default)]
     pub provenance: Provenance,
-    /// The scores of each recording alone, where several were taken as one.
+    /// Scores of each recording, if several were joined.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub by_recording: Vec<RecordingScores>,
-    /// The same scores with other seeds of the training, where they were asked for.
+    /// Scores with other training seeds, if requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_seeds: Option<OverSeeds>,
-    /// The samples behind the scores, where they are at hand; no part of the JSON.
+    /// Samples behind the scores, if available; not part of the JSON.
     #[serde(skip)]
     pub samples: Option<Samples>,
 }
 
-/// Scores of the samples of one of several recordings.
+/// Scores for the samples of one of several recordings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecordingScores {
-    /// Its name, as in the provenance.
+    /// Name, as in the provenance.
     pub recording: String,
-    /// Its digest.
+    /// Digest of the recording.
     pub digest: String,
-    /// The number of its samples that are scored.
+    /// Number of its scored samples.
     pub samples: usize,
-    /// The scores of predictions, with intervals by its contact points.
+    /// Scores of predictions, with intervals by its contact points.
     #[serde(rename = "metrics", with = "by_metric")]
     pub scores: Vec<Score>,
-    /// Metrics that were skipped.
+    /// Skipped metrics.
     pub skipped: Vec<Skip>,
 }
 
-/// Metric or stage that was skipped, with the reason.
+/// Skipped metric or stage, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Skip {
-    /// The thing: `metric:r_light`.
+    /// Skipped item: `metric:r_light`.
     pub what: String,
-    /// The reason.
+    /// Reason.
     pub reason: String,
 }
 
@@ -77,7 +77,7 @@ impl From<&Skipped> for Skip {
 }
 
 impl EvaluationReport {
-    /// A report of `evaluation`, of one recording and without samples.
+    /// Report of `evaluation`, for one recording and without samples.
     pub fn new(
         subject: Subject,
         evaluation: &Evaluation,
@@ -95,7 +95,7 @@ impl EvaluationReport {
         }
     }
 
-    /// A report of numbers that a program held in memory, of an unknown sensor.
+    /// Report of numbers in memory, for an unknown sensor.
     pub fn of_arrays(evaluation: &Evaluation) -> EvaluationReport {
         let provenance = Provenance {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
@@ -104,7 +104,7 @@ impl EvaluationReport {
         EvaluationReport::new(Subject::default(), evaluation, provenance)
     }
 
-    /// The score of one metric and channel or plane.
+    /// Score of a metric and a channel or plane.
     pub fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == metric && score.channel == channel)
@@ -112,7 +112,7 @@ impl EvaluationReport {
 }
 
 impl RecordingScores {
-    /// The scores of `evaluation`, of `samples` samples of the recording called `recording`.
+    /// Scores of `evaluation` for `samples` samples of the recording called `recording`.
     pub fn new(
         recording: String,
         digest: String,

@@ -19,7 +19,7 @@ const WORDS: [&str; 9] = [
     "phase",
     "kind",
 ];
-/// Columns of numbers that are no channel.
+/// Columns of numbers other than channels.
 const NUMBERS: [&str; 6] = [
     "depth_step",
     "repeat",
@@ -28,15 +28,15 @@ const NUMBERS: [&str; 6] = [
     "spacing_predicted_mm",
     "intensity",
 ];
-/// Suffix of the name of a column of predictions.
+/// Suffix of prediction columns.
 const PREDICTED: &str = "_predicted";
-/// Suffix of the name of a column of predictions that are not brought back to the bounds of the model.
+/// Suffix of columns with predictions before limiting to the bounds of the model.
 const UNBOUNDED: &str = "_predicted_unbounded";
 
-/// Samples, column by column: `sample`, covariates, and truth and prediction of each channel.
+/// Samples by column: `sample`, covariates, and truth and prediction of each channel.
 ///
 /// # Shapes
-/// Every column has one value a sample, or none.
+/// Every column has one value per sample, or none.
 /// # Units
 /// Channels in their own unit; `t_s` in s; spacings in mm; `intensity` in grey levels.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,40 +55,40 @@ enum SampleColumn {
 /// Truth and prediction of one channel.
 #[derive(Clone, Copy, Debug)]
 pub struct SampleChannel<'a> {
-    /// The name of the channel.
+    /// Name of the channel.
     pub name: &'a str,
     rows: usize,
     truth: Option<&'a Column>,
     prediction: Option<&'a Column>,
 }
 
-/// Reasons why a table of samples is refused.
+/// Reason that a table of samples is rejected.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SamplesError {
-    /// The text is no CSV, or a row has another length than the head.
+    /// Invalid CSV, or a row whose length differs from the header.
     #[error("samples: {0}")]
     Csv(#[from] csv::Error),
-    /// A cell holds no finite number.
+    /// A cell that is no finite number.
     #[error("samples, line {line}, column `{column}`: expected a finite number, found `{found}`")]
     Cell {
-        /// The line, counted from 1.
+        /// Line, from 1.
         line: u64,
-        /// The name of the column.
+        /// Name of the column.
         column: String,
-        /// The cell.
+        /// Content of the cell.
         found: String,
     },
-    /// No column is called `sample`.
+    /// A missing column `sample`.
     #[error("samples: no column `sample`, which names the rows")]
     NoKey,
 }
 
 impl Samples {
-    /// The column that names samples, in every table that this program writes.
+    /// Name of the id column in all tables that this program writes.
     pub const KEY: &'static str = "sample";
 
-    /// Samples called `ids`, of the recordings in these folders.
+    /// Samples called `ids` from the recordings in these folders.
     pub fn new(ids: Vec<Option<String>>, recordings: Vec<PathBuf>) -> Samples {
         Samples {
             rows: ids.len(),
@@ -97,13 +97,13 @@ impl Samples {
         }
     }
 
-    /// Adds a column of words or of covariates as text.
+    /// Adds a column of words, or of covariates as text.
     pub fn push_words(&mut self, name: &str, words: Vec<Option<String>>) {
         self.columns
             .push((name.to_owned(), SampleColumn::Words(words)));
     }
 
-    /// Adds the parts of the protocol of each sample, behind `sample`.
+    /// Adds the protocol parts of each sample, behind `sample`.
     pub fn insert_protocol(&mut self, parts: Vec<Option<String>>) {
         let column = ("protocol".to_owned(), SampleColumn::Words(parts));
         self.columns.insert(1.min(self.columns.len()), column);
@@ -120,12 +120,12 @@ impl Samples {
         self.push_numbers(&format!("{}{PREDICTED}", channel.name()), numbers);
     }
 
-    /// Adds the predictions of `channel` as the model gives them, beyond its bounds too; without the column they are the predictions.
+    /// Adds the predictions of `channel` before limiting to the model's bounds. Without this column they equal the predictions.
     pub fn push_unbounded(&mut self, channel: &Channel, numbers: Column) {
         self.push_numbers(&format!("{}{UNBOUNDED}", channel.name()), numbers);
     }
 
-    /// Reads a table with a head: `sample` (or `id`), covariates, and for each channel its truth under its name and its prediction under
+    /// Reads a table with a header: `sample` (or `id`), covariates, and for each channel its truth under its name and its prediction under
     /// `<name>_predicted`.
     ///
     /// ```
@@ -142,7 +142,7 @@ impl Samples {
         let mut reader = csv::Reader::from_reader(table.as_bytes());
         let names: Vec<&str> = reader.headers()?.iter().map(unescape_csv).collect();
         let has_key = names.contains(&Samples::KEY);
-        // Tables of other programs call it so, and so did this one once.
+        // Name of the column in other programs, and in old versions of this one.
         let names = names.into_iter().map(|name| match name {
             "id" if !has_key => Samples::KEY,
             name => name,
@@ -175,10 +175,10 @@ impl Samples {
         Ok(samples)
     }
 
-    /// Writes the table that [`Samples::read`] reads, with numbers in shortest round-trip form.
+    /// Writes a table for [`Samples::read`], with numbers in shortest round-trip form.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Errors of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(self.columns.iter().map(|(name, _)| escape_csv(name)))?;
@@ -197,17 +197,17 @@ impl Samples {
         writer.flush()
     }
 
-    /// The folders of the recordings, in the order in which they were joined; none of two tables.
+    /// Folders of the recordings, in the order joined; empty for tables without recordings.
     pub fn recordings(&self) -> &[PathBuf] {
         &self.recordings
     }
 
-    /// The number of samples.
+    /// Number of samples.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// The channels, in the order of the table.
+    /// Channels in the order of the table.
     pub fn channels(&self) -> Vec<SampleChannel<'_>> {
         let mut names: Vec<&str> = Vec::new();
         for (name, column) in &self.columns {
@@ -224,7 +224,7 @@ impl Samples {
         channels.filter_map(|name| self.channel(name)).collect()
     }
 
-    /// The channel called `name`.
+    /// Channel called `name`.
     pub fn channel(&self, name: &str) -> Option<SampleChannel<'_>> {
         let truth = self.numbers(name);
         let prediction = self.numbers(&format!("{name}{PREDICTED}"));
@@ -248,7 +248,7 @@ impl Samples {
         }
     }
 
-    /// The word of a sample in a column; `None` if it is empty or the column is absent.
+    /// Word of a sample in a column; `None` if it is empty or the column is absent.
     pub fn word(&self, column: &str, row: usize) -> Option<&str> {
         match &self.column(column)?.1 {
             SampleColumn::Words(words) => {
@@ -258,7 +258,7 @@ impl Samples {
         }
     }
 
-    /// The number of a sample in a column that is no channel.
+    /// Number of a sample in a column other than a channel.
     pub fn number(&self, column: &str, row: usize) -> Option<f64> {
         match &self.column(column)?.1 {
             SampleColumn::Numbers(numbers) => numbers.get(row),
@@ -266,7 +266,7 @@ impl Samples {
         }
     }
 
-    /// The samples of a part of the protocol; all of them where the table names no parts.
+    /// Rows of a part of the protocol; all rows if the table names no parts.
     pub fn of_protocol(&self, part: &str) -> Vec<usize> {
         let is_of = |row: &usize| {
             let parts = self.word("protocol", *row);
@@ -279,44 +279,44 @@ impl Samples {
         }
     }
 
-    /// Whether there is a column called `name`.
+    /// True if there is a column called `name`.
     pub fn has(&self, name: &str) -> bool {
         self.column(name).is_some()
     }
 }
 
 impl<'a> SampleChannel<'a> {
-    /// The number of samples.
+    /// Number of samples.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// The reading of the reference instrument for a sample, in the unit of the channel.
+    /// Reading of the reference instrument for a sample, in the unit of the channel.
     pub fn truth(&self, row: usize) -> Option<f64> {
         self.truth?.get(row)
     }
 
-    /// The prediction for a sample, in the unit of the channel.
+    /// Prediction for a sample, in the unit of the channel.
     pub fn prediction(&self, row: usize) -> Option<f64> {
         self.prediction?.get(row)
     }
 
-    /// Truth and prediction of a sample, where both are known.
+    /// Truth and prediction of a sample; `None` if either is unknown.
     pub fn pair(&self, row: usize) -> Option<[f64; 2]> {
         Some([self.truth(row)?, self.prediction(row)?])
     }
 
-    /// Every known truth, in the order of samples.
+    /// Known true values in the order of samples.
     pub fn truths(self) -> impl Iterator<Item = f64> + 'a {
         (0..self.rows).filter_map(move |row| self.truth(row))
     }
 
-    /// Whether any sample has a prediction.
+    /// True if any sample has a prediction.
     pub fn is_predicted(&self) -> bool {
         (0..self.rows).any(|row| self.prediction(row).is_some())
     }
 
-    /// The unit of a channel by its name; 1 of an unknown channel.
+    /// Unit of a channel by its name; 1 for an unknown channel.
     pub fn unit(&self) -> Unit {
         let six = [
             Channel::PX,

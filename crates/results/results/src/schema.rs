@@ -1,4 +1,4 @@
-//! Schema numbers, seals, and the reading and writing of texts.
+//! Schemas and seals of results, and their reading and writing.
 
 use std::borrow::Cow;
 
@@ -17,12 +17,12 @@ pub const RUN_SCHEMA: &str = "taceva.run/1.0";
 pub struct RunReport<'a> {
     /// [`RUN_SCHEMA`].
     pub schema: Cow<'a, str>,
-    /// One report a study.
+    /// One report per study.
     pub studies: Cow<'a, [EvaluationReport]>,
 }
 
 impl<'a> RunReport<'a> {
-    /// The reports of a run.
+    /// Report of a run.
     pub fn new(studies: &'a [EvaluationReport]) -> RunReport<'a> {
         RunReport {
             schema: Cow::Borrowed(RUN_SCHEMA),
@@ -31,9 +31,9 @@ impl<'a> RunReport<'a> {
     }
 }
 
-/// Reads the evaluations in a text of [`EVALUATION_SCHEMA`] or [`RUN_SCHEMA`].
+/// Parses the evaluations in a text of [`EVALUATION_SCHEMA`] or [`RUN_SCHEMA`].
 ///
-/// Edits that were accepted by hand are added to the provenance of each evaluation.
+/// Accepted manual edits are added to the provenance of each evaluation.
 ///
 /// ```
 /// let error = taceva_results::read(r#"{"schema": "taceva.evaluation/1.3", "provenance": {"taceva": "0.1.0"}}"#).unwrap_err();
@@ -44,7 +44,7 @@ impl<'a> RunReport<'a> {
 /// ```
 ///
 /// # Errors
-/// [`ResultsError`] if the text is no JSON, of another schema, unsealed or changed, or if a place holds an unexpected value.
+/// [`ResultsError`] if the text is no JSON, has another schema, is unsealed or changed, or holds an unexpected value.
 pub fn read(text: &str) -> Result<Vec<EvaluationReport>, ResultsError> {
     let head: Head = serde_json::from_str(text)?;
     let Some(serde_json::Value::String(schema)) = &head.schema else {
@@ -82,7 +82,7 @@ pub fn read(text: &str) -> Result<Vec<EvaluationReport>, ResultsError> {
     Ok(reports)
 }
 
-/// The JSON of `report`, one line a value, with its seal.
+/// Sealed JSON of `report`, one value per line.
 ///
 /// # Errors
 /// [`ResultsError`] if `report` is no JSON object.
@@ -115,7 +115,7 @@ impl Head {
     }
 }
 
-/// Reads `text`, and names the place of what cannot be read.
+/// Parses `text`. An error names the path of the unexpected value.
 fn place_named<T: DeserializeOwned>(text: &str) -> Result<T, ResultsError> {
     let mut json = serde_json::Deserializer::from_str(text);
     serde_path_to_error::deserialize(&mut json).map_err(|error| ResultsError::Place {

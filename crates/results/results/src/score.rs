@@ -12,33 +12,33 @@ use crate::value::Value;
 /// Score of a metric on a channel or plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Score {
-    /// The metric: `mae`.
+    /// Metric: `mae`.
     pub metric: String,
-    /// The channel or plane: `Fz`, `Pxy`.
+    /// Channel or plane: `Fz`, `Pxy`.
     pub channel: String,
-    /// The value, in `unit`.
+    /// Value, in `unit`.
     pub value: Value,
-    /// The unit of value and interval.
+    /// Unit of value and interval.
     pub unit: Unit,
-    /// The number of samples that it is computed from.
+    /// Number of samples.
     pub n: u64,
-    /// The number of samples without a usable number, which are ignored.
+    /// Number of ignored samples without a usable number.
     pub n_invalid: u64,
-    /// The 95 % interval; `None` where an interval has no meaning.
+    /// Interval of 95 %; `None` for scores without a meaningful interval.
     pub interval: Option<Interval>,
-    /// The definition that was computed: `mae/1`.
+    /// Definition: `mae/1`.
     pub definition: String,
     /// Constants of the definition by name.
     pub parameters: Vec<(String, f64)>,
-    /// Counts made during the computation by name.
+    /// Counts from the computation, by name.
     pub counts: Vec<(String, u64)>,
     /// Warnings: `one bin`.
     pub flags: Vec<String>,
-    /// The part that the score takes in verdicts.
+    /// Standing in verdicts.
     pub standing: Standing,
-    /// Share of its predictions beyond the bounds of the model; `None` without predictions or bounds.
+    /// Share of predictions beyond the bounds of the model; `None` without predictions or bounds.
     pub bounded_share: Option<f64>,
-    /// The channels that it is computed from, where they are several.
+    /// Source channels, if there are several.
     pub of: Vec<String>,
     /// Further values of the same metric and channel.
     pub variants: Vec<Variant>,
@@ -47,17 +47,17 @@ pub struct Score {
 /// Further value of the same metric and channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
-    /// Its name: `slope`, `map`.
+    /// Name: `slope`, `map`.
     pub name: String,
-    /// The value, in `unit`.
+    /// Value, in `unit`.
     pub value: Value,
-    /// The unit of value and interval.
+    /// Unit of value and interval.
     pub unit: Unit,
-    /// The 95 % interval; `None` where an interval has no meaning.
+    /// Interval of 95 %; `None` for values without a meaningful interval.
     pub interval: Option<Interval>,
 }
 
-/// Every score of an evaluation, in its order.
+/// Scores of an evaluation, in its order.
 pub fn scores(evaluation: &Evaluation) -> Vec<Score> {
     let all = evaluation.scores();
     all.map(|(metric, channel, score)| Score::of(metric, channel, score))
@@ -65,7 +65,7 @@ pub fn scores(evaluation: &Evaluation) -> Vec<Score> {
 }
 
 impl Score {
-    /// The score that `taceva-metrics` computed for `metric` on `channel`.
+    /// Converts a score of `taceva-metrics` for `metric` on `channel`.
     pub fn of(metric: &Metric, channel: &str, score: &taceva_metrics::Score) -> Score {
         Score {
             metric: metric.id.to_owned(),
@@ -86,7 +86,7 @@ impl Score {
         }
     }
 
-    /// A score of one number, without an interval and of unknown samples.
+    /// Score of one number, without interval and samples.
     pub fn of_number(metric: &str, channel: &str, value: f64, unit: Unit) -> Score {
         Score {
             metric: metric.to_owned(),
@@ -107,20 +107,20 @@ impl Score {
         }
     }
 
-    /// The variant called `name`.
+    /// Variant called `name`.
     pub fn variant(&self, name: &str) -> Option<&Variant> {
         self.variants.iter().find(|variant| variant.name == name)
     }
 
-    /// The variant that verdicts go by, where the value itself depends on noise or on how often presses were repeated; `None` where the value
-    /// decides, and of results that do not hold the variant.
+    /// Variant that decides verdicts, for metrics whose value depends on noise or on the number of repeats. `None` if the value itself
+    /// decides, or if the result lacks the variant.
     pub fn decided_by(&self) -> Option<&Variant> {
         let name = catalogue::find(&self.metric)?.decided_by?;
         let variant = self.variant(name)?;
         variant.value.number().map(|_| variant)
     }
 
-    /// The score that verdicts go by: value, unit and interval are those of the deciding variant, where there is one.
+    /// Score for verdicts, with value, unit and interval of the deciding variant, if there is one.
     #[must_use]
     pub fn deciding(&self) -> Score {
         match self.decided_by() {
@@ -134,7 +134,7 @@ impl Score {
         }
     }
 
-    /// The part in verdicts of the score or of its variant called `variant`: reference constants always count.
+    /// Standing of the score or of its variant called `variant`. Reference constants always count.
     pub fn standing_of(&self, variant: Option<&str>) -> Standing {
         match variant {
             Some("of_constant" | "constant") => Standing::Counts,
@@ -142,7 +142,7 @@ impl Score {
         }
     }
 
-    /// The direction of good values; `Described` of metrics that are not in the catalogue.
+    /// Better direction; `Described` for metrics outside the catalogue.
     pub fn better(&self) -> Better {
         catalogue::find(&self.metric).map_or(Better::Described, |metric| metric.better)
     }

@@ -1,36 +1,36 @@
-//! Scores over the seeds of a training.
+//! Scores over training seeds.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::Unit;
 
-/// Scores of one model fitted with several seeds, on the same presses, divided alike.
+/// Scores of one model fitted with several seeds on the same presses and split.
 ///
-/// Their spread is that of the training. Intervals by contact point state another: that of scores over other presses.
+/// Their spread is that of the training. Intervals by contact point describe the spread over other presses instead.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OverSeeds {
-    /// The seeds, in order; the scores of the report are those of the first.
+    /// Seeds in order. The scores of the report are those of the first.
     pub seeds: Vec<u64>,
-    /// The effect of a seed, in words.
+    /// Effect of a seed, in words.
     pub decides: String,
-    /// The scores that are formed from predictions.
+    /// Scores that use predictions.
     pub scores: Vec<SeedScore>,
 }
 
 /// One score over the seeds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SeedScore {
-    /// The metric: `r2`.
+    /// Metric: `r2`.
     pub metric: String,
-    /// The channel or plane.
+    /// Channel or plane.
     pub channel: String,
-    /// The unit of every number.
+    /// Unit of all numbers.
     pub unit: Unit,
-    /// The value with each seed; `None` where the score has no value.
+    /// Value with each seed; `None` for an absent value.
     pub values: Vec<Option<f64>>,
-    /// The mean of the values.
+    /// Mean of the values.
     pub mean: f64,
-    /// Their standard deviation.
+    /// Standard deviation of the values.
     pub standard_deviation: f64,
-    /// The 95 % interval of the mean over all seeds.
+    /// Interval of 95 % of the mean over seeds.
     pub interval: [f64; 2],
 }

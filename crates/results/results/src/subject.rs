@@ -2,18 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Sensor that a result is about, and origin of its samples.
+/// Sensor of a result, with the origin of its samples.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Subject {
-    /// The sensor model.
+    /// Sensor model.
     pub sensor: String,
-    /// The serial number of the unit, or `unknown`.
+    /// Serial number of the unit, or `unknown`.
     #[serde(default = "unknown")]
     pub serial: String,
-    /// The id of the gel, or `unknown`.
+    /// Id of the gel, or `unknown`.
     #[serde(default = "unknown")]
     pub gel: String,
-    /// The origin of the samples: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
+    /// Origin of the samples: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
     #[serde(default = "unknown")]
     pub source: String,
 }
@@ -34,7 +34,7 @@ impl Default for Subject {
 }
 
 impl Subject {
-    /// The subject of both: `several` where they differ.
+    /// Subject of both combined: `several` where they differ.
     #[must_use]
     pub fn joined(&self, other: &Subject) -> Subject {
         let join = |own: &String, other: &String| match own == other {

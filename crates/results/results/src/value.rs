@@ -2,25 +2,25 @@
 
 use taceva_metrics::{Curve, Map, Matrix};
 
-/// Value of a score, or the reason why there is none.
+/// Value of a score, or the reason that it is absent.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// One finite number.
     Number(f64),
-    /// A number for each place of the sensing surface.
+    /// One number per place of the sensing surface.
     Map(Map),
-    /// A number for each level of another quantity.
+    /// One number per level of another quantity.
     Curve(Curve),
-    /// A number for each pair of names.
+    /// One number per pair of names.
     Matrix(Matrix),
-    /// No value, since the samples determine none: the reason.
+    /// Undetermined by the samples, with the reason.
     Undefined(String),
-    /// No value, since the question does not arise: the reason.
+    /// Not applicable, with the reason.
     NotApplicable(String),
 }
 
 impl Value {
-    /// The value that `taceva-metrics` computed.
+    /// Converts a value of `taceva-metrics`.
     pub fn of(value: &taceva_metrics::Value) -> Value {
         match value {
             taceva_metrics::Value::Scalar(number) => Value::Number(*number),
@@ -35,7 +35,7 @@ impl Value {
         }
     }
 
-    /// The number, if the value is one.
+    /// Number, if the value is one.
     pub fn number(&self) -> Option<f64> {
         match self {
             Value::Number(number) => Some(*number),
@@ -43,7 +43,7 @@ impl Value {
         }
     }
 
-    /// The reason why there is no value, in words.
+    /// Reason that the value is absent, in words.
     pub fn reason(&self) -> Option<String> {
         match self {
             Value::Undefined(reason) => Some(format!("undefined: {reason}")),

@@ -1,11 +1,11 @@
-//! Where the cells of plain text begin and end: each line is a row, and no cell is quoted.
+//! Cell bounds of plain text: each line is a row, and no cell is quoted.
 
 use std::ops::Range;
 
 /// A row with more or fewer cells than the header.
 #[derive(Debug)]
 pub(super) struct Ragged {
-    /// Where it begins in the text.
+    /// Offset of the row in the text, bytes.
     pub(super) offset: usize,
     pub(super) found: usize,
 }
@@ -16,25 +16,25 @@ impl Ragged {
     }
 }
 
-/// Finds the cells of rows in a text that may grow meanwhile.
+/// Finds the cells of rows in a text that may still grow.
 pub(super) struct RowSplitter {
     delimiter: u8,
     columns: usize,
-    /// How many rows are looked for.
+    /// Limit of rows to find.
     most: usize,
     rows: usize,
-    /// Line ends so far, those of blank lines too.
+    /// Line ends so far, including blank lines.
     lines: u64,
     /// For each row the start of each cell, then one past the end of the last.
     bounds: Vec<u32>,
-    /// Where the bounds of the current row begin.
+    /// Index in `bounds` of the first bound of the current row.
     row: usize,
-    /// Where the current line begins in the text.
+    /// Offset of the current line in the text, bytes.
     line: usize,
 }
 
 impl RowSplitter {
-    /// Looks for `most` rows from `start` on; their bounds are written to `bounds`, whatever these held.
+    /// Searches `most` rows from `start` on. Clears `bounds` and writes their bounds to it.
     pub(super) fn new(
         delimiter: u8,
         columns: usize,
@@ -56,7 +56,8 @@ impl RowSplitter {
         splitter
     }
 
-    /// Goes on with `part` of the text, which begins where the part before has ended; returns where the last row ends that is looked for, if it does.
+    /// Continues with `part` of the text, which begins at the end of the previous part. Returns the end of the last requested row, if
+    /// reached.
     pub(super) fn split(
         &mut self,
         text: &[u8],
@@ -90,7 +91,7 @@ impl RowSplitter {
         Ok(None)
     }
 
-    /// Ends the line before `end`, which no line end follows, if there is one.
+    /// Ends an unterminated last line before `end`, if there is one.
     pub(super) fn finish(&mut self, text: &[u8], end: usize) -> Result<(), Ragged> {
         if self.line < end {
             self.end(text, end)
@@ -100,12 +101,12 @@ impl RowSplitter {
         }
     }
 
-    /// How many rows were found.
+    /// Number of rows found.
     pub(super) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// How many lines have ended.
+    /// Number of line ends passed.
     pub(super) fn lines(&self) -> u64 {
         self.lines
     }
@@ -120,7 +121,7 @@ impl RowSplitter {
         self.bounds.push(bound(line));
     }
 
-    /// Takes a delimiter, or the end of a line; returns whether it was that of the last row that is looked for.
+    /// Handles a delimiter or a line end. Returns true at the end of the last requested row.
     fn separator(&mut self, text: &[u8], at: usize, is_end: bool) -> Result<bool, Ragged> {
         if !is_end {
             self.bounds.push(bound(at + 1));
@@ -135,7 +136,7 @@ impl RowSplitter {
         Ok(false)
     }
 
-    /// Ends the row whose line ends before `at`; a blank line is no row.
+    /// Ends the row of the line that ends before `at`. Blank lines are skipped.
     fn end(&mut self, text: &[u8], at: usize) -> Result<(), Ragged> {
         let has_return = at > self.line && text[at - 1] == b'\r';
         let end = at - usize::from(has_return);

@@ -1,4 +1,4 @@
-//! Columns out of a table, of all rows or of some.
+//! Columns of a table, of all rows or of some.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use super::split::Block;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::each_part;
 
-/// What to do with a cell that is neither empty nor a finite number.
+/// Handling of a cell that is neither empty nor a finite number.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Invalid {
     Refuse,
@@ -63,10 +63,10 @@ impl CsvTable {
         self.some(column, rows, Invalid::AsNan)
     }
 
-    /// The finite number in a cell, in the unit it is kept in, or `None` if the cell is empty.
+    /// Finite number in a cell, converted to the unit it is kept in; `None` if the cell is empty.
     ///
-    /// Where the factor between the units is a power of ten, the decimal point is moved before the number is read, so that
-    /// `1212.4 um` is the binary64 nearest to 1.2124 mm.
+    /// If the units differ by a power of ten, the decimal point is moved before parsing. So `1212.4 um` is the binary64 nearest to 1.2124
+    /// mm.
     ///
     /// # Errors
     /// [`DatasetError::Table`] if the cell holds no finite number, or one too large for its unit.
@@ -78,7 +78,7 @@ impl CsvTable {
         column: usize,
         unit: &SourceUnit,
     ) -> Result<Option<f64>, DatasetError> {
-        // Most cells are read where they stand.
+        // Most cells need no conversion.
         let Some(number) = self.number(row, column)? else {
             return Ok(None);
         };
@@ -98,7 +98,7 @@ impl CsvTable {
         Ok(self.text_in(column, 0..self.rows).collect())
     }
 
-    /// What the column at `column` has in `rows`, in their order, as it is written, without surrounding blanks.
+    /// Cells of the column at `column` in `rows`, in their order, as written, without surrounding blanks.
     ///
     /// # Panics
     /// If there is no such row or column.
@@ -145,7 +145,7 @@ impl CsvTable {
         Ok(with_absent(values, &absent))
     }
 
-    /// Fills `values`; returns which of them are absent.
+    /// Fills `values`. Returns the positions of absent values.
     fn parse(
         &self,
         column: usize,
@@ -165,7 +165,7 @@ impl CsvTable {
         Ok(absent)
     }
 
-    /// Where the cells of `rows` lie in the text; a block is looked up only where they leave the last one.
+    /// Text range of each cell of `rows`. A block is searched only when a row is outside the previous one.
     fn cells(
         &self,
         column: usize,

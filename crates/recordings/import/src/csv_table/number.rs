@@ -20,7 +20,7 @@ const PLAIN_BYTES: usize = 17;
 /// The longest cell that is read at once, without its sign.
 const WINDOW: usize = 8;
 
-/// The number in a cell of `text` that can be scored: `Some(None)` if the cell is empty, `None` if it holds something else.
+/// Parses the number in a cell of `text`: `Some(None)` if the cell is empty, `None` if it holds something else.
 pub(super) fn parse_number(text: &str, cell: Range<usize>) -> Option<Option<f64>> {
     if let Some(number) = parse_short(text.as_bytes(), cell.clone()) {
         return Some(Some(number));
@@ -37,7 +37,7 @@ pub(super) fn parse_number(text: &str, cell: Range<usize>) -> Option<Option<f64>
     is_scorable(number).then_some(Some(number))
 }
 
-/// The decimal text with its point moved by `places` to the right, read and rounded once.
+/// Decimal text with its point moved `places` to the right, parsed and rounded once.
 pub(super) fn parse_shifted(cell: &str, places: i32) -> Option<f64> {
     let (mantissa, exponent) = match cell.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
@@ -77,10 +77,10 @@ fn parse_plain(cell: &[u8]) -> Option<f64> {
     Some(if negative { -magnitude } else { magnitude })
 }
 
-/// As [`parse_plain`], of up to eight bytes and a sign, all looked at together: branches on where the point is and on how many
-/// digits follow cannot be predicted.
+/// As [`parse_plain`], for up to eight bytes and a sign, processed together. Branches on the position of the point and the number of
+/// following digits would be unpredictable.
 ///
-/// The window ends with the cell, so that the last digit always stands in its highest byte.
+/// The window ends with the cell, so that the last digit is in its highest byte.
 fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
     let negative = *text.get(cell.start)? == b'-';
     let length = cell.len().checked_sub(usize::from(negative))?;
@@ -99,7 +99,7 @@ fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
         return None;
     } else {
         let point = points.trailing_zeros() as usize / 8;
-        // What stands before the point moves up by a byte, over the point.
+        // The digits before the point move up by a byte, over the point.
         let ahead = (1 << (8 * point)) - 1;
         let kept = bytes & !(ahead << 8 | 0xff);
         (kept | (bytes & ahead) << 8, WINDOW - 1 - point)
@@ -125,15 +125,15 @@ fn zero_bytes(bytes: u64) -> u64 {
     !(((bytes & LOW_BITS) + LOW_BITS) | bytes | LOW_BITS)
 }
 
-/// The number whose decimal digits are the bytes, the first in the lowest: neighbours are joined to pairs, fours, eight.
+/// Number from eight decimal digits, one per byte, the first in the lowest byte. Neighbours are combined to pairs, fours, eight.
 fn eight_digits(digits: u64) -> u64 {
     let pairs = digits.wrapping_mul((10 << 8) + 1) >> 8 & 0x00ff_00ff_00ff_00ff;
     let fours = pairs.wrapping_mul((100 << 16) + 1) >> 16 & 0x0000_ffff_0000_ffff;
     fours.wrapping_mul((10_000 << 32) + 1) >> 32
 }
 
-/// The finite number in `cell` in the unit that it is kept in, `None` if the cell is empty; the error says why there is none. Where the factor
-/// between the units is a power of ten, the decimal point is moved before the number is read.
+/// Finite number in `cell`, converted to the unit it is kept in; `None` if the cell is empty. The error says why there is none. Where the
+/// factor between the units is a power of ten, the decimal point is moved before parsing.
 pub(crate) fn number_in_unit(cell: &str, unit: &SourceUnit) -> Result<Option<f64>, String> {
     let Some(number) = number(cell)? else {
         return Ok(None);
@@ -152,7 +152,7 @@ pub(crate) fn number(cell: &str) -> Result<Option<f64>, String> {
     parse_number(cell, 0..cell.len()).ok_or_else(|| not_a_number(cell))
 }
 
-/// Why `cell` holds no number that could be scored, and what to write instead, where that can be guessed.
+/// Reason that `cell` holds no usable number, with a hint where one is known.
 pub(crate) fn not_a_number(cell: &str) -> String {
     match cell.parse::<f64>() {
         Ok(number) if number.is_finite() => {
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// What is read from `cell`, wherever in a text it stands.
+    /// Result of parsing `cell`, which does not depend on its position in the text.
     fn read(cell: &str) -> Option<Option<f64>> {
         let found = parse_number(cell, 0..cell.len());
         for before in ["7", "12.5,-8,9.", "1.5\n-1234567.25,", "µ,µ,µ,µ,µ,µ,-"] {

@@ -1,4 +1,4 @@
-//! A CSV file that is read in parts, for tables that are larger than the memory or that several machines share.
+//! CSV file read in parts, for tables larger than memory or shared by several machines.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
@@ -13,15 +13,15 @@ use super::{CsvTable, as_text, delimiter_of};
 use taceva_dataset::internal::{limits, open_regular};
 use taceva_dataset::{DatasetError, Digest, Place};
 
-/// Rows of a part; the last one has fewer.
+/// Rows of a part; the last part has fewer.
 pub(super) const PART_ROWS: u64 = 1 << 16;
 
-/// How far a file is read ahead while it is looked through.
+/// Read-ahead buffer of the scan, bytes.
 const AHEAD: usize = 1 << 18;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// A CSV file of any length, of which parts are read: where its rows lie, and the digest of all of them.
+/// CSV file of any length, read in parts: the offsets of its rows and the digest of its text.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -37,7 +37,7 @@ const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 #[serde(deny_unknown_fields)]
 pub struct CsvParts {
     path: PathBuf,
-    /// Where the header stands, in bytes of the file.
+    /// Range of the header in the file, bytes.
     header: [u64; 2],
     marks: Vec<Mark>,
     end: u64,
@@ -46,10 +46,10 @@ pub struct CsvParts {
 }
 
 impl CsvParts {
-    /// Rows of a part; the last one has fewer.
+    /// Rows of a part; the last part has fewer.
     pub const ROWS: u64 = PART_ROWS;
 
-    /// Looks through the file at `path` once, or twice where cells are quoted; it may be of any length.
+    /// Scans the file at `path` once, or twice if cells are quoted. The file may have any length.
     ///
     /// # Errors
     /// [`DatasetError::Io`]; [`DatasetError::Path`] if it is no regular file; [`DatasetError::Table`] if a quote is not closed.
@@ -77,7 +77,7 @@ impl CsvParts {
         })
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -87,23 +87,23 @@ impl CsvParts {
         self.rows
     }
 
-    /// The digest that [`CsvTable::digest`] has of the whole.
+    /// Digest of the whole file, equal to [`CsvTable::digest`].
     pub fn digest(&self) -> Digest {
         self.digest
     }
 
-    /// How many parts there are.
+    /// Number of parts.
     pub fn count(&self) -> usize {
         self.marks.len()
     }
 
-    /// The rows of a part, from 0.
+    /// Row range of a part, from 0.
     pub fn rows_of(&self, part: usize) -> Range<u64> {
         let begin = part as u64 * PART_ROWS;
         begin.min(self.rows)..(begin + PART_ROWS).min(self.rows)
     }
 
-    /// A table of the same columns without a row.
+    /// Table of the same columns without rows.
     ///
     /// # Errors
     /// As [`CsvTable::read`].
@@ -113,16 +113,16 @@ impl CsvParts {
         CsvTable::of_bytes(&self.path, bytes)
     }
 
-    /// The header as a line with one end, whichever it has in the file.
+    /// Header as a line with a normalised line end.
     fn header_line(&self, file: &mut File) -> Result<Vec<u8>, DatasetError> {
         let bytes = self.bytes(file, self.header[0]..self.header[1])?;
         Ok(header_line_of(bytes))
     }
 
-    /// The rows of a part as a table, whose errors name lines of the file.
+    /// Reads the rows of a part as a table. Errors name lines of the file.
     ///
     /// # Errors
-    /// As [`CsvTable::read`]; [`DatasetError::Table`] too if the rows are others than when the file was looked through.
+    /// As [`CsvTable::read`]; also [`DatasetError::Table`] if the rows have changed since the scan.
     pub fn read(&self, part: usize) -> Result<CsvTable, DatasetError> {
         let Some(mark) = self.marks.get(part) else {
             return self.header();
@@ -148,7 +148,7 @@ impl CsvParts {
         Ok(table)
     }
 
-    /// Bytes of the file, as far as it has them.
+    /// Bytes of the file in the range, fewer at its end.
     fn bytes(&self, file: &mut File, bytes: Range<u64>) -> Result<Vec<u8>, DatasetError> {
         let length = bytes.end.saturating_sub(bytes.start);
         if length > limits::TABLE_BYTES {
@@ -167,15 +167,15 @@ impl CsvParts {
 }
 
 impl CsvTable {
-    /// The table that these bytes of the file at `path` are.
+    /// Parses `bytes`, read from the file at `path`.
     pub(super) fn of_bytes(path: &Path, bytes: Vec<u8>) -> Result<CsvTable, DatasetError> {
         let text = as_text(path, bytes)?;
         let delimiter = delimiter_of(text.lines().next().unwrap_or(""));
         CsvTable::of_text(path, text, delimiter, NonZeroUsize::MIN)
     }
 
-    /// The rows that `rows` hands over, each with as many cells as there are names: a table that no file holds as it is, in the place of the one
-    /// at `path`. Its lines say nothing of that file.
+    /// Table made of `rows`, each with as many cells as there are `names`. It stands in for the file at `path`, and its line numbers do not
+    /// refer to that file.
     ///
     /// ```
     /// use taceva_import::CsvTable;
@@ -233,11 +233,11 @@ fn push_line<'c>(text: &mut String, cells: impl IntoIterator<Item = &'c str>) {
     text.push('\n');
 }
 
-/// Looks through a table of quoted cells.
+/// Scans a table of quoted cells.
 fn quoted(path: &Path, mut file: File, begin: u64) -> std::io::Result<(Found, Digest)> {
     file.seek(SeekFrom::Start(begin))?;
     let mut first = String::new();
-    // What is not UTF-8 is said when the part is read.
+    // Invalid UTF-8 is reported when the part is read.
     let mut reader = BufReader::with_capacity(AHEAD, File::open(path)?);
     reader.seek(SeekFrom::Start(begin))?;
     let mut line = Vec::new();
@@ -249,7 +249,7 @@ fn quoted(path: &Path, mut file: File, begin: u64) -> std::io::Result<(Found, Di
     Ok((scan.finish(), digest))
 }
 
-/// A header as a line with one end, whichever it has in the file.
+/// Header as a line with a normalised line end.
 pub(super) fn header_line_of(mut bytes: Vec<u8>) -> Vec<u8> {
     while matches!(bytes.last(), Some(b'\r' | b'\n')) {
         bytes.pop();
@@ -258,7 +258,7 @@ pub(super) fn header_line_of(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// Where the text begins: after the byte order mark, where there is one.
+/// Offset of the text: behind the byte order mark, if there is one.
 pub(super) fn begin_of(file: &mut File) -> std::io::Result<u64> {
     let mut start = Vec::new();
     file.by_ref().take(3).read_to_end(&mut start)?;

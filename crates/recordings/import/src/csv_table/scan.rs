@@ -1,4 +1,4 @@
-//! Where the rows of a CSV file lie, found in one pass over its bytes that keeps none of them.
+//! Offsets of the rows of a CSV file, found in one pass over its bytes without storing them.
 
 use std::io::{self, Read};
 
@@ -6,27 +6,27 @@ use serde::{Deserialize, Serialize};
 
 use super::parts::PART_ROWS;
 
-/// Where a part begins.
+/// Start of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Mark {
-    /// The byte of the file.
+    /// Offset in the file, bytes.
     pub(super) byte: u64,
     /// The line of the file, from 1.
     pub(super) line: u64,
 }
 
-/// What a pass has found.
+/// Result of a scan.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Found {
-    /// Where the header ends.
+    /// End of the header, bytes.
     pub(super) header_end: u64,
-    /// Where each part begins.
+    /// Start of each part.
     pub(super) marks: Vec<Mark>,
     pub(super) rows: u64,
-    /// Quotes in the whole file.
+    /// Number of quotes in the file.
     pub(super) quotes: u64,
-    /// Where the file ends.
+    /// End of the file, bytes.
     pub(super) end: u64,
 }
 
@@ -39,19 +39,19 @@ impl Found {
     }
 }
 
-/// Hands bytes on, and finds where rows lie, as `split.rs` finds them: a line each, the first is the header, blank ones are none.
+/// Passes bytes through and finds rows as `split.rs` does: each line is a row, the first is the header, blank lines are skipped.
 pub(super) struct LineScan<R> {
     inner: R,
     found: Found,
     line: u64,
-    /// Where the current line begins.
+    /// Offset of the current line, bytes.
     start: u64,
     /// The byte before the next one.
     last: u8,
 }
 
 impl<R: Read> LineScan<R> {
-    /// A scan of what `inner` has, which begins at this byte of the file.
+    /// Scan of `inner`, which begins at byte `begin` of the file.
     pub(super) fn new(inner: R, begin: u64) -> LineScan<R> {
         LineScan {
             inner,
@@ -65,7 +65,7 @@ impl<R: Read> LineScan<R> {
         }
     }
 
-    /// What was found, once everything was read.
+    /// Returns the result, once all bytes are read.
     pub(super) fn finish(mut self) -> Found {
         if self.found.end > self.start || self.line == 1 {
             self.end_line(self.found.end, self.last);
@@ -92,7 +92,7 @@ impl<R: Read> LineScan<R> {
         self.found.end += bytes.len() as u64;
     }
 
-    /// Ends the line before `end`, where `before` is the byte in front of it.
+    /// Ends the line before `end`. `before` is the byte in front of it.
     fn end_line(&mut self, end: u64, before: u8) {
         let length = end - self.start;
         let is_blank = length == 0 || (length == 1 && before == b'\r');
@@ -116,7 +116,7 @@ impl<R: Read> Read for LineScan<R> {
     }
 }
 
-/// Hands on the cells of a table with quotes as `quoted.rs` keeps them, each with a line end, and finds where rows lie.
+/// Passes on the cells of a quoted table as `quotation.rs` stores them, each with a line end, and finds rows.
 pub(super) struct QuotedScan<R> {
     reader: csv::Reader<R>,
     record: csv::ByteRecord,
@@ -128,7 +128,7 @@ pub(super) struct QuotedScan<R> {
 }
 
 impl<R: Read> QuotedScan<R> {
-    /// A scan of what `inner` has, which begins at this byte of the file.
+    /// Scan of `inner`, which begins at byte `begin` of the file.
     pub(super) fn new(inner: R, begin: u64, delimiter: u8) -> QuotedScan<R> {
         QuotedScan {
             reader: csv::ReaderBuilder::new()
@@ -145,7 +145,7 @@ impl<R: Read> QuotedScan<R> {
         }
     }
 
-    /// What was found, once everything was read.
+    /// Returns the result, once all bytes are read.
     pub(super) fn finish(mut self) -> Found {
         self.found.end = self.begin + self.reader.position().byte();
         self.found

@@ -1,4 +1,4 @@
-//! Tables without quotes: cut at line ends into parts, each split on its own core.
+//! Tables without quotes, cut at line ends into parts that are split in parallel.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -12,10 +12,10 @@ use taceva_dataset::{DatasetError, Place};
 /// Text below this is not worth a second thread.
 const LEAST_PART: usize = 1 << 16;
 
-/// Some rows of a table: where each cell begins in the text, and where the row ends.
+/// Range of rows with the bounds of each cell in the text.
 #[derive(Debug)]
 pub(super) struct Block {
-    /// Which rows of the table these are.
+    /// Row numbers in the table.
     pub(super) rows: Range<usize>,
     pub(super) columns: usize,
     /// For each row the start of each cell, then one past the end of the last.
@@ -23,7 +23,7 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// Where the cell of a row of the table lies; one byte separates it from the next.
+    /// Text range of a cell. One byte separates it from the next.
     pub(super) fn cell(&self, row: usize, column: usize) -> Range<usize> {
         let first = (row - self.rows.start) * (self.columns + 1) + column;
         self.bounds[first] as usize..self.bounds[first + 1] as usize - 1

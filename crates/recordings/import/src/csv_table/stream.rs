@@ -1,4 +1,4 @@
-//! A CSV file that is read once, a block of rows at a time: what was read is digested, split and parsed while it lies in the cache of a core.
+//! CSV file read once, block by block: each block is digested, split and parsed while it is in the cache of a core.
 
 use std::fs::File;
 use std::io::Read;
@@ -12,13 +12,13 @@ use super::{CsvTable, delimiter_of, line_at};
 use taceva_dataset::internal::{PartsDigest, open_regular};
 use taceva_dataset::{DatasetError, Digest, Place};
 
-/// How many bytes are read at once.
+/// Read size, bytes.
 const AHEAD: usize = 1 << 16;
 
-/// The most bytes of a block: where it has more, its rows are no rows of numbers.
+/// Limit of a block, bytes. A larger block holds no rows of numbers.
 const MOST_BYTES: usize = 1 << 28;
 
-/// In how many bytes of its beginning a table is looked at for bytes of value 0, as [`CsvTable::read`] does.
+/// Number of leading bytes that are searched for zero bytes, as in [`CsvTable::read`].
 const BEGINNING: usize = 4_096;
 
 /// A CSV file without quoted cells, of any length, read from its beginning to its end.
@@ -40,14 +40,14 @@ const BEGINNING: usize = 4_096;
 /// ```
 #[derive(Debug)]
 pub struct CsvStream {
-    /// The columns, and no row.
+    /// Columns without rows.
     header: CsvTable,
     delimiter: u8,
     file: File,
     digest: PartsDigest,
-    /// What was read behind the last block.
+    /// Bytes read behind the last block.
     ahead: Vec<u8>,
-    /// Lines of the file before that.
+    /// Lines of the file before `ahead`.
     lines: u64,
 }
 
@@ -83,7 +83,7 @@ impl CsvStream {
         })
     }
 
-    /// A table of its columns without a row.
+    /// Table of the columns without rows.
     pub fn header(&self) -> &CsvTable {
         &self.header
     }
@@ -103,11 +103,11 @@ impl CsvStream {
         }
     }
 
-    /// Reads the next `rows` rows into `block`, in the place of those that it has; fewer at the end of the file, then none. What it took of memory is
-    /// used again.
+    /// Replaces the rows of `block` with the next `rows` rows: fewer at the end of the file, then none. Its memory is reused.
     ///
     /// # Errors
-    /// As [`CsvTable::read`], and [`DatasetError::Table`] for a quoted cell: only the whole says where that ends. Behind an error nothing more can be read.
+    /// As [`CsvTable::read`]; also [`DatasetError::Table`] for a quoted cell, whose end only the whole file shows. After an error the
+    /// stream cannot be read.
     pub fn read(&mut self, rows: usize, block: &mut CsvTable) -> Result<(), DatasetError> {
         let CsvTable { path, names, .. } = &self.header;
         let mut text = std::mem::take(&mut block.text).into_bytes();
@@ -151,13 +151,13 @@ impl CsvStream {
         Ok(())
     }
 
-    /// The digest that [`CsvTable::digest`] has of the whole, once everything was read.
+    /// Digest of the whole file, equal to [`CsvTable::digest`], once everything was read.
     pub fn digest(&self) -> Digest {
         self.digest.clone().finish()
     }
 }
 
-/// Adds the next bytes of the file to `bytes`, and to the digest; returns whether there were any.
+/// Appends the next bytes of the file to `bytes` and to the digest. Returns false at the end of the file.
 fn fill(
     path: &Path,
     file: &mut File,
@@ -172,7 +172,7 @@ fn fill(
     let read = file.take(AHEAD as u64).read_to_end(bytes);
     let read = read.map_err(DatasetError::io("read", path))?;
     let new = &bytes[had..];
-    // Every byte is looked at, so that many are at once.
+    // Counts over every byte, without a branch, so that the loop vectorises.
     let quotes = new
         .iter()
         .fold(0, |any, byte| any | u8::from(*byte == b'"'));

@@ -1,4 +1,4 @@
-//! A table of text, read as its form says, with the unit of each column.
+//! Text table read in a given text form, with the unit of each column.
 
 use std::path::Path;
 
@@ -7,17 +7,17 @@ use super::{CsvTable, as_text, cells_of_first_row, delimiter_of, number};
 use taceva_dataset::internal::{all_cores, limits, read_capped, shown};
 use taceva_dataset::{DatasetError, Place};
 
-/// Table of text, and the unit of each of its columns as a row below the header says it.
+/// Text table with the unit of each column from the row below the header.
 pub(crate) struct TableWithUnits {
     pub(crate) table: CsvTable,
     pub(crate) units: Vec<Option<String>>,
 }
 
 impl CsvTable {
-    /// Reads the file at `path`, written as `form` says. A line `sep=;` before the header is what it says.
+    /// Reads the file at `path` in the text form `form`. A line `sep=;` before the header sets the separator.
     ///
     /// # Errors
-    /// As [`read`](CsvTable::read), with what the map may say of a file whose rows have other lengths.
+    /// As [`read`](CsvTable::read). The error suggests keys of the map if the text seems to have another form.
     pub(crate) fn read_written(
         path: &Path,
         form: &TextForm,
@@ -38,7 +38,7 @@ impl CsvTable {
     }
 }
 
-/// The keys of the map's table that would read a text that is no plain table.
+/// Keys of the map's table with which a non-plain text could be read.
 fn hint(text: &str, form: &TextForm) -> Option<String> {
     let guessed = TextForm::guessed(text);
     let keys = TextForm {
@@ -65,7 +65,7 @@ fn read_text(path: &Path, text: String, form: &TextForm) -> Result<TableWithUnit
         let mark = form.comment.as_deref();
         mark.is_some_and(|mark| line.trim_start().trim_start_matches('"').starts_with(mark))
     };
-    // Lines before the header, which are cut off.
+    // Number of lines cut off before the header.
     let mut before = 0_u64;
     let mut at = 0;
     let mut separator = None;
@@ -77,7 +77,7 @@ fn read_text(path: &Path, text: String, form: &TextForm) -> Result<TableWithUnit
         if !is_skipped && said.is_none() && !is_comment(line) && !is_blank {
             break;
         }
-        // A line that says the separator is none of those that the map counts.
+        // The map does not count a separator line.
         before += 1;
         at += line.len();
     }
@@ -103,7 +103,7 @@ fn read_text(path: &Path, text: String, form: &TextForm) -> Result<TableWithUnit
         for line in text.split_inclusive('\n') {
             let end = if line.ends_with('\n') { "\n" } else { "" };
             let is_blank = line.trim().is_empty();
-            // Within a quoted cell a line is no line.
+            // A line end within a quoted cell ends no row.
             let is_removed = if is_quoted {
                 false
             } else if is_comment(line) {
@@ -131,7 +131,7 @@ fn read_text(path: &Path, text: String, form: &TextForm) -> Result<TableWithUnit
     let read = match form.has_header {
         true => CsvTable::of_text(path, text, delimiter, all_cores()),
         false => {
-            // Blank lines are no rows, and the first of them is no header.
+            // Blank lines are skipped, so the header is the first other line.
             let first = text.lines().find(|line| !line.trim().is_empty());
             let count = cells_of_first_row(first.unwrap_or_default(), delimiter);
             let names: Vec<String> = (0..count).map(|position| position.to_string()).collect();
@@ -163,7 +163,7 @@ fn read_text(path: &Path, text: String, form: &TextForm) -> Result<TableWithUnit
     })
 }
 
-/// The cells of a line.
+/// Splits a line into cells.
 fn cells_of(line: &str, delimiter: u8) -> Vec<String> {
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(delimiter)

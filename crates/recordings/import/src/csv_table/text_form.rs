@@ -1,30 +1,30 @@
-//! A table of text as programs of force gauges and spreadsheets write it: lines before the header, a row of units, commas for points.
+//! Text tables of force gauges and spreadsheets: lines before the header, a row of units, decimal commas.
 
 use super::{cells_of_first_row, number};
 use crate::unit_suffix::UnitSuffix;
 
-/// Form of a table of text beside its separator.
+/// Form of a text table, besides its separator.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct TextForm {
-    /// Without a header, columns are called by their position, from 0.
+    /// False for a table without header, whose columns are named by position, from 0.
     pub(crate) has_header: bool,
-    /// The sign before the fraction of a number.
+    /// Decimal mark.
     pub(crate) decimal: char,
-    /// The sign between groups of three digits; `None` where the map says nothing, an empty text where it says that there is none.
+    /// Separator of groups of three digits; `None` if the map is silent, empty if it says that there is none.
     pub(crate) thousands: Option<String>,
-    /// Mark at the beginning of lines that are no rows.
+    /// Mark that begins comment lines.
     pub(crate) comment: Option<String>,
-    /// Lines before the header that are no part of the table.
+    /// Number of lines before the header, outside the table.
     pub(crate) skip_lines: u32,
-    /// True if the line below the header says units.
+    /// True if the line below the header holds units.
     pub(crate) has_units: bool,
 }
 
-/// Lines of a table of text that show its form.
+/// Lines of a text table from which its form is guessed.
 const LOOKED_AT: usize = 64;
 
 impl TextForm {
-    /// A table with points for decimals and nothing but rows below its header, where it has one.
+    /// Plain form: decimal points, and only rows below the header.
     pub(crate) fn new(has_header: bool) -> TextForm {
         TextForm {
             has_header,
@@ -40,7 +40,7 @@ impl TextForm {
         self.comment.is_none() && self.skip_lines == 0 && !self.has_units
     }
 
-    /// True if cells are converted before they are read as numbers.
+    /// True if cells are converted before they are parsed.
     fn converts(&self) -> bool {
         self.decimal != '.'
             || self
@@ -49,10 +49,10 @@ impl TextForm {
                 .is_some_and(|sign| !sign.is_empty())
     }
 
-    /// The cell with a decimal point and without groups; `None` where it is no number or needs no change.
+    /// Returns the cell with a decimal point and without groups; `None` if it is no number or needs no change.
     ///
     /// # Errors
-    /// The problem with a cell of digits and signs that does not follow this form.
+    /// The problem with a cell of digits and signs that breaks this form.
     pub(crate) fn converted(&self, cell: &str) -> Result<Option<String>, String> {
         if !self.converts() || !cell.bytes().any(|byte| byte.is_ascii_digit()) {
             return Ok(None);
@@ -109,7 +109,7 @@ impl TextForm {
         }))
     }
 
-    /// The keys of a map that say this form, as `, decimal = ","`; nothing of the default.
+    /// Keys of a map for this form, such as `, decimal = ","`. Default values are omitted.
     pub(crate) fn keys(&self) -> String {
         let mut keys = String::new();
         if !self.has_header {
@@ -133,7 +133,7 @@ impl TextForm {
         keys
     }
 
-    /// The form that the beginning of `text` seems to have.
+    /// Guesses the form from the beginning of `text`.
     pub(crate) fn guessed(text: &str) -> TextForm {
         let mut form = TextForm::new(true);
         let lines: Vec<&str> = text.lines().take(LOOKED_AT).collect();
@@ -158,7 +158,7 @@ impl TextForm {
         let Some((_, last)) = rows.last() else {
             return form;
         };
-        // The last line is of the body, whatever stands above the header, and as wide as it.
+        // The last line belongs to the body, so the header is as wide as that line.
         let header_by = |delimiter: &u8| {
             let expected = cells_of_first_row(last, *delimiter);
             let mut lines = rows.iter();
@@ -230,7 +230,7 @@ impl TextForm {
     }
 }
 
-/// True of a cell of digits with one `sign` among them.
+/// True for a cell of digits with one `sign` among them.
 fn is_decimal(cell: &str, sign: char) -> bool {
     let bare = cell.trim_start_matches(['+', '-']);
     bare.split_once(sign).is_some_and(|(whole, fraction)| {
@@ -243,7 +243,7 @@ fn is_decimal(cell: &str, sign: char) -> bool {
     })
 }
 
-/// True of a number in groups of three digits: `1.333`, `12.345.678`, but not `0.333`.
+/// True for a number in groups of three digits: `1.333`, `12.345.678`, but not `0.333`.
 pub(crate) fn is_grouped(cell: &str, sign: char) -> bool {
     let bare = cell.trim_start_matches(['+', '-']);
     let mut groups = bare.split(sign);
@@ -258,7 +258,7 @@ pub(crate) fn is_grouped(cell: &str, sign: char) -> bool {
         && others.all(|group| group.len() == 3 && are_digits(group))
 }
 
-/// The separator that a spreadsheet says in a line of its own: `sep=;`.
+/// Separator from a spreadsheet's own line `sep=;`.
 pub(super) fn separator_line(line: &str) -> Option<u8> {
     let line = line.trim().trim_matches('"');
     match line
@@ -271,7 +271,7 @@ pub(super) fn separator_line(line: &str) -> Option<u8> {
     }
 }
 
-/// True of a row of units above a row of numbers.
+/// True for a row of units above a row of numbers.
 fn is_units_row(units: &str, below: &str, delimiter: u8) -> bool {
     let cells = |line: &str| -> Vec<String> {
         let cells = line.split(char::from(delimiter));
@@ -295,7 +295,7 @@ fn is_units_row(units: &str, below: &str, delimiter: u8) -> bool {
             .any(|(unit, cell)| unit_said(unit).is_some() && is_number(cell))
 }
 
-/// The unit that a cell of a row of units says: `[mN]`, `(mN)`, `mN`.
+/// Unit in a cell of the units row: `[mN]`, `(mN)`, `mN`.
 pub(super) fn unit_said(cell: &str) -> Option<String> {
     let bare = cell
         .trim()

@@ -1,4 +1,4 @@
-//! Lines of `[columns]`: for each channel the surest candidate, the others behind it.
+//! Lines of `[columns]`: for each channel the best candidate, with the others in a comment.
 
 use std::fmt::Write;
 
@@ -21,7 +21,7 @@ impl Offered<'_> {
         self.candidate.unit.map_or("?", |(unit, _)| unit)
     }
 
-    /// Rank among the candidates of a channel; the least is the surest.
+    /// Rank among the candidates of a channel; the lowest is the best.
     fn rank(&self) -> (bool, Reason, bool, u32) {
         (
             self.candidate.open.is_some(),
@@ -31,7 +31,7 @@ impl Offered<'_> {
         )
     }
 
-    /// Position in a pose that is a list of lists: the place comes before the rotation.
+    /// Position in a pose that is a list of lists: position before rotation.
     fn place_in_pose(&self) -> u32 {
         let is_place = self.candidate.channel.starts_with('P');
         let last = self.name.rsplit('/').next().filter(|_| is_place);
@@ -52,7 +52,7 @@ impl Offered<'_> {
     }
 }
 
-/// The lines of all channels, in the order in which the columns name them. Two candidates of one rank leave a line open.
+/// Lines of all channels, in column order. A line stays open if two candidates share the best rank.
 pub(super) fn lines(offered: &[Offered<'_>]) -> String {
     let mut channels: Vec<&str> = Vec::new();
     for one in offered {

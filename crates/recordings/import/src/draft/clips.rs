@@ -14,13 +14,13 @@ pub(super) fn is_clip(ending: &str) -> bool {
     matches!(ending, "avi" | "mp4" | "mkv" | "mov" | "webm")
 }
 
-/// The frames of the clips among `groups`, for the rows of `main`.
+/// Frames of the clips among `groups` for the rows of `main`.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
     main: &SeenTable<'_>,
 ) -> Vec<FrameLines> {
-    // Clips of LeRobot are named by their features: one that is not among them is no picture.
+    // LeRobot names clips by feature; other clips are no pictures of the table.
     if main.group.first() == "meta/info.json" {
         return Vec::new();
     }
@@ -43,9 +43,9 @@ pub(super) fn of(
     let (file, index) = match clips.paths.as_slice() {
         [only] if main.group.paths.len() == 1 => return vec![of_one(only)],
         [only] => (only.clone(), counted_through(main.group)),
-        // A clip a table.
+        // One clip per table.
         _ if are_pairs(main.group, clips) => (clips.parts.of_table(), format!("index = {index:?}")),
-        // A clip a finger, an eye or a camera.
+        // One clip per finger, eye or camera.
         several if main.group.paths.len() == 1 => {
             let names: Vec<&str> = several.iter().map(String::as_str).collect();
             return of_views(&names, |at| of_one(names[at]));
@@ -62,7 +62,7 @@ fn lines(clip: &str, index: String) -> FrameLines {
     }
 }
 
-/// The open line of a clip whose frames are not as many as the rows beside it; `None` where they are, or nothing here counts them.
+/// Open line for a clip whose frame count differs from `rows`; `None` if they agree or the clip cannot be opened.
 fn other_length(clip: &Path, rows: usize) -> Option<String> {
     let video = Video::open(clip, &Decoders::default()).ok()?;
     let frames = video.info().frames;

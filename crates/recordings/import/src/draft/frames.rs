@@ -1,4 +1,4 @@
-//! Where the frames of a table seem to be.
+//! Finds the frames of a table.
 
 mod picture_lines;
 
@@ -12,29 +12,29 @@ use picture_lines::in_array;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
-/// How many cells of a column are looked up as files.
+/// Number of cells of a column that are looked up as files.
 const LOOKED_UP: usize = 20;
 
 pub(super) fn is_picture(ending: &str) -> bool {
     matches!(ending, "png" | "jpg" | "jpeg" | "tif" | "tiff")
 }
 
-/// The lines of `[frame]`, with their comments.
+/// Lines of `[frame]` with their comments.
 #[derive(Debug, Default)]
 pub(super) struct FrameLines {
-    /// The view that they are of, where rows have several pictures.
+    /// View of the frames, if rows have several pictures.
     pub(super) view: Option<String>,
     pub(super) lines: Vec<String>,
     pub(super) is_gray: bool,
-    /// The order of the colours, where the file says it.
+    /// Colour order, if the file states it.
     pub(super) order: Option<ChannelOrder>,
-    /// The lines of [path], where pictures are found by the end of a path.
+    /// Lines of [path], if pictures are found by the end of a path.
     pub(super) path: Option<String>,
-    /// The lines of [drop].
+    /// Lines of [drop].
     pub(super) drop: Option<String>,
 }
 
-/// The column whose cells name pictures, and whether they are relative to the folder itself and not to that of the table.
+/// First column whose cells name pictures.
 pub(super) fn file_column<'t>(
     folder: &SourceFolder,
     table: &'t SeenTable<'_>,
@@ -42,15 +42,15 @@ pub(super) fn file_column<'t>(
     file_columns(folder, table).into_iter().next()
 }
 
-/// A column whose cells name pictures.
+/// Column whose cells name pictures.
 #[derive(Clone, Copy)]
 pub(super) struct FileColumn<'t> {
     column: &'t SeenColumn,
-    /// True if its cells are relative to the folder itself and not to that of the table.
+    /// True if cells are relative to the source folder instead of the table's folder.
     is_below_source: bool,
 }
 
-/// Every such column.
+/// All columns whose cells name pictures.
 fn file_columns<'t>(folder: &SourceFolder, table: &'t SeenTable<'_>) -> Vec<FileColumn<'t>> {
     let own = folder.path().join(table.group.first());
     let own = taceva_files::parent_of(&own);
@@ -81,7 +81,7 @@ fn file_columns<'t>(folder: &SourceFolder, table: &'t SeenTable<'_>) -> Vec<File
     columns.collect()
 }
 
-/// The column whose cells are the names of pictures in folders of several views, and these folders: `left`, `right`.
+/// Column whose cells name pictures in the folders of several views, with these folders: `left`, `right`.
 fn camera_folders<'t>(
     folder: &SourceFolder,
     table: &'t SeenTable<'_>,
@@ -112,7 +112,7 @@ fn camera_folders<'t>(
     })
 }
 
-/// The rule that leaves rows out which name no picture, as recorders write them that make room ahead.
+/// Rule that drops rows without a picture name; recorders that allocate rows ahead leave such rows.
 fn empty_rows(column: &SeenColumn, rows: usize) -> Option<String> {
     (column.empty > 0).then(|| {
         format!(
@@ -122,7 +122,7 @@ fn empty_rows(column: &SeenColumn, rows: usize) -> Option<String> {
     })
 }
 
-/// Pictures whose paths in the table begin in folders above this one, or on another machine.
+/// Frames whose paths in the table begin in a parent folder or on another machine.
 fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLines> {
     let own = folder.path().join(main.group.first());
     let own = taceva_files::parent_of(&own).to_owned();
@@ -204,7 +204,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
     })
 }
 
-/// Place of the frames of `main`, of each view where rows have several; clips have their own function.
+/// Frames of `main`, one entry for each view. Clips are handled by their own function.
 pub(super) fn of(
     folder: &SourceFolder,
     main: &SeenTable<'_>,
@@ -280,7 +280,7 @@ pub(super) fn of(
     }
 }
 
-/// The lines of those of `names` that are views of one another, as `lines` gives them for each.
+/// Frame lines of the `names` that are views of one another, made by `lines`.
 pub(super) fn of_views(names: &[&str], lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
     let views = sided(names)
         .into_iter()
@@ -291,7 +291,7 @@ pub(super) fn of_views(names: &[&str], lines: impl Fn(usize) -> FrameLines) -> V
     views.collect()
 }
 
-/// The lines of pictures that a column names.
+/// Frame lines for pictures named in a column.
 fn in_column(folder: &SourceFolder, main: &SeenTable<'_>, found: FileColumn<'_>) -> FrameLines {
     let FileColumn {
         column,
@@ -314,14 +314,14 @@ fn in_column(folder: &SourceFolder, main: &SeenTable<'_>, found: FileColumn<'_>)
     }
 }
 
-/// Whether there is one of `files` for each of `tables`: what varies in the names of both is the same.
+/// True if the groups pair up: the varying parts of their names are equal.
 pub(super) fn are_pairs(tables: &FileGroup, files: &FileGroup) -> bool {
     tables.paths.len() > 1
         && files.paths.len() == tables.paths.len()
         && files.parts.names == tables.parts.names
 }
 
-/// The line of pictures in one file for several tables: each of these would begin with the first picture again.
+/// Line for pictures in one file that several tables share. By default each table would begin with the first picture.
 pub(super) fn counted_through(tables: &FileGroup) -> String {
     format!(
         "index = \"?\"   # {} tables share it: the column that counts through its pictures",
@@ -329,18 +329,18 @@ pub(super) fn counted_through(tables: &FileGroup) -> String {
     )
 }
 
-/// Pictures in files of their own.
+/// Pictures in files beside the table.
 struct Beside {
-    /// The file, as a map names it for each table.
+    /// File name as a map writes it for each table.
     file: String,
-    /// What is to be said before it.
+    /// Comment before the line.
     comment: Option<String>,
-    /// The line that says which picture a row has, where that is not the one of its own number.
+    /// Line that names the picture index of a row, if it differs from the row number.
     index: Option<String>,
 }
 
 impl Beside {
-    /// The pictures in `files` for the rows of `tables`.
+    /// Pictures in `files` for the rows of `tables`.
     fn of(tables: &FileGroup, files: &FileGroup) -> Beside {
         let named = |file: &str, comment: Option<String>| Beside {
             file: file.to_owned(),
@@ -348,7 +348,7 @@ impl Beside {
             index: None,
         };
         let count = files.paths.len();
-        // Only then names that are sorted are in the order of their numbers.
+        // Names of equal length without words sort in the order of their numbers.
         let is_counted = files.parts.words.is_empty()
             && files
                 .paths
@@ -378,7 +378,7 @@ impl Beside {
     }
 }
 
-/// Whether a file holds a picture without colours. What cannot be read is named by the import.
+/// True for a file with a grayscale picture. The import reports unreadable files.
 fn is_gray(path: &Path) -> bool {
     let bytes = read_capped(path, limits::IMAGE_BYTES);
     bytes.is_ok_and(|bytes| decode(&bytes, ChannelOrder::Gray).is_ok())

@@ -1,21 +1,21 @@
-//! Tables that belong to another: by a column of both, by time, or row by row.
+//! Finds joined tables: by a shared column, by time, or row by row.
 
 use std::collections::BTreeSet;
 
 use super::roles::Role;
 use super::tables::SeenTable;
 
-/// A table that is joined, and the lines of its `[[join]]`.
+/// Joined table with the lines of its `[[join]]`.
 #[derive(Debug)]
 pub(super) struct SeenJoin<'t, 'g> {
     pub(super) name: String,
     pub(super) table: &'t SeenTable<'g>,
-    /// What a map writes for the table.
+    /// The table's value in a map.
     pub(super) written: String,
     pub(super) lines: Vec<String>,
 }
 
-/// The tables that have channels which `main` has not, each with how it belongs to it.
+/// Tables with channels that `main` lacks, each with its join.
 pub(super) fn of<'t, 'g>(
     main: &SeenTable<'_>,
     tables: &'t [SeenTable<'g>],
@@ -35,7 +35,7 @@ pub(super) fn of<'t, 'g>(
         else {
             continue;
         };
-        // A topic is called by its name, another table by its file.
+        // A topic is named by itself, another table by its file.
         let stem = table
             .written
             .split("rows = \"")
@@ -60,7 +60,7 @@ pub(super) fn of<'t, 'g>(
     joins
 }
 
-/// A table of one row beside each of the main ones, such as a summary of a session.
+/// Table with one row for each main table, such as a summary of a session.
 fn beside(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<(String, Vec<String>)> {
     let are_pairs = main.group.paths.len() > 1
         && other.group.paths.len() == main.group.paths.len()
@@ -75,7 +75,7 @@ fn beside(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<(String, Vec<St
     })
 }
 
-/// By key: a column of both tables whose cells are unique in `other` and some of which `main` has.
+/// Join by key: a column of both tables, unique in `other`, that shares some values with `main`.
 fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     let key = main.columns.iter().find(|column| {
         let Some(there) = other.columns.iter().find(|there| there.name == column.name) else {
@@ -86,11 +86,11 @@ fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
             column.role,
             Role::Attribute | Role::Index | Role::Number | Role::Other
         );
-        // A column without a name is the index of pandas: the number of the row.
+        // An unnamed column is the pandas index, that is the row number.
         let is_named = column
             .name
             .starts_with(|letter: char| !letter.is_ascii_digit());
-        // Messages of ROS 1 count those of their own publisher.
+        // ROS 1 messages count per publisher.
         let is_own = column.name.ends_with("header.seq");
         is_key
             && is_named
@@ -104,7 +104,7 @@ fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     ])
 }
 
-/// By time: the times of both tables overlap.
+/// Join by time: the times of both tables overlap.
 fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     let (own_time, time) = (main.time()?, other.time()?);
     let (own, own_unit) = (own_time.column, own_time.unit);
@@ -150,9 +150,9 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     ])
 }
 
-/// Row by row: both tables have as many rows, and nothing else relates them.
+/// Join row by row: both tables have equally many rows and no other relation.
 fn by_row(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
-    // Of several tables each would begin with the first row of the other.
+    // With several tables, each would begin with the first row of the other.
     let is_alike = main.rows == other.rows && main.channels() == 0 && main.group.paths.len() == 1;
     is_alike.then(|| vec!["on = \"row\"   # both have as many rows".to_owned()])
 }

@@ -1,4 +1,4 @@
-//! The map as text: what is sure stands as it is, what is guessed says why, what only the lab knows is `"?"`.
+//! Map as text: certain lines as they are, guesses with a reason, and `"?"` for facts that only the lab knows.
 
 use std::fmt::Write;
 
@@ -22,16 +22,16 @@ const HEAD: &str = "\
 map_version = 2
 ";
 
-/// How many things that are not read a draft names.
+/// Limit of unread items that a draft names.
 const UNREAD: usize = 8;
 
-/// Why a file is not read, and what reads it.
+/// Note on an unreadable file, with a converter for it.
 pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
     let remedy = converter(group.first())?;
     Some(format!("{} is not read: {remedy}", group.first()))
 }
 
-/// Advice for clips beside which no table lies.
+/// Advice for clips without a table.
 pub(super) fn bare_clips(clips: &FileGroup) -> String {
     let clip = clips.first();
     format!(
@@ -40,14 +40,14 @@ pub(super) fn bare_clips(clips: &FileGroup) -> String {
     )
 }
 
-/// That a preset is made for what lies here.
+/// Note that a preset matches the folder.
 pub(super) fn known_layout(preset: &str) -> String {
     format!(
         "This looks like the layout of `--preset {preset}`, which needs no map: `taceva import --presets` says what it reads."
     )
 }
 
-/// Comment on an array beside pictures that is no table of them.
+/// Comment on an array that is beside pictures but not a table of them.
 pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
     format!(
         "{} ({} rows) is no table of the pictures: if it is the picture without contact, save it as PNG and name it as `reference`.",
@@ -56,7 +56,7 @@ pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
     )
 }
 
-/// The map with one more comment at its beginning.
+/// Map with one more comment at its beginning.
 pub(super) fn with_note(text: &str, note: &str) -> String {
     match text.strip_prefix(HEAD) {
         Some(rest) => format!("{HEAD}# {note}\n{rest}"),
@@ -64,7 +64,7 @@ pub(super) fn with_note(text: &str, note: &str) -> String {
     }
 }
 
-/// The map of a folder whose samples are the rows of `main`.
+/// Map of a folder whose samples are the rows of `main`.
 pub(super) fn of_table(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -243,13 +243,13 @@ pub(super) fn of_table(
     ended(text)
 }
 
-/// Words of columns whose rows of one value belong together.
+/// Words of columns whose equal values mark rows that belong together.
 const SHARED: [&str; 12] = [
     "episode", "session", "trial", "object", "video", "clip", "take", "press", "run", "repeat",
     "grasp", "sequence",
 ];
 
-/// The line of what repeats share: of episodes as it stands, of others as an offer.
+/// Line of the shared point of repeats: active for episodes, commented out for others.
 fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {
     let is_shared = |name: &str| {
         let words = words(name);
@@ -299,7 +299,7 @@ fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {
     }
 }
 
-/// Most columns that a comment names.
+/// Limit of columns that a comment names.
 const NAMED: usize = 24;
 
 fn shortened(names: &[String]) -> String {
@@ -311,7 +311,7 @@ fn shortened(names: &[String]) -> String {
     format!("{}{more}", names.join(", "))
 }
 
-/// The lines of taxels; `others` are columns that may be meant instead.
+/// Lines of taxels. `others` are alternative columns.
 fn signals(taxels: &Taxels, others: &[String]) -> String {
     let names = |count: usize| match count {
         1 => "[\"value\"]".to_owned(),
@@ -377,7 +377,7 @@ fn signals(taxels: &Taxels, others: &[String]) -> String {
     text
 }
 
-/// The map of a folder of pictures without a table.
+/// Map of a folder of pictures without a table.
 pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     let mut text = begun(notes);
     line(
@@ -431,7 +431,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     ended(text)
 }
 
-/// A column as a map names it.
+/// Column named as in a map.
 struct NamedColumn<'t> {
     name: String,
     role: &'t Role,
@@ -439,7 +439,7 @@ struct NamedColumn<'t> {
     is_own: bool,
 }
 
-/// The columns of the main table and of those that are joined.
+/// Columns of the main table and of joined tables.
 fn table_columns<'t>(
     main: &'t SeenTable<'_>,
     joins: &'t [SeenJoin<'_, '_>],
@@ -463,7 +463,7 @@ fn table_columns<'t>(
     columns
 }
 
-/// Sorts the parts of a path into ids and attributes; returns those that are channels.
+/// Sorts the parts of a path into ids and attributes. Returns the channels among them.
 fn add_parts(
     parts: &PathParts,
     ids: &mut Lines,
@@ -509,7 +509,7 @@ impl Lines {
 }
 
 fn attribute_name(column: &str) -> String {
-    // `/object/name` is the object, as `path.object` is.
+    // `/object/name` becomes `object`, as `path.object` does.
     let mut parts = column
         .trim_start_matches('@')
         .rsplit(['/', '.'])

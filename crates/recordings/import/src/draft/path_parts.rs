@@ -1,21 +1,21 @@
-//! What varies in the names of files that were written alike: `x+0.5_007.png` is a number behind `x` and a counter.
+//! Varying parts of similar file names: `x+0.5_007.png` is a number behind `x` and a counter.
 
 use std::collections::BTreeSet;
 
-/// Paths that differ in some parts only.
+/// Paths that differ only in some parts.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct PathParts {
-    /// The paths with `*` for what varies.
+    /// Paths with `*` for the varying parts.
     pub(super) glob: String,
-    /// The paths with `{name}`, `{name:digits}` or `{name:number}` for what varies.
+    /// Paths with `{name}`, `{name:digits}` or `{name:number}` for the varying parts.
     pub(super) pattern: String,
-    /// The names of the parts, in order, and whether each is a number.
+    /// Name of each part, in order; true for a number.
     pub(super) names: Vec<(String, bool)>,
-    /// Of the parts that are words, what they are.
+    /// Values of each part that is a word.
     pub(super) words: Vec<(String, Vec<String>)>,
 }
 
-/// A stretch of a name: letters, a number, or a separator.
+/// Token of a name: letters, a number, or a separator.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Token<'a> {
     Letters(&'a str),
@@ -31,7 +31,7 @@ impl<'a> Token<'a> {
     }
 }
 
-/// What varies among `paths`, which have as many folders each; `None` of paths that do not.
+/// Finds the varying parts of `paths`; `None` if their folder depths differ.
 pub(super) fn varying(paths: &[&str]) -> Option<PathParts> {
     let first = paths.first()?;
     let depth = first.split('/').count();
@@ -59,13 +59,13 @@ pub(super) fn varying(paths: &[&str]) -> Option<PathParts> {
 }
 
 impl PathParts {
-    /// The paths as a map names them where what varies is that of the path of a table: `s{path.s}/frames.npy`.
+    /// Path pattern that takes its varying parts from the path of a table: `s{path.s}/frames.npy`.
     pub(super) fn of_table(&self) -> String {
         let plain = self.pattern.replace(":digits}", "}");
         plain.replace(":number}", "}").replace('{', "{path.")
     }
 
-    /// The letters right behind the part called `name`: mostly its unit.
+    /// Letters directly behind the part called `name`, usually its unit.
     pub(super) fn letters_behind(&self, name: &str) -> Option<&str> {
         let (_, behind) = self.pattern.split_once(&format!("{{{name}:"))?;
         let (_, behind) = behind.split_once('}')?;
@@ -75,7 +75,7 @@ impl PathParts {
         (end > 0).then(|| &behind[..end])
     }
 
-    /// Adds the folder or file that is called `names` in the paths.
+    /// Adds one folder level or the file name, called `names` in the paths.
     fn add_level(&mut self, names: &[&str]) {
         let rows: Vec<Vec<Token<'_>>> = names.iter().map(|name| tokens(name)).collect();
         let first = &rows[0];
@@ -104,13 +104,13 @@ impl PathParts {
                 continue;
             }
             let is_number = matches!(first[at], Token::Number(_));
-            // The nearest letters before it, where they are the same in all.
+            // Uses the nearest letters before it, if all paths share them.
             let letters = first[..at]
                 .iter()
                 .enumerate()
                 .rev()
                 .find_map(|(before, token)| match token {
-                    // Letters right behind a number are its unit.
+                    // Letters directly behind a number are its unit.
                     Token::Letters(_)
                         if before > 0 && matches!(first[before - 1], Token::Number(_)) =>
                     {
@@ -162,7 +162,7 @@ impl PathParts {
     }
 }
 
-/// The names without the ending that all share, from the last dot on, and that ending.
+/// Splits the shared ending, from the last dot on, off the names.
 fn common_ending<'a>(names: &[&'a str]) -> (BTreeSet<&'a str>, &'a str) {
     let ending = names[0].rfind('.').map_or("", |at| &names[0][at..]);
     let stems: Option<BTreeSet<&str>> =
@@ -173,7 +173,7 @@ fn common_ending<'a>(names: &[&'a str]) -> (BTreeSet<&'a str>, &'a str) {
     }
 }
 
-/// The stretches of a name; a sign belongs to the number behind it where letters stand before it.
+/// Splits a name into tokens. A sign behind letters belongs to the following number.
 fn tokens(name: &str) -> Vec<Token<'_>> {
     let bytes = name.as_bytes();
     let is_digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);

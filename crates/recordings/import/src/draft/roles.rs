@@ -1,4 +1,4 @@
-//! What the columns of a table seem to be, by their names and their first cells.
+//! Guesses the role of each column from its name and first cells.
 
 pub(super) mod candidate;
 pub(super) mod exclusion;
@@ -14,35 +14,35 @@ use times::time;
 
 pub(super) use words::words;
 
-/// What a column seems to be.
+/// Guessed role of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Role {
     Channels(Vec<Candidate>),
     /// Name like that of a channel, for another quantity.
     Excluded(Exclusion),
-    /// A time in such a unit, since 1970 or not; `"?"` where nothing says which.
+    /// Time in `unit`, since 1970 or not; `"?"` if the unit is unknown.
     Time {
         unit: &'static str,
         is_unix: bool,
-        /// Why the unit may be another.
+        /// Reason that the unit may be another.
         guess: Option<&'static str>,
     },
-    /// A text with few values: what was touched, a session.
+    /// Text with few values, such as an object or a session.
     Attribute,
     /// Whole numbers that count frames.
     Index,
-    /// Numbers that no name explains.
+    /// Numbers with an uninformative name.
     Number,
-    /// So many numbers a cell, which no name explains.
+    /// Several numbers in each cell, with an uninformative name.
     Numbers(usize),
     Other,
 }
 
-/// Least rows that count up and make a force a counter; more where its name is that of the channel.
+/// Least number of ascending rows that make a force a counter, larger if the name is that of the channel.
 const COUNTED: usize = 4;
 const COUNTED_BY_NAME: usize = 16;
 
-/// What says what a column is: its name, or that of its file where columns are called `value`.
+/// Name that explains the column: its own, or that of its file if columns are called `value`.
 fn explained<'n>(name: &'n str, about: &'n str) -> &'n str {
     match name {
         "value" => about,
@@ -50,7 +50,7 @@ fn explained<'n>(name: &'n str, about: &'n str) -> &'n str {
     }
 }
 
-/// What the column called `name` is; `about` is what its file is called, which explains columns called `value`.
+/// Role of the column called `name`. `about` is the name of its file, which explains columns called `value`.
 pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
     let explained = explained(name, about);
     let filled: Vec<&str> = cells
@@ -63,7 +63,7 @@ pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
         .map(|cell| number::number(cell).ok().flatten())
         .collect();
     match numbers.filter(|numbers| !numbers.is_empty()) {
-        // The index of pandas, which has no name.
+        // The pandas index has no name.
         Some(numbers) if is_unnamed(name) && are_counts(&numbers) => Role::Other,
         Some(numbers) => of_numbers(explained, &numbers),
         None => match width(&filled) {
@@ -73,12 +73,12 @@ pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
     }
 }
 
-/// True of a column without a name, as the index of pandas.
+/// True for a column without a name, such as the pandas index.
 fn is_unnamed(name: &str) -> bool {
     name.is_empty() || name.starts_with("Unnamed: ")
 }
 
-/// Role of a column whose numbers have names of their own.
+/// Role of a column whose numbers have their own names.
 pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
     let is_known = names.iter().any(|name| !words(name).is_empty());
     if !is_known {
@@ -87,7 +87,7 @@ pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
     let mut found: Vec<Candidate> = Vec::new();
     let mut excluded = None;
     for (at, name) in names.iter().enumerate() {
-        // One number that is called a vector is its length.
+        // A single number called a vector is its length.
         if let Some(word) = words(name).into_iter().find(|word| word == "vector") {
             excluded = Some(Exclusion::Word {
                 word,
@@ -120,7 +120,7 @@ fn of_numbers(name: &str, numbers: &[f64]) -> Role {
     match Named::new(name).candidate(String::new()) {
         Some(Ok(candidate)) => {
             let least = match candidate.reason {
-                // What stands in a wrench or a pose is no counter.
+                // A part of a wrench or a pose is no counter.
                 Reason::Parent => usize::MAX,
                 Reason::Name | Reason::NameWithUnit => COUNTED_BY_NAME,
                 _ => COUNTED,
@@ -188,7 +188,7 @@ fn several(named: &Named, width: usize) -> Role {
     }
 }
 
-/// How many numbers each of the cells packs, if all pack as many.
+/// Number of numbers in each cell; `None` if the cells differ.
 fn width(cells: &[&str]) -> Option<usize> {
     let count = |cell: &str| {
         let is_number = |at: usize| {

@@ -1,4 +1,4 @@
-//! What lies in a folder: files grouped by how their names were written.
+//! Surveys a folder: groups files by the pattern of their names.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,12 +7,12 @@ use super::path_parts::{PathParts, varying};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
 
-/// The most files and folders that are looked at.
+/// Limit of files and folders examined.
 const LOOKED_AT: usize = 100_000;
-/// The most files of a group whose names are compared.
+/// Limit of names compared in a group.
 const COMPARED: usize = 2_000;
 
-/// Files that were written alike.
+/// Files with names of one pattern.
 #[derive(Debug)]
 pub(super) struct FileGroup {
     /// Paths relative to the folder, sorted.
@@ -26,7 +26,7 @@ impl FileGroup {
         &self.paths[0]
     }
 
-    /// The path of the group, with `*` for what varies.
+    /// Path of the group, with `*` for the varying parts.
     pub(super) fn pattern(&self) -> &str {
         match self.paths.as_slice() {
             [only] => only,
@@ -34,14 +34,14 @@ impl FileGroup {
         }
     }
 
-    /// The name of its first file without its ending.
+    /// Name of its first file without its ending.
     pub(super) fn stem(&self) -> &str {
         let name = self.first().rsplit('/').next().unwrap_or_default();
         name.split('.').next().unwrap_or(name)
     }
 }
 
-/// The groups of files below `folder`. A store of zarr or Lance counts as a file; hidden files, maps and links are not looked at.
+/// Groups of files below `folder`. A zarr or Lance store counts as a file. Hidden files, maps and links are skipped.
 pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, DatasetError> {
     let mut files = Vec::new();
     let mut folders = vec![String::new()];
@@ -65,7 +65,7 @@ pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, DatasetErr
                 && Path::new(&name)
                     .extension()
                     .is_some_and(|ending| ending == "zarr" || ending == "lance");
-            // A dataset that was made here is no part of what the lab recorded.
+            // A dataset made by TacEva is no part of the lab's recording.
             if kind.is_dir() && entry.path().join("dataset.toml").is_file() {
                 continue;
             }
@@ -80,7 +80,7 @@ pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, DatasetErr
     Ok(grouped(files))
 }
 
-/// Files of one ending at one depth whose folders and names differ in numbers and words alone.
+/// Groups files of one ending and depth whose names differ only in numbers and words.
 fn grouped(files: Vec<String>) -> Vec<FileGroup> {
     let mut by_shape: BTreeMap<(String, usize, String), Vec<String>> = BTreeMap::new();
     for path in files {
@@ -107,7 +107,7 @@ fn grouped(files: Vec<String>) -> Vec<FileGroup> {
     groups.collect()
 }
 
-/// Whether files with this ending may be tables: of these, names that differ in their last word mostly hold different things.
+/// True if files with this ending may be tables. Tables whose names differ in the last word usually hold different data.
 fn is_table_ending(ending: &str) -> bool {
     !matches!(
         ending,
@@ -115,7 +115,7 @@ fn is_table_ending(ending: &str) -> bool {
     )
 }
 
-/// What a name ends with before its ending: `forces` of `cube_1_forces.csv`; what numbers count is one.
+/// Last word of a name before its ending, without digits: `forces` of `cube_1_forces.csv`.
 fn last_word(name: &str) -> String {
     let stem = name.split('.').next().unwrap_or(name);
     let last = stem.rsplit(['_', '-', ' ']).next().unwrap_or(stem);

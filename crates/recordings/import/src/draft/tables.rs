@@ -1,4 +1,4 @@
-//! The tables of a folder, and what their columns seem to be.
+//! Tables of a folder, with the guessed roles of their columns.
 
 mod form;
 mod taxels;
@@ -18,28 +18,28 @@ use form::{NUMBERED_HEADER, form_of};
 pub(super) use taxels::Taxels;
 use taxels::taxels_of;
 
-/// How many rows of a table are looked at.
+/// Number of rows examined in a table.
 const SAMPLED: usize = 200;
 
-/// A table, or the first of several that were written alike.
+/// Table, or the first of several similar ones.
 #[derive(Debug)]
 pub(super) struct SeenTable<'g> {
     pub(super) group: &'g FileGroup,
-    /// What a map writes for it.
+    /// The table's value in a map.
     pub(super) written: String,
     pub(super) is_single_array: bool,
-    /// Whether channels are guessed by their number alone.
+    /// True if channels are guessed from the number of columns alone.
     pub(super) has_guessed_channels: bool,
-    /// What is guessed of its header.
+    /// Guess about its header.
     pub(super) header_guess: Option<String>,
     pub(super) rows: usize,
     pub(super) columns: Vec<SeenColumn>,
     pub(super) pictures: Vec<PictureColumn>,
-    /// Lists of classes that the file states.
+    /// Lists of classes stated by the file.
     pub(super) classes: Vec<(String, Vec<String>)>,
     /// Other tables with pictures in the same file, as a map writes them.
     pub(super) others: Vec<String>,
-    /// What of its file is not read, each with the reason.
+    /// Unread items of the file, each with the reason.
     pub(super) unread: Vec<String>,
 }
 
@@ -47,15 +47,15 @@ pub(super) struct SeenTable<'g> {
 pub(super) struct SeenColumn {
     pub(super) name: String,
     pub(super) role: Role,
-    /// Its first cells.
+    /// First cells.
     pub(super) cells: Vec<String>,
-    /// The lengths of the lists in its first cell, where they hold many numbers: those of taxels.
+    /// Shape of the lists in its first cell, if they hold many numbers, as taxels do.
     pub(super) taxels: Option<Vec<usize>>,
-    /// Number of empty cells among all.
+    /// Number of empty cells in the whole column.
     pub(super) empty: usize,
 }
 
-/// The column of the time of a table.
+/// Time column of a table.
 #[derive(Debug)]
 pub(super) struct SeenTime<'t> {
     pub(super) column: &'t SeenColumn,
@@ -65,7 +65,7 @@ pub(super) struct SeenTime<'t> {
 }
 
 impl SeenTime<'_> {
-    /// The comment behind its unit.
+    /// Comment behind its unit.
     pub(super) fn mark(&self) -> String {
         let guess = self.guess.map(|guess| format!("   # {guess}"));
         guess.unwrap_or_default()
@@ -73,7 +73,7 @@ impl SeenTime<'_> {
 }
 
 impl<'g> SeenTable<'g> {
-    /// The table in the first file of `group`; `Ok(None)` if it is no table; the error says what is wrong with one that cannot be read.
+    /// Reads the table in the first file of `group`; `Ok(None)` if it is no table. The error describes an unreadable table.
     pub(super) fn read(
         folder: &SourceFolder,
         group: &'g FileGroup,
@@ -85,7 +85,7 @@ impl<'g> SeenTable<'g> {
         }
     }
 
-    /// The folder as LeRobot writes it, if it is one; `group` is the file that says so.
+    /// Reads the folder as a LeRobot dataset; `None` if it is none. `group` is the file that identifies it.
     pub(super) fn of_lerobot(
         folder: &SourceFolder,
         group: &'g FileGroup,
@@ -95,7 +95,7 @@ impl<'g> SeenTable<'g> {
             .then(|| SeenTable::of_form(folder.path(), group, (".", form)))
     }
 
-    /// The topics of a recording that are read, those with pictures first; the error says why none is.
+    /// Readable topics of a recording, those with pictures first. The error says why there is none.
     pub(super) fn of_messages(
         folder: &SourceFolder,
         group: &'g FileGroup,
@@ -117,7 +117,7 @@ impl<'g> SeenTable<'g> {
             return Err(problem.clone());
         }
         tables.sort_by_key(|table| std::cmp::Reverse((table.pictures.len(), table.rows)));
-        // Pictures that are not compressed stand beside those that are.
+        // Recordings may hold compressed and uncompressed pictures of one camera.
         let others = tables
             .iter()
             .skip(1)
@@ -155,7 +155,7 @@ impl<'g> SeenTable<'g> {
             if let Role::Channels(candidates) = &mut role {
                 complete(&table, &name, candidates);
             }
-            // Times that the file says to be times are read in seconds.
+            // Stated times are read in seconds.
             if table.time_unit(&name).is_some()
                 && let Role::Time { unit, guess, .. } = &mut role
             {
@@ -186,7 +186,7 @@ impl<'g> SeenTable<'g> {
                 names.join(",")
             )
         });
-        // Whether points group digits, nothing but the lab knows.
+        // Only the lab knows whether points group digits.
         let grouped = columns
             .iter()
             .find_map(|column| table.grouped_digits(&column.name));
@@ -222,17 +222,17 @@ impl<'g> SeenTable<'g> {
         })
     }
 
-    /// Whether its rows are in several groups of one file.
+    /// True if its rows are in several groups of one file.
     pub(super) fn has_groups(&self) -> bool {
         self.written.contains("/*\"") && self.group.ending != "json"
     }
 
-    /// How many channels its columns hold.
+    /// Number of channels in its columns.
     pub(super) fn channels(&self) -> usize {
         self.columns.iter().map(SeenColumn::channels).sum()
     }
 
-    /// The column of the time: when it was taken rather than when it was logged.
+    /// Time column, preferring acquisition time over log time.
     pub(super) fn time(&self) -> Option<SeenTime<'_>> {
         let is_logged = |column: &&SeenColumn| {
             ["log_time", "publish_time"]
@@ -275,10 +275,10 @@ fn empty_cells(table: &ForeignTable, name: &str) -> usize {
         .count()
 }
 
-/// Rows, spread over the table, that are searched for a number other than 0.
+/// Number of rows, spread over the table, that are searched for a non-zero number.
 const SPREAD: usize = 2_000;
 
-/// Adds what the file says of the unit, and whether there is anything but 0.
+/// Adds the unit stated by the file, and checks for a number other than 0.
 fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
     let stated = table.stated(name);
     let stated = stated.iter().find_map(|stated| stated.unit.as_deref());
@@ -311,7 +311,7 @@ fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
             looked_at += usize::from(matches!(found, Ok(Some(_))));
             !matches!(found, Ok(Some(number)) if number != 0.0)
         });
-        // A place may be 0 throughout: a scan along one axis.
+        // A position may be 0 throughout: a scan along one axis.
         let is_place = candidate.channel.starts_with('P');
         if is_zero && !is_place && looked_at >= LEAST_ZEROS {
             candidate.open = Some(format!(
@@ -321,10 +321,10 @@ fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
     }
 }
 
-/// Least rows of 0 that make a channel doubtful.
+/// Least number of zero rows that make a channel doubtful.
 const LEAST_ZEROS: usize = 4;
 
-/// Leaves channels open beside which a column says that they are not valid: `force_valid` beside `force_z`.
+/// Leaves channels open that another column marks as invalid: `force_valid` beside `force_z`.
 fn open_invalid(columns: &mut [SeenColumn]) {
     let is_false = |cell: &String| {
         matches!(
@@ -360,7 +360,7 @@ fn open_invalid(columns: &mut [SeenColumn]) {
     }
 }
 
-/// Takes three numbers without names for forces, six for forces and torques; returns whether there are three or six.
+/// Takes three unnamed numbers for forces, six for forces and torques. Returns true for three or six.
 fn guess_channels(columns: &mut [SeenColumn]) -> bool {
     let names = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
     let numbers: Vec<&mut SeenColumn> = columns

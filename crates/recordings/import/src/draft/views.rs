@@ -1,31 +1,31 @@
-//! Pictures that stand side by side in one row: columns, folders and files whose names differ in a finger, an eye or a number.
+//! Several pictures in one row: columns, folders and files whose names differ in a finger, an eye or a number.
 
 use super::roles::words;
 
-/// Words that tell fingers, eyes and cameras of one sensor or gripper apart.
+/// Words that distinguish fingers, eyes and cameras of one sensor or gripper.
 const SIDES: [&str; 26] = [
     "left", "right", "l", "r", "top", "bottom", "upper", "lower", "up", "down", "front", "back",
     "inner", "outer", "first", "second", "thumb", "index", "middle", "ring", "little", "pinky",
     "a", "b", "one", "two",
 ];
 
-/// One of several names that differ in their side alone.
+/// One of several names that differ only in their side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Sided {
     /// Position among the names.
     pub(super) at: usize,
-    /// The name of the view.
+    /// Name of the view.
     pub(super) view: String,
 }
 
-/// A stretch of a name.
+/// Token of a name.
 struct Stretch<'a> {
     text: &'a str,
     /// Position in the name, bytes.
     start: usize,
 }
 
-/// Names among `names` that differ in one side or number alone, in their order; none where fewer than two do.
+/// Names among `names` that differ in one side or number alone, in their order; empty if fewer than two do.
 pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
     let mut groups: Vec<(String, Vec<Sided>)> = Vec::new();
     for (at, name) in names.iter().enumerate() {
@@ -41,7 +41,7 @@ pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
         }
     }
     groups.retain(|(_, group)| group.len() > 1);
-    // Of two that are as large the first, which is the one of an earlier word.
+    // Of two equally large groups the first wins, which differs in an earlier word.
     let most = groups.iter().map(|(_, group)| group.len()).max();
     let largest = groups
         .into_iter()
@@ -49,7 +49,7 @@ pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
     largest.map(|(_, group)| group).unwrap_or_default()
 }
 
-/// For each word of `name` that may be a side, or number, the name without it, and the view that it names.
+/// For each possible side or number in `name`: the name without it, and the view.
 fn sides_of(name: &str) -> Vec<(String, String)> {
     let stretches = stretches(name);
     let mut sides = Vec::new();
@@ -74,7 +74,7 @@ fn sides_of(name: &str) -> Vec<(String, String)> {
     sides
 }
 
-/// The words and numbers of a name: a word ends where a small letter stands before a capital one.
+/// Words and numbers of a name. A word ends where a lower-case letter precedes an upper-case one.
 fn stretches(name: &str) -> Vec<Stretch<'_>> {
     let mut found: Vec<Stretch<'_>> = Vec::new();
     let mut start = None;

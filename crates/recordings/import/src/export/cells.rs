@@ -8,7 +8,7 @@ use super::picture::Encoded;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::Cells;
 
-/// What the cells of a column are there.
+/// Kind of the cells of a column.
 pub(super) fn kind(cells: &Cells<'_>) -> WrittenKind {
     match cells {
         Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => WrittenKind::Number,
@@ -17,7 +17,7 @@ pub(super) fn kind(cells: &Cells<'_>) -> WrittenKind {
     }
 }
 
-/// The cell of a row.
+/// Cell of a row.
 pub(super) fn cell(cells: &Cells<'_>, row: usize) -> Cell {
     let found = match cells {
         Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => {
@@ -29,7 +29,7 @@ pub(super) fn cell(cells: &Cells<'_>, row: usize) -> Cell {
     found.unwrap_or(Cell::Null)
 }
 
-/// The picture of the sample called `sample`; null of none.
+/// Picture of the sample called `sample`; null if there is none.
 pub(super) fn picture(picture: Option<Encoded>, sample: &str) -> Cell {
     let Some(Encoded { bytes, extension }) = picture else {
         return Cell::Null;
@@ -42,7 +42,7 @@ pub(super) fn picture(picture: Option<Encoded>, sample: &str) -> Cell {
 }
 
 impl Exported<'_> {
-    /// The numbers of the taxels of a row as a list.
+    /// Taxel values of a row as a list.
     pub(super) fn signals_cell(&self, row: usize) -> Result<Cell, DatasetError> {
         let numbers = self.signals(row)?.into_iter();
         Ok(Cell::List(
@@ -50,7 +50,7 @@ impl Exported<'_> {
         ))
     }
 
-    /// `name`, or that with `_` behind it while a column is called so.
+    /// `name`, with `_` appended until no column has that name.
     pub(super) fn free_name(&self, name: &str) -> String {
         let mut free = name.to_owned();
         while self.columns.iter().any(|column| column.name == free) {
@@ -60,7 +60,7 @@ impl Exported<'_> {
     }
 }
 
-/// What went wrong while a table was written.
+/// Converts an error of a table writer.
 pub(super) fn of_table(error: TableError) -> DatasetError {
     match error {
         TableError::Write { path, source } => DatasetError::Io {
@@ -75,7 +75,7 @@ pub(super) fn of_table(error: TableError) -> DatasetError {
     }
 }
 
-/// What went wrong while arrays were written.
+/// Converts an error of an array writer.
 pub(super) fn of_arrays(error: ArrayError) -> DatasetError {
     match error.problem {
         Problem::Io { doing, source } => DatasetError::Io {

@@ -1,4 +1,4 @@
-//! What every form of an export is made of.
+//! Content common to all forms of an export.
 
 use std::num::NonZeroUsize;
 
@@ -8,25 +8,25 @@ use super::picture::Pictures;
 use taceva_dataset::internal::{NamedColumn, staging::StagedFolder, write_durable};
 use taceva_dataset::{Dataset, DatasetError};
 
-/// What an export is made of.
+/// Content of an export.
 pub(super) struct Exported<'a> {
     pub(super) dataset: &'a Dataset,
     pub(super) columns: Vec<NamedColumn<'a>>,
-    /// The pictures of each view.
+    /// Pictures of each view.
     pub(super) pictures: Vec<Pictures<'a>>,
     pub(super) jobs: NonZeroUsize,
     pub(super) progress: &'a dyn Progress,
 }
 
 impl Exported<'_> {
-    /// Whether some samples have a picture and others none.
+    /// True if some samples have a picture and others none.
     pub(super) fn is_partly(&self) -> bool {
         let table = self.dataset.table();
         let pictures = table.frames().iter().flatten().count();
         pictures > 0 && pictures < table.rows()
     }
 
-    /// What the dataset says and no map can say, in words.
+    /// Facts of the dataset that no map can hold, in words.
     pub(super) fn left_out(&self) -> Vec<String> {
         let header = self.dataset.header();
         let table = self.dataset.table();
@@ -72,7 +72,7 @@ impl Exported<'_> {
         left.map(|(_, what)| what.to_owned()).collect()
     }
 
-    /// Whether a text has blanks around it, or is present and empty.
+    /// True if a text has surrounding blanks, or is present and empty.
     fn has_blanks(&self) -> bool {
         let rows = self.dataset.table().rows();
         let texts = self.columns.iter().filter(|column| column.cells.is_text());
@@ -81,13 +81,13 @@ impl Exported<'_> {
             .any(|text| text.is_empty() || text.trim() != text)
     }
 
-    /// The numbers of the taxels of a row.
+    /// Taxel values of a row.
     pub(super) fn signals(&self, row: usize) -> Result<Vec<f32>, DatasetError> {
         let signals = self.dataset.signals(row)?;
         Ok(signals.map_or_else(Vec::new, |signals| signals.values().to_vec()))
     }
 
-    /// Writes the picture without contact beside the file of the others; returns its name, none if nobody knows one.
+    /// Writes the picture without contact beside the other pictures. Returns its name; `None` if there is none.
     pub(super) fn write_reference(
         &self,
         staged: &StagedFolder,
@@ -101,7 +101,7 @@ impl Exported<'_> {
         Ok(Some(name))
     }
 
-    /// One step further.
+    /// Reports `rows` as done and stops if the export is cancelled.
     pub(super) fn advance(&self, rows: usize) -> Result<(), DatasetError> {
         self.progress.advance(rows as u64);
         match self.progress.is_cancelled() {

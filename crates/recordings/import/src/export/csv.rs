@@ -1,4 +1,4 @@
-//! A table of text, and one file for each picture.
+//! Text table, with one file for each picture.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -11,9 +11,9 @@ use super::picture::{Encoded, Pictures};
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{layout, ordered_map, staging::StagedFolder, write_durable};
 
-/// The table, whose rows are as those of the dataset.
+/// File name of the table; its rows are those of the dataset.
 const TABLE: &str = "labels.csv";
-/// Pictures written at a time by each job: most of the time is spent waiting until they are on the disk.
+/// Pictures that each job writes at a time. Most of the time is spent waiting for the disk.
 const PICTURES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
 
 pub(super) fn write(
@@ -75,14 +75,14 @@ pub(super) fn write(
     Ok((written, folders))
 }
 
-/// The column that names the pictures of a view.
+/// Column that names the pictures of a view.
 struct PathColumn {
     name: String,
-    /// Empty where a row has none.
+    /// Path of each row; empty if it has no picture.
     paths: Vec<String>,
 }
 
-/// Writes one file for each picture; returns their names, empty where a row has none.
+/// Writes one file for each picture. Returns the names, empty for rows without a picture.
 fn write_pictures(
     exported: &Exported<'_>,
     pictures: &Pictures<'_>,
@@ -162,7 +162,7 @@ fn write_table(
         .map_err(DatasetError::io("make durable", &path))
 }
 
-/// The shortest text that gives the same number of single precision to whoever reads it in double precision and then rounds.
+/// Shortest text that gives the same `f32` when parsed as `f64` and rounded.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "that this rounding gives the number is what is looked at"

@@ -1,6 +1,6 @@
-//! The forms of an export.
+//! Forms of an export.
 
-/// A form that other programs read.
+/// Export form that other programs read.
 ///
 /// ```
 /// use taceva_import::ExportForm;
@@ -10,13 +10,13 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ExportForm {
-    /// `labels.csv`, one row for each sample, and each picture in a file of its own.
+    /// `labels.csv` with one row per sample, and one file for each picture.
     Csv,
-    /// Parquet whose column `image` holds the pictures, as the library `datasets` of Hugging Face reads it.
+    /// Parquet file for the library `datasets` of Hugging Face, with the pictures in the column `image`.
     HuggingFace,
-    /// `recording.h5`: one array for each column, the pictures as one array of pixels.
+    /// `recording.h5`: one array for each column, and the pictures as one array of pixels.
     Hdf5,
-    /// A folder of LeRobot, version 3.0: one episode for each press.
+    /// LeRobot folder, version 3.0: one episode per press.
     LeRobot,
 }
 

@@ -1,4 +1,4 @@
-//! A file of HDF5: one array for each column, the pictures as one array of pixels; each array is in one piece.
+//! HDF5 file: one array for each column, and the pictures as one array of pixels. Arrays are contiguous.
 
 use taceva_arrays::{Hdf5Writer, WrittenElement};
 use taceva_core::PixelFormat;
@@ -11,7 +11,7 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{Cells, staging::StagedFolder};
 
 const FILE: &str = "recording.h5";
-/// Longest text of a column, bytes: all texts of an array have the room of the longest.
+/// Limit of a text, bytes. All texts of an array take the room of the longest.
 const TEXT_BYTES: usize = 4096;
 
 pub(super) fn write(
@@ -92,7 +92,7 @@ pub(super) fn write(
     Ok((written, Vec::new()))
 }
 
-/// A column as an array: numbers with NaN where there is none, texts with an empty one.
+/// Writes a column as an array. Absent numbers become NaN, absent texts are empty.
 fn write_column(
     exported: &Exported<'_>,
     writer: &mut Hdf5Writer,
@@ -180,7 +180,7 @@ fn check_text(
     })
 }
 
-/// The pixels of every picture, row by row.
+/// Writes the pixels of every picture, row by row.
 fn write_frames(
     exported: &Exported<'_>,
     pictures: &Pictures<'_>,

@@ -1,4 +1,4 @@
-//! A dataset as Hugging Face writes one: Parquet whose column `image` holds the pictures.
+//! Hugging Face dataset: Parquet with the pictures in the column `image`.
 
 use taceva_tables::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_features};
 
@@ -9,7 +9,7 @@ use super::map::{self, Written, WrittenFrames, quoted};
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{staging::StagedFolder, write_durable};
 
-/// Where the file lies in the folder.
+/// Path of the file within the folder.
 const FILE: &str = "data/train-00000-of-00001.parquet";
 
 pub(super) fn write(
@@ -94,7 +94,7 @@ pub(super) fn write(
     Ok((written, vec!["data".to_owned()]))
 }
 
-/// What stands beside the data: the sensor, the units, and whether anything was measured.
+/// Dataset card: the sensor, the units, and the source of the data.
 fn card_of(exported: &Exported<'_>, taxels: Option<&str>) -> String {
     let dataset = exported.dataset;
     let header = dataset.header();

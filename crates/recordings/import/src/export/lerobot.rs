@@ -1,8 +1,8 @@
-//! A folder of LeRobot, version 3.0, with the pictures in its tables.
+//! LeRobot folder, version 3.0, with the pictures in its tables.
 //!
-//! An episode is a press: rows that follow one another and share sensor unit, scene, contact point and repeat. LeRobot takes the rows of an episode
-//! for frames that follow one another in time, which those of a contact point need not be: its repeats may lie hours apart, in between others. And
-//! since episodes are runs of rows, rows keep their order.
+//! An episode is a press: consecutive rows of one sensor unit, scene, contact point and repeat. LeRobot takes the rows of an episode for
+//! frames that follow one another in time. Repeats of a contact point may be hours apart, with others in between, so they form separate
+//! episodes. As episodes are runs of rows, rows keep their order.
 
 use std::collections::BTreeMap;
 
@@ -21,9 +21,9 @@ use taceva_dataset::{DatasetError, Table};
 
 const STATE: &str = "observation.state";
 const TAXELS: &str = "observation.tactile";
-/// Pictures of each view are called by it, and those of samples that have one by `gel`.
+/// Prefix of picture features, followed by the view; `gel` for samples with one picture.
 const PICTURES: &str = "observation.images";
-/// How many pictures the statistics of all are computed from; LeRobot itself takes about as many.
+/// Number of pictures in the statistics, about as many as LeRobot itself takes.
 const LOOKED_AT: usize = 100;
 
 pub(super) fn write(
@@ -79,13 +79,13 @@ pub(super) fn write(
     Ok((written, folders))
 }
 
-/// Name of the feature of these pictures.
+/// Feature name of these pictures.
 fn picture_name(pictures: &Pictures<'_>) -> String {
     let view = pictures.view();
     format!("{PICTURES}.{}", view.as_deref().unwrap_or("gel"))
 }
 
-/// What a column is called: attributes stand apart from the columns that LeRobot has.
+/// Feature name of a column. Attributes are kept apart from the columns that LeRobot defines.
 fn name_of(name: &str) -> String {
     match RESERVED.contains(&name) {
         true => name.to_owned(),
@@ -93,7 +93,7 @@ fn name_of(name: &str) -> String {
     }
 }
 
-/// Those of the columns that are no channels, which stand together.
+/// Columns other than channels; the channels share one feature.
 fn labels<'e, 'd>(
     exported: &'e Exported<'d>,
 ) -> impl Iterator<Item = &'e taceva_dataset::internal::NamedColumn<'d>> {
@@ -148,7 +148,7 @@ fn features(exported: &Exported<'_>) -> Vec<WrittenFeature> {
     features
 }
 
-/// The cells of a row, in the order of the features.
+/// Cells of a row, in the order of the features.
 fn cells_of(exported: &Exported<'_>, row: usize) -> Result<Vec<Cell>, DatasetError> {
     let table = exported.dataset.table();
     let mut row_cells = Vec::new();
@@ -157,7 +157,7 @@ fn cells_of(exported: &Exported<'_>, row: usize) -> Result<Vec<Cell>, DatasetErr
         row_cells.push(cells::picture(Some(encoded), &table.samples()[row]));
     }
     if !table.channels().is_empty() {
-        // LeRobot reads no null among numbers.
+        // LeRobot rejects nulls among numbers.
         let channels = 0..table.channels().len();
         let values = channels.map(|position| table.truth(position).get(row).unwrap_or(f64::NAN));
         row_cells.push(Cell::List(values.map(Cell::Number).collect()));
@@ -169,7 +169,7 @@ fn cells_of(exported: &Exported<'_>, row: usize) -> Result<Vec<Cell>, DatasetErr
     Ok(row_cells)
 }
 
-/// Whether two rows that follow one another are of one press.
+/// True if two consecutive rows belong to the same press.
 fn is_same_press(table: &Table, before: usize, row: usize) -> bool {
     table.point_id()[before] == table.point_id()[row]
         && table.repeat()[before] == table.repeat()[row]
@@ -177,7 +177,7 @@ fn is_same_press(table: &Table, before: usize, row: usize) -> bool {
         && table.scene()[before] == table.scene()[row]
 }
 
-/// How many frames a second there are within presses, whole, as LeRobot wants it: by the median time between two; 1 where nobody knows.
+/// Frame rate within presses, whole Hz as LeRobot requires, from the median time step; 1 if times are absent.
 fn rate_hz(table: &Table) -> f64 {
     let pairs = (1..table.rows()).filter(|row| is_same_press(table, row - 1, *row));
     let steps = pairs.filter_map(|row| Some(table.t_s()[row]? - table.t_s()[row - 1]?));
@@ -187,7 +187,7 @@ fn rate_hz(table: &Table) -> f64 {
     median.map_or(1.0, |step| (1.0 / step).round().clamp(1.0, 1e6))
 }
 
-/// Adds the pixels of a picture, each from 0 to 1.
+/// Adds the pixels of a picture, scaled to 0 to 1.
 fn add_picture(stats: &mut FeatureStats, frame: &Frame) {
     let format = frame.info().format;
     let full = f64::from(format.full_scale());

@@ -1,4 +1,4 @@
-//! The map beside an export: what brings it back without anything else.
+//! Writes the import map of an export.
 
 use std::fmt::Write as _;
 
@@ -9,45 +9,45 @@ use crate::unit_suffix::UnitSuffix;
 use taceva_dataset::internal::{RESERVED, column_kind, column_of};
 use taceva_dataset::{Footprint, ReducedFrames, SensorFacts};
 
-/// Where a form has what the map names.
+/// Locations of the map's items in an export form.
 pub(super) struct Written {
-    /// The value of `table`, as TOML.
+    /// Value of `table`, as TOML.
     pub(super) table: String,
-    /// Places of the pictures of each view; none without pictures.
+    /// Pictures of each view; empty without pictures.
     pub(super) frames: Vec<WrittenFrames>,
-    /// The value of `from` of [signals], as TOML; none without signals.
+    /// Value of `from` of [signals], as TOML; `None` without signals.
     pub(super) signals: Option<String>,
-    /// What the file calls the column of that name, where it has another one there.
+    /// Maps a column name of the dataset to its name in the file.
     pub(super) names: fn(&str) -> String,
-    /// What the file calls each channel.
+    /// Name of each channel in the file.
     pub(super) channels: Vec<String>,
 }
 
-/// Place of the pictures of a view in a form.
+/// Pictures of a view in an export form.
 pub(super) struct WrittenFrames {
-    /// The key and value that name them, as TOML.
+    /// Key and value that name the pictures, as TOML.
     pub(super) key: String,
-    /// The file of the picture without contact.
+    /// File of the picture without contact.
     pub(super) reference: Option<String>,
 }
 
-/// The bare names of a table.
+/// Column name of a plain table: unchanged.
 pub(super) fn bare(name: &str) -> String {
     name.to_owned()
 }
 
-/// The bare names of the channels.
+/// Channel names without units.
 pub(super) fn bare_channels(exported: &Exported<'_>) -> Vec<String> {
     let channels = exported.dataset.table().channels().iter();
     channels.map(|channel| channel.name().to_owned()).collect()
 }
 
-/// A text as TOML writes it.
+/// Text as a TOML string.
 pub(super) fn quoted(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
 }
 
-/// The ids that a map names as the table does.
+/// Ids with the same name in a map and in the table.
 const IDS: [&str; 11] = [
     "sample",
     "point_id",
@@ -62,14 +62,14 @@ const IDS: [&str; 11] = [
     "spacing_mm",
 ];
 
-/// Where rows first came from: the key of the map, and the column.
+/// Keys of the map for the origin of rows, with their columns.
 const ORIGIN: [(&str, &str); 3] = [
     ("table", "source_table"),
     ("row", "source_row"),
     ("frame", "source_frame"),
 ];
 
-/// The map of an export of which `written` says where things are.
+/// Text of the map for an export with the locations `written`.
 pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     let header = exported.dataset.header();
     let table = exported.dataset.table();
@@ -77,7 +77,7 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     let mut text = String::from(
         "# The dataset again: taceva import FOLDER --map FOLDER/map.toml --out DATASET\n",
     );
-    // Writing to a string does not fail.
+    // Writing to a string never fails.
     let mut line = |words: std::fmt::Arguments<'_>| {
         let _ = text.write_fmt(format_args!("{words}\n"));
     };
@@ -119,7 +119,7 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
         line(format_args!("\n[columns]"));
     }
     for (channel, from) in table.channels().iter().zip(&written.channels) {
-        // A name may say the unit in which the lab wrote its numbers, such as `gap_m`; here they are converted.
+        // The name may contain the lab's unit, such as `gap_m`, but the exported values are converted.
         let unit = SourceUnit::parse(channel.unit().symbol()).ok();
         let is_contradicted = unit.is_some_and(|unit| {
             let suffix = UnitSuffix::of(from);
@@ -205,7 +205,7 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     text + &facts(&header.sensor, header.footprint)
 }
 
-/// The sensor and its footprint, as the header writes them.
+/// Sensor and footprint, as in the header.
 fn facts(sensor: &SensorFacts, footprint: Option<Footprint>) -> String {
     let words = "texts, numbers and truth values can be written as TOML";
     let mut text = format!("\n[sensor]\n{}", toml::to_string(sensor).expect(words));

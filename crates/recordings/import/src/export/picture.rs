@@ -1,4 +1,4 @@
-//! The pictures of an export: in the bytes that the dataset has them in, where the form can keep them so.
+//! Pictures of an export, with the bytes of the dataset where the form allows.
 
 use taceva_core::{Frame, PixelFormat};
 
@@ -6,18 +6,18 @@ use super::form::ExportForm;
 use taceva_dataset::internal::{ImageKind, encode_png};
 use taceva_dataset::{ChannelOrder, Dataset, DatasetError, ReducedFrames};
 
-/// The pictures of a dataset that has any.
+/// Pictures of a dataset that has at least one.
 pub(super) struct Pictures<'a> {
     dataset: &'a Dataset,
-    /// The order of colours in the files that are exported.
+    /// Colour order in the exported files.
     pub(super) order: ChannelOrder,
-    /// Whether every picture is encoded anew, and not those alone that are kept as differences.
+    /// True if every picture is re-encoded; otherwise only those stored as differences.
     is_anew: bool,
-    /// Whether the form holds pixels, and no files.
+    /// True if the form holds pixels instead of files.
     is_pixels: bool,
 }
 
-/// A picture as a file.
+/// Picture as a file.
 pub(super) struct Encoded {
     pub(super) bytes: Vec<u8>,
     pub(super) extension: &'static str,
@@ -26,9 +26,9 @@ pub(super) struct Encoded {
 impl<'a> Pictures<'a> {
     pub(super) fn of(dataset: &'a Dataset, form: ExportForm) -> Option<Pictures<'a>> {
         let frames = dataset.header().frames.as_ref();
-        // A picture without contact alone is none of a sample.
+        // A lone picture without contact belongs to no sample.
         let frames = frames.filter(|frames| frames.count > 0)?;
-        // Other programs take colours for red, green, blue; a map beside CSV says what they are.
+        // Other programs expect RGB order. Beside CSV, the map states the order.
         let is_turned = frames.channel_order == ChannelOrder::Bgr;
         let mut entries = dataset.table().frames().iter().flatten();
         let is_anew =
@@ -44,12 +44,12 @@ impl<'a> Pictures<'a> {
         })
     }
 
-    /// The view that they are of, where samples have several.
+    /// View of the pictures, if samples have several.
     pub(super) fn view(&self) -> Option<String> {
         self.dataset.view()
     }
 
-    /// `name`, and that of the view behind it where there are several.
+    /// `name`, followed by that of the view if there are several.
     pub(super) fn named(&self, name: &str) -> String {
         match self.view() {
             None => name.to_owned(),
@@ -57,24 +57,24 @@ impl<'a> Pictures<'a> {
         }
     }
 
-    /// Reduction of these pictures before they were recorded.
+    /// Reduction that was applied before recording.
     pub(super) fn reduced(&self) -> Option<&ReducedFrames> {
         self.dataset.header().frames.as_ref()?.reduced.as_ref()
     }
 
-    /// How many there are.
+    /// Number of pictures.
     pub(super) fn count(&self) -> u64 {
         self.dataset.table().frames().iter().flatten().count() as u64
     }
 
-    /// How many are encoded anew.
+    /// Number of re-encoded pictures.
     pub(super) fn encoded_anew(&self) -> u64 {
         let entries = self.dataset.table().frames().iter().flatten();
         let anew = entries.filter(|entry| self.is_pixels || self.is_anew || entry.is_difference());
         anew.count() as u64
     }
 
-    /// The picture of a row as a file; none if the row has none.
+    /// Picture of a row as a file; `None` if the row has none.
     pub(super) fn encoded(&self, row: usize) -> Result<Option<Encoded>, DatasetError> {
         let Some(entry) = &self.dataset.table().frames()[row] else {
             return Ok(None);
@@ -87,7 +87,7 @@ impl<'a> Pictures<'a> {
         Ok(Some(Encoded::of(bytes)))
     }
 
-    /// The picture without contact as a file; none if nobody knows one.
+    /// Picture without contact as a file; `None` if there is none.
     pub(super) fn reference(&self) -> Result<Option<Encoded>, DatasetError> {
         let header = self.dataset.header();
         let reference = header
@@ -107,13 +107,13 @@ impl<'a> Pictures<'a> {
         Ok(bytes.map(Encoded::of))
     }
 
-    /// The decoded picture of a row, where the form needs one for each.
+    /// Decoded picture of a row, for forms that need one in each row.
     pub(super) fn frame(&self, row: usize) -> Result<Frame, DatasetError> {
         let frame = self.dataset.frame(row)?;
         frame.ok_or_else(|| self.none(row))
     }
 
-    /// The error that a row has no picture, where the form needs one for each.
+    /// Error for a row without a picture, in forms that need one in each row.
     pub(super) fn none(&self, row: usize) -> DatasetError {
         DatasetError::Sample {
             id: self.dataset.table().samples()[row].clone(),
@@ -122,7 +122,7 @@ impl<'a> Pictures<'a> {
         }
     }
 
-    /// Size and format of each.
+    /// Size and format of each picture.
     pub(super) fn info(&self) -> Option<taceva_core::FrameInfo> {
         self.dataset
             .header()
@@ -131,7 +131,7 @@ impl<'a> Pictures<'a> {
             .map(|frames| frames.info)
     }
 
-    /// The number of colours of a pixel.
+    /// Number of colours per pixel.
     pub(super) fn colours(&self) -> usize {
         self.info()
             .map_or(PixelFormat::Rgb8.samples(), |info| info.format.samples())

@@ -1,4 +1,4 @@
-//! Arrays as tables: a row is what the arrays hold at one place of their first axis.
+//! Arrays as tables: a row is one index of their first axis.
 
 mod attributes;
 mod cells;
@@ -21,22 +21,22 @@ use attributes::{absent_chunks, is_data_frame, problem};
 pub(crate) use frames::ArrayPictures;
 use group::{Group, candidates, rows_of};
 
-/// Arrays that a draft looks into for pictures.
+/// Limit of arrays that a draft searches for pictures.
 const LISTED: usize = 64;
 
-/// The rows of a file of arrays, of one group or several.
+/// Rows of a file of arrays, from one group or several.
 #[derive(Debug)]
 pub(crate) struct ArrayRows {
     path: PathBuf,
     file: Arc<ArrayFile>,
-    /// The groups whose arrays are columns, or the table itself of an HDF5 table; one without a name where the file has none.
+    /// Groups whose arrays are columns, or the HDF5 table itself. A file without groups has one without a name.
     groups: Vec<Group>,
-    /// Whether the file is one row, each array of it a cell.
+    /// True if the file is one row, with each array as a cell.
     is_whole: bool,
 }
 
 impl ArrayRows {
-    /// The arrays of the groups that `rows` names, or of the whole file.
+    /// Opens the arrays of the groups that `rows` names, or of the whole file.
     pub(super) fn open(
         path: &Path,
         format: ArrayFormat,
@@ -68,7 +68,7 @@ impl ArrayRows {
         })
     }
 
-    /// The file as one row.
+    /// Opens the file as one row.
     pub(super) fn whole(path: &Path, format: ArrayFormat) -> Result<ArrayRows, String> {
         let file = ArrayFile::open(path, format).map_err(problem)?;
         let whole = Group {
@@ -97,7 +97,7 @@ impl ColumnSource for ArrayRows {
         let named = |name: String| match name.strip_prefix(&group.path) {
             _ if group.path.is_empty() => Some(name.trim_start_matches('/').to_owned()),
             Some(rest) if rest.starts_with(['/', '.']) => Some(rest[1..].to_owned()),
-            // As long as the table, and named from the root.
+            // Named from the root, and as long as the table.
             _ => {
                 (self.file.info(&name)?.rows() == length && self.groups.len() == 1).then_some(name)
             }
@@ -123,7 +123,7 @@ impl ColumnSource for ArrayRows {
 
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
         let of = |name: &&str| {
-            // As many as are read: what a file states may be any number.
+            // The capacity follows the values read: the file may state any number.
             let mut cells = Vec::new();
             for group in &self.groups {
                 cells.extend(self.cells(group, name)?);
@@ -138,7 +138,7 @@ impl ColumnSource for ArrayRows {
         }
     }
 
-    /// Times of NumPy that pandas stores as integers and says to be times.
+    /// NumPy times that pandas stores as integers marked as times.
     fn time_unit(&self, name: &str) -> Option<&'static str> {
         let mut units = self
             .groups
@@ -150,7 +150,7 @@ impl ColumnSource for ArrayRows {
 
     fn holds_integers(&self, name: &str) -> bool {
         self.groups.iter().all(|group| {
-            // An attribute of this name comes first, and is a text.
+            // An attribute of this name takes precedence, and is a text.
             let array = match self.attribute(group, name) {
                 Some(_) => None,
                 None => self.info(group, name),

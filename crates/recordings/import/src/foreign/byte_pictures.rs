@@ -1,4 +1,4 @@
-//! Pictures that are cells of a column, each the bytes of a picture file.
+//! Encoded pictures in the cells of a column, each the bytes of a picture file.
 
 use std::fmt;
 use std::path::Path;
@@ -10,10 +10,10 @@ use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
 use taceva_dataset::{ChannelOrder, DatasetError};
 
-/// What is done with the bytes of each cell.
+/// Callback that receives the bytes of each cell.
 type VisitBytes<'v> = &'v mut dyn FnMut(u64, Option<Vec<u8>>) -> Result<(), Ended<TableError>>;
 
-/// A table with columns of bytes.
+/// Table with columns of bytes.
 pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
     fn place(&self) -> &Path;
     fn count(&self) -> u64;
@@ -26,7 +26,7 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
         each: VisitBytes<'_>,
     ) -> Result<(), Ended<TableError>>;
 
-    /// What a column, or the lists in it, hold.
+    /// Kind of a column's values, or of the innermost values of its lists.
     fn kind_within(&self, name: &str) -> Option<ColumnKind> {
         let mut kind = self.kind_of(name).ok()?;
         while let ColumnKind::List(element) = kind {
@@ -35,7 +35,7 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
         Some(kind)
     }
 
-    /// The unit of the times in a column, or in its lists.
+    /// Unit of the times in a column, or in its lists.
     fn unit_of_times(&self, name: &str) -> Option<&'static str> {
         match self.kind_within(name)? {
             ColumnKind::Time(unit) => Some(unit),
@@ -43,12 +43,12 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
         }
     }
 
-    /// The cell, with nothing where the form writes that there is nothing.
+    /// The cell, or null if the form marks it as absent.
     fn present(cell: Cell) -> Cell {
         cell
     }
 
-    /// The cells of columns as texts.
+    /// Cells of columns as texts.
     fn texts(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
         let texts = |name: &&str| {
             let cells = self.cells(name);
@@ -62,7 +62,7 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
     }
 }
 
-/// The readers of all forms have the same methods, but for the name of the one that says where the table is.
+/// The readers of all forms have the same methods, except for the getter of the path.
 macro_rules! byte_columns {
     ($table:ty, $place:ident $(, $present:item)?) => {
         impl ByteColumns for $table {
@@ -101,7 +101,7 @@ byte_columns!(ArrowTable, path);
 byte_columns!(
     LeRobot,
     folder,
-    // Its library reads no null among numbers, so that NaN is the one sign of an absent one.
+    // LeRobot reads no null among numbers, so NaN alone marks an absent one.
     fn present(cell: Cell) -> Cell {
         match cell {
             Cell::Number(number) if number.is_nan() => Cell::Null,
@@ -111,7 +111,7 @@ byte_columns!(
     }
 );
 
-/// The encoded pictures in a column.
+/// Encoded pictures in a column.
 #[derive(Debug)]
 pub(super) struct EncodedPictures<T> {
     pub(super) table: Arc<T>,

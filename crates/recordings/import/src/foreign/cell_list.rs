@@ -1,26 +1,26 @@
-//! Several values in one cell: `[0.1, 0.2]`, `1 2 3`, `1;2;3`, `["a", "b, c"]`, lists in lists; and numbers as NumPy prints them.
+//! Several values in one cell: `[0.1, 0.2]`, `1 2 3`, `1;2;3`, `["a", "b, c"]`, nested lists, and numbers as NumPy prints them.
 
 use std::borrow::Cow;
 
-/// The most levels of lists within lists.
+/// Limit of nested list levels.
 const DEEPEST: usize = 16;
 
-/// A value of a cell that holds several.
+/// Value of a cell that holds several.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Value<'a> {
-    /// What it is, without the quotes around it.
+    /// Text of the value, without quotes.
     pub(crate) text: Cow<'a, str>,
     is_quoted: bool,
 }
 
 impl Value<'_> {
-    /// Whether it stands for nothing, as JSON writes that.
+    /// True for an unquoted JSON `null`.
     pub(crate) fn is_null(&self) -> bool {
         !self.is_quoted && self.text == "null"
     }
 }
 
-/// As [`item`], a text in quotes as it is without them.
+/// As [`item`], with quotes removed from a quoted text.
 pub(crate) fn value<'a>(cell: &'a str, index: &[usize]) -> Result<Value<'a>, String> {
     let found = item(cell, index)?;
     Ok(match unquoted(found) {
@@ -35,7 +35,7 @@ pub(crate) fn value<'a>(cell: &'a str, index: &[usize]) -> Result<Value<'a>, Str
     })
 }
 
-/// A text as a member of a list: in quotes where it could be taken for several, or for something else.
+/// Text as a member of a list, quoted if it could be taken for several values or for another one.
 pub(crate) fn member(text: String) -> String {
     let is_special = |letter: char| letter.is_whitespace() || "[](),;\"'\\".contains(letter);
     match text.as_str() {
@@ -49,7 +49,7 @@ fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-/// The value at `index` in `cell`, a position for each level from the outermost list inwards; the error says why there is none.
+/// Value at `index` in `cell`, one position per list level from the outermost inwards. The error says why there is none.
 pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String> {
     let mut found = cell.trim();
     for (depth, position) in index.iter().enumerate() {
@@ -71,7 +71,7 @@ pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String
     Ok(plain(found))
 }
 
-/// A number without the type that NumPy 2 prints around it: `np.float64(1.5)`.
+/// Number without the type that NumPy 2 prints around it: `np.float64(1.5)`.
 pub(crate) fn plain(cell: &str) -> &str {
     let inner = cell
         .strip_prefix("np.")
@@ -89,7 +89,7 @@ pub(crate) fn plain(cell: &str) -> &str {
     }
 }
 
-/// The text between quotes, if `value` is one.
+/// Text between quotes, if `value` is quoted.
 fn unquoted(value: &str) -> Option<Cow<'_, str>> {
     if quoted_bytes(value)? != value.len() {
         return None;
@@ -105,7 +105,7 @@ fn unquoted(value: &str) -> Option<Cow<'_, str>> {
     Some(Cow::Owned(json.unwrap_or_else(|| unescaped(inside))))
 }
 
-/// A text as Python prints it, without its backslashes.
+/// Text as Python prints it, without its backslashes.
 fn unescaped(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut letters = text.chars();
@@ -126,7 +126,7 @@ fn unescaped(text: &str) -> String {
     plain
 }
 
-/// How many bytes the text in quotes has that `text` begins with, with both quotes; `None` if it begins with none, or goes on right behind it.
+/// Length in bytes of the quoted text at the beginning of `text`, quotes included; `None` without one, or if more text follows directly.
 fn quoted_bytes(text: &str) -> Option<usize> {
     let mut letters = text.char_indices();
     let (_, quote) = letters
@@ -148,7 +148,7 @@ fn quoted_bytes(text: &str) -> Option<usize> {
     None
 }
 
-/// The values of the outermost list, or of a cell without brackets.
+/// Values of the outermost list, or of a cell without brackets.
 fn parts(cell: &str) -> Result<Vec<&str>, String> {
     let inside = ["[]", "()"].iter().find_map(|pair| {
         let (open, close) = pair.split_at(1);
@@ -158,7 +158,7 @@ fn parts(cell: &str) -> Result<Vec<&str>, String> {
     if inside.is_empty() {
         return Ok(Vec::new());
     }
-    // Between semicolons a comma belongs to a number, which then is none that is read.
+    // Between semicolons, a comma belongs to a number, which is then rejected.
     let semicolons = ends(inside, |letter| letter == ';')?;
     let separators = match semicolons.is_empty() {
         true => ends(inside, |letter| letter == ',')?,
@@ -176,16 +176,16 @@ fn parts(cell: &str) -> Result<Vec<&str>, String> {
         begins = at + width;
     }
     parts.push(inside[begins..].trim());
-    // Several blanks are one separator.
+    // Consecutive blanks are one separator.
     parts.retain(|part| !(is_blank_apart && part.is_empty()));
     Ok(parts)
 }
 
-/// Where separators stand outside of every bracket and of texts in quotes, and how many bytes they have.
+/// Offset and length of each separator outside brackets and quoted texts, bytes.
 fn ends(text: &str, is_separator: impl Fn(char) -> bool) -> Result<Vec<(usize, usize)>, String> {
     let mut depth = 0_usize;
     let mut found = Vec::new();
-    // Whether a value may begin here, and up to where one in quotes lies: an apostrophe within a word opens none.
+    // True where a value may begin, so that an apostrophe within a word opens no quoted text.
     let mut is_begin = true;
     let mut quoted_until = 0;
     for (at, letter) in text.char_indices() {

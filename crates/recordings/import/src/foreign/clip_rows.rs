@@ -1,4 +1,4 @@
-//! The frames of a clip as a table: a row a frame, with its time.
+//! Frames of a clip as a table: one row per frame, with its time.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,15 +16,15 @@ pub(super) struct ClipRows {
     times_s: Vec<f64>,
 }
 
-/// Columns: the number of a frame from 0, and its time in seconds.
+/// Names of the columns: frame number from 0, and time in seconds.
 const INDEX: &str = "index";
 const TIME: &str = "t";
 
 impl ClipRows {
-    /// The frames of the clip at `path`, the first at `start_s`; without a rate each at the time that the clip states.
+    /// Opens the clip at `path`, with its first frame at `start_s`. Without a rate, times are those that the clip states.
     ///
     /// # Errors
-    /// The words of the reader of the clip; a codec that only ffmpeg decodes is not counted here; a clip that states no times, or none that rise.
+    /// Errors of the clip reader; codecs that need ffmpeg, which is not used here; clips whose times are absent or do not rise.
     pub(super) fn open(path: &Path, rate: Option<f64>, start_s: f64) -> Result<ClipRows, String> {
         let video = Video::open(path, &Decoders::default()).map_err(|error| {
             format!(

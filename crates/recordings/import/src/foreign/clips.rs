@@ -11,19 +11,19 @@ use super::said;
 use taceva_dataset::internal::guarded;
 use taceva_dataset::{ChannelOrder, DatasetError, FrameCodec};
 
-/// The frames of a clip in the order in which they are shown. The file is opened for each visit: a recording may have one clip for each press.
+/// Frames of a clip in display order. Each visit opens the file, as a recording may have one clip per press.
 #[derive(Debug)]
 pub(crate) struct ClipPictures {
     path: PathBuf,
     decoders: Decoders,
     count: u64,
     codec: FrameCodec,
-    /// Pixels of a depth map, whose numbers are no brightness.
+    /// Pixels of a depth map, whose values are distances.
     depth: Option<DepthPixels>,
 }
 
 impl ClipPictures {
-    /// The clip at `path`, a depth map where it has such pixels.
+    /// Opens the clip at `path`, with `depth` as a depth map.
     pub(crate) fn open(
         path: &Path,
         decoders: &Decoders,
@@ -94,7 +94,7 @@ impl Pictures for ClipPictures {
     }
 }
 
-/// The distances in a picture of a depth map.
+/// Distances in a picture of a depth map.
 fn of_depth(picture: &taceva_video::Picture, depth: &DepthPixels) -> Result<Picture, String> {
     let taceva_video::Picture::Deep {
         width,
@@ -128,7 +128,7 @@ fn of_depth(picture: &taceva_video::Picture, depth: &DepthPixels) -> Result<Pict
     )
 }
 
-/// The picture as it is kept: a packet of Motion JPEG as it came, numbers of more than 8 bits as they are in 16.
+/// Picture as stored: a Motion JPEG packet unchanged, samples of more than 8 bits unscaled in 16 bits.
 fn kept(picture: taceva_video::Picture, format: PixelFormat) -> Result<Picture, String> {
     let (width, height, format, bytes) = match picture {
         taceva_video::Picture::Jpeg(bytes) => return Ok(Picture::Encoded(bytes)),

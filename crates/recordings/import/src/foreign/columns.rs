@@ -1,4 +1,4 @@
-//! A table whose columns are read one by one, each when it is first asked for: arrays, Parquet, messages.
+//! Table whose columns are read on first use: arrays, Parquet, messages.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,116 +11,115 @@ use taceva_dataset::internal::guarded;
 use taceva_dataset::{ChannelOrder, DatasetError, Place};
 use taceva_tables::DepthCodes;
 
-/// What a file says of the numbers in a column, in attributes of its array.
+/// Attributes that a file states for the numbers in a column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Stated {
-    /// The unit, by `unit` or `units`.
+    /// Unit, from `unit` or `units`.
     pub(crate) unit: Option<String>,
-    /// What the numbers are multiplied by and what is then added, by `scale_factor` and `add_offset` (the convention of netCDF), where that is
-    /// not nothing.
+    /// Factor and offset of packed numbers, from `scale_factor` and `add_offset` (netCDF convention); `None` if they change nothing.
     pub(crate) packed: Option<[f64; 2]>,
 }
 
-/// What a table of columns is read from.
+/// Source of a table of columns.
 pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     fn rows(&self) -> usize;
 
-    /// The columns that a map may want.
+    /// Columns that a map may use.
     fn names(&self) -> Vec<String>;
 
-    /// Whether there is a column of exactly this name.
+    /// True if there is a column of exactly this name.
     fn has(&self, name: &str) -> bool;
 
-    /// Of each column the cell of each row: texts as they are, numbers in the shortest form that reads back as the same 64 bits, several as
+    /// Cells of each column, by row: texts unchanged, numbers in the shortest form that reads back as the same 64 bits, several numbers as
     /// `[1.0, 2.0]`.
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String>;
 
-    /// The unit in which the file counts the times in a column, where it says that they are times; their cells are in seconds.
+    /// Unit of a time column as stated by the file; `None` for other columns. The cells are converted to seconds.
     fn time_unit(&self, _name: &str) -> Option<&'static str> {
         None
     }
 
-    /// Whether the file says that a column holds integers, or lists of them.
+    /// True if the file states that a column holds integers or lists of integers.
     fn holds_integers(&self, _name: &str) -> bool {
         false
     }
 
-    /// What the file itself says of the numbers in a column; in each of its groups where that differs.
+    /// Attributes that the file states for a column, one entry for each differing group.
     fn stated(&self, _name: &str) -> Vec<Stated> {
         Vec::new()
     }
 
-    /// Why a column is not among them although the file has something of this name: a link, or a form that is not read.
+    /// Reason that an item of this name is no column: a link, or an unsupported form.
     fn why_absent(&self, _name: &str) -> Option<String> {
         None
     }
 
-    /// What of the file is not read and is no column, each with the reason.
+    /// Unread items of the file, each with the reason.
     fn unread(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// The arrays behind these columns of which chunks were never written, and how many.
+    /// Arrays behind these columns with unwritten chunks, with the number of these chunks.
     fn absent_chunks(&self, _names: &[&str]) -> Result<Vec<(String, u64)>, String> {
         Ok(Vec::new())
     }
 
-    /// What of it seems to hold pictures.
+    /// Columns that seem to hold pictures.
     fn picture_columns(&self) -> Vec<PictureColumn>;
 
-    /// The closed lists of classes that numbers of columns are positions in, as the file states them.
+    /// Class lists stated by the file, for columns whose numbers index them.
     fn classes(&self) -> Vec<(String, Vec<String>)> {
         Vec::new()
     }
 
-    /// What the numbers of a column are called, as the file states it.
+    /// Names of the numbers in a column, as the file states them.
     fn element_names(&self, _column: &str) -> Vec<String> {
         Vec::new()
     }
 
-    /// The pictures that belong to the rows, by the number of the row.
+    /// Pictures of the rows, by row number.
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String>;
 
-    /// For each row the clip that `key` names, relative to the folder of the table, and the frame in it.
+    /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
     fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, String> {
         Err(format!(
             "no clips belong to its rows that `{key}` could name"
         ))
     }
 
-    /// The distances of the codes of `key`, where it is a depth map.
+    /// Distances of the codes of `key`, if it is a depth map.
     fn depth(&self, _key: &str) -> Option<DepthCodes> {
         None
     }
 }
 
-/// A column that seems to hold pictures.
+/// Column that seems to hold pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PictureColumn {
     pub(crate) name: String,
     pub(crate) kind: PictureKind,
-    /// The order of the colours, where the file says it.
+    /// Colour order, if the file states it.
     pub(crate) order: Option<ChannelOrder>,
 }
 
-/// How it holds them.
+/// Kind of a column of pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PictureKind {
     /// Bytes of a PNG, JPEG or TIFF file.
     Encoded,
     /// Frames of clips beside the table.
     Clip,
-    /// The same of a depth map.
+    /// Depth maps in clips beside the table.
     Depth(DepthCodes),
     Array {
         is_gray: bool,
         is_planar: bool,
-        /// The least and the greatest number of the first frames, where they are no pixels as they are.
+        /// Least and greatest value of the first frames; `None` if the values are pixels.
         range: Option<[f64; 2]>,
     },
 }
 
-/// A table of columns.
+/// Table of columns.
 #[derive(Debug)]
 pub(crate) struct ColumnTable {
     path: PathBuf,
@@ -129,7 +128,7 @@ pub(crate) struct ColumnTable {
 }
 
 impl ColumnTable {
-    /// The table that `open` reads of the file at `path`; errors, and panics of a decoder, name that file.
+    /// Opens the file at `path` with `open`. Errors, and panics of a decoder, name that file.
     pub(super) fn open<S: ColumnSource + 'static>(
         path: &Path,
         open: impl FnOnce() -> Result<S, String>,
@@ -170,7 +169,7 @@ impl ColumnTable {
         Ok(known(row).unwrap_or_default())
     }
 
-    /// Reads those of the columns that are there, together: a file is walked over once.
+    /// Reads the existing columns among `names` together, in one pass over the file.
     pub(super) fn read_ahead(&self, names: &[&str]) -> Result<(), DatasetError> {
         let mut names: Vec<&str> = names
             .iter()
@@ -243,7 +242,7 @@ impl ColumnTable {
         self.source.element_names(column)
     }
 
-    /// For each row the clip that `key` names, relative to the folder of the table, and the frame in it.
+    /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
     pub(super) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, DatasetError> {
         let clips = guarded(|| self.source.clips(key)).and_then(|found| found);
         clips.map_err(|problem| wrong(&self.path, problem))
@@ -253,7 +252,7 @@ impl ColumnTable {
         self.source.depth(key)
     }
 
-    /// The pictures that belong to the rows.
+    /// Pictures of the rows.
     pub(super) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, DatasetError> {
         let pictures = guarded(|| self.source.pictures(names)).and_then(|found| found);
         pictures.map_err(|problem| wrong(&self.path, problem))

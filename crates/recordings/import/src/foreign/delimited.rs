@@ -1,4 +1,4 @@
-//! A table of text, whose cells are converted where a map says how its numbers are written.
+//! Text table whose cells are converted by the number form of a map.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -9,15 +9,15 @@ use crate::csv_table::text_form::{TextForm, is_grouped};
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// Least cells with a point before three digits that make grouped digits likely.
+/// Least number of cells with a point before three digits that suggest grouped digits.
 const LEAST_GROUPED: u64 = 3;
 
-/// A table of text with what the map says of it.
+/// Text table with its form.
 #[derive(Debug)]
 pub(crate) struct DelimitedTable {
     table: CsvTable,
     form: TextForm,
-    /// The unit of each column by the row of units; empty without one.
+    /// Unit of each column from the row of units; empty without one.
     units: Vec<Option<String>>,
 }
 
@@ -47,7 +47,7 @@ impl DelimitedTable {
         self.table.has(name)
     }
 
-    /// The cell as it is written.
+    /// Cell as written.
     pub(crate) fn written(&self, row: usize, name: &str) -> Result<&str, DatasetError> {
         Ok(self.table.cell(row, self.table.position(name)?))
     }
@@ -64,8 +64,8 @@ impl DelimitedTable {
         }
     }
 
-    /// Cell whose point may group digits, and the number of such cells in the column.
-    /// Whole numbers without a point must stand among them, as fractions of three digits alone are common.
+    /// Example cell whose point may group digits, with the number of such cells in the column. Requires whole numbers among them, as
+    /// fractions of three digits alone are common.
     pub(crate) fn grouped_digits(&self, name: &str) -> Option<(String, u64)> {
         if self.form.thousands.is_some() || self.form.decimal != '.' {
             return None;
@@ -97,7 +97,7 @@ impl DelimitedTable {
         self.table.place(row, column)
     }
 
-    /// Unit that the row of units states for a column.
+    /// Unit of a column from the row of units.
     pub(super) fn stated(&self, name: &str) -> Vec<Stated> {
         let at = self.names().iter().position(|known| known == name);
         let unit = at.and_then(|at| self.units.get(at)?.clone());

@@ -1,20 +1,20 @@
-//! Pixels of the codes of a depth map.
+//! Pixels for the codes of a depth map.
 
 use taceva_tables::DepthCodes;
 
 use crate::frame_names::PixelRange;
 
-/// Pixels by code: distances in whole millimetres, or in the range of a map.
+/// Pixel of each code: distances in whole millimetres, or in the range of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DepthPixels {
-    /// The pixel of each code; `None` outside of the range.
+    /// Pixel of each code; `None` outside the range.
     pixels: Vec<Option<u16>>,
     codes: DepthCodes,
     range: PixelRange,
 }
 
 impl DepthPixels {
-    /// The pixels of `codes` in `range`, mm; without one they are whole millimetres, which is refused where codes are finer or go further.
+    /// Pixels of `codes` in `range`, mm. Without a range they are whole millimetres; finer or larger codes are rejected.
     pub(crate) fn new(codes: DepthCodes, range: Option<PixelRange>) -> Result<DepthPixels, String> {
         let [least, greatest] = codes.ends_mm();
         let whole = PixelRange::new([0.0, 65_535.0], 16)
@@ -38,7 +38,7 @@ impl DepthPixels {
         self.range.bits()
     }
 
-    /// The pixels of codes of `bits` bits.
+    /// Converts codes of `bits` bits to pixels.
     pub(crate) fn of(&self, codes: &[u16], bits: u32) -> Result<Vec<u16>, String> {
         if bits != 12 {
             return Err(format!(

@@ -1,4 +1,4 @@
-//! Pictures of several files, counted through.
+//! Pictures of several files, numbered consecutively.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,16 +7,16 @@ use std::sync::Arc;
 use super::pictures::{Pictures, Visit};
 use taceva_dataset::{ChannelOrder, DatasetError, FrameCodec};
 
-/// The pictures of several files, one file after the other.
+/// Pictures of several files in sequence.
 #[derive(Debug)]
 pub(crate) struct SeveralPictures {
-    /// Each file with the number of its first picture among those of all.
+    /// Files, each with the number of its first picture among all.
     files: Vec<(u64, Arc<dyn Pictures>)>,
     count: u64,
 }
 
 impl SeveralPictures {
-    /// The pictures of `files`, of which there is at least one, in this order.
+    /// Pictures of `files`, at least one, in this order.
     pub(crate) fn new(files: Vec<Arc<dyn Pictures>>) -> SeveralPictures {
         let mut count = 0_u64;
         let files = files.into_iter().map(|pictures| {

@@ -1,15 +1,15 @@
-//! Files without a table: each is a row, whose labels stand in its path alone.
+//! Files without a table: each is a row, with labels only in its path.
 
 use std::path::{Path, PathBuf};
 
-/// A file that is a row.
+/// File that is a row.
 #[derive(Debug)]
 pub(crate) struct FileRows {
     path: PathBuf,
 }
 
 impl FileRows {
-    /// The file at `path`.
+    /// Row for the file at `path`.
     pub(super) fn one(path: &Path) -> FileRows {
         FileRows {
             path: path.to_owned(),

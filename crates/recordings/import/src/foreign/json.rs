@@ -1,4 +1,4 @@
-//! JSON and JSON lines: a row is a value, its columns are pointers into it (RFC 6901).
+//! JSON and JSON lines: a row is a value, and its columns are pointers into it (RFC 6901).
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -10,10 +10,10 @@ use super::members::in_order;
 use taceva_dataset::internal::{limits, read_capped, shown, utf8};
 use taceva_dataset::{DatasetError, Place};
 
-/// How many rows are looked at to list the members that there are.
+/// Number of rows that are searched for members.
 const LISTED: usize = 100;
 
-/// The rows of a JSON file.
+/// Rows of a JSON file.
 #[derive(Debug)]
 pub(crate) struct JsonRows {
     path: PathBuf,
@@ -22,19 +22,19 @@ pub(crate) struct JsonRows {
 
 #[derive(Debug)]
 struct JsonRow {
-    /// The member it was, if of an object.
+    /// Member name, if the row is a member of an object.
     key: Option<String>,
     value: Value,
-    /// Its line, of JSON lines.
+    /// Line of the row, for JSON lines.
     line: Option<u64>,
 }
 
 impl JsonRows {
-    /// What `rows` leads to in the file at `path`: a pointer, in which a step `*` stands for each member. Without one, each element of a list,
-    /// or the whole of anything else.
+    /// Reads the rows at the pointer `rows` in the file at `path`. A step `*` matches each member. Without a pointer, rows are the elements
+    /// of a list, or any other value as a whole.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] naming the line if it is no JSON, or the pointer leads nowhere.
+    /// [`DatasetError::Table`] naming the line of invalid JSON, or if the pointer leads nowhere.
     pub(super) fn read(path: &Path, rows: Option<&str>) -> Result<JsonRows, DatasetError> {
         let whole = text(path)?;
         let value: Value =
@@ -47,7 +47,7 @@ impl JsonRows {
         let ways = ways(pointer);
         let mut found = vec![(None, value)];
         for (depth, way) in ways.iter().enumerate() {
-            // A member without what is wanted within it has no rows.
+            // A member without a match within it has no rows.
             let within = found.into_iter();
             let within = within.filter_map(|(key, value)| Some((key, taken(value, way)?)));
             found = within.collect();
@@ -60,7 +60,7 @@ impl JsonRows {
             if depth + 1 == ways.len() {
                 break;
             }
-            // Rows are numbered, and joined, as they lie in the file.
+            // Rows are numbered and joined in file order.
             let in_order = match depth {
                 0 => in_order(&whole, way),
                 _ => None,
@@ -91,10 +91,10 @@ impl JsonRows {
         })
     }
 
-    /// The rows of JSON lines: each line that is not blank is one.
+    /// Reads JSON lines: each line that is not blank is a row.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] naming the line that is no JSON.
+    /// [`DatasetError::Table`] naming the invalid line.
     pub(super) fn read_lines(path: &Path) -> Result<JsonRows, DatasetError> {
         let whole = text(path)?;
         let lines = (1..).zip(whole.lines());
@@ -127,7 +127,7 @@ impl JsonRows {
         self.rows[row].key.as_deref()
     }
 
-    /// Whether a row has something at the pointer `name`.
+    /// True if any row has a value at the pointer `name`.
     pub(super) fn has(&self, name: &str) -> bool {
         let mut rows = self.rows.iter();
         match name {
@@ -136,7 +136,7 @@ impl JsonRows {
         }
     }
 
-    /// Value at the pointer `name`; a row that is a number or a text itself is called `value`.
+    /// Value at the pointer `name`. A row that is itself a number or a text is called `value`.
     fn at(&self, row: usize, name: &str) -> Option<&Value> {
         let value = &self.rows[row].value;
         match name {
@@ -145,7 +145,7 @@ impl JsonRows {
         }
     }
 
-    /// What is at the pointer `name`: texts as they are, numbers in the shortest form that reads back, lists as JSON; nothing of `null`.
+    /// Cell at the pointer `name`: texts unchanged, numbers in the shortest form that reads back, lists as JSON, `null` as empty.
     pub(super) fn cell(&self, row: usize, name: &str) -> Cow<'_, str> {
         match self.at(row, name) {
             None | Some(Value::Null) => Cow::Borrowed(""),
@@ -154,7 +154,7 @@ impl JsonRows {
         }
     }
 
-    /// Whether an integer is at the pointer `name` in every row that has something there.
+    /// True if all present values at the pointer `name` are integers and there is at least one.
     pub(super) fn holds_integers(&self, name: &str) -> bool {
         let found = (0..self.rows.len()).filter_map(|row| self.at(row, name));
         let mut found = found.filter(|value| !value.is_null()).peekable();
@@ -168,7 +168,7 @@ impl JsonRows {
         }
     }
 
-    /// Pointers to what lies in the first row: numbers, texts, and lists of such.
+    /// Pointers to the leaves of the first row: numbers, texts, and lists of these.
     pub(super) fn leaves(&self) -> Vec<String> {
         let mut found = Vec::new();
         if self.has(VALUE) {
@@ -179,7 +179,7 @@ impl JsonRows {
         found
     }
 
-    /// The members of the first rows, as pointers.
+    /// Members of the first rows, as pointers.
     pub(super) fn names(&self) -> Vec<String> {
         let objects = self.rows.iter().take(LISTED);
         let members = objects.filter_map(|row| row.value.as_object());
@@ -192,15 +192,15 @@ impl JsonRows {
     }
 }
 
-/// The column of rows that are numbers or texts themselves.
+/// Column of rows that are themselves numbers or texts.
 const VALUE: &str = "value";
 
-/// True of a row without members: a number, a text or a list.
+/// True for a row without members: a number, a text or a list.
 fn is_plain(value: &Value) -> bool {
     !value.is_object() && !value.is_null()
 }
 
-/// Adds pointers to the leaves of `value`; objects, and lists that hold objects or lists, are descended into.
+/// Adds pointers to the leaves of `value`, descending into objects and into lists of objects or lists.
 fn add_leaves(value: &Value, pointer: String, found: &mut Vec<String>) {
     if found.len() >= LISTED {
         return;
@@ -225,7 +225,7 @@ fn add_leaves(value: &Value, pointer: String, found: &mut Vec<String>) {
     }
 }
 
-/// The parts of a pointer between its steps `*`.
+/// Parts of a pointer between its steps `*`.
 fn ways(pointer: &str) -> Vec<String> {
     let mut ways = vec![String::new()];
     for step in pointer.split('/').skip(1) {
@@ -240,14 +240,14 @@ fn ways(pointer: &str) -> Vec<String> {
     ways
 }
 
-/// A value with the names of the members that lead to it.
+/// Value with the names of the members that lead to it.
 type Named = (Option<String>, Value);
 
 fn named((name, value): (String, Value)) -> Named {
     (Some(name), value)
 }
 
-/// The members of a list or an object, whose names stand behind `key`; `None` of anything else.
+/// Members of a list or an object, with names appended to `key`; `None` for any other value.
 fn members((key, value): Named) -> Option<Vec<Named>> {
     match value {
         Value::Array(list) => Some(list.into_iter().map(|value| (key.clone(), value)).collect()),
@@ -267,7 +267,7 @@ fn members((key, value): Named) -> Option<Vec<Named>> {
     }
 }
 
-/// The text of a file, without a mark of the order of bytes.
+/// Text of a file, without the byte order mark.
 fn text(path: &Path) -> Result<String, DatasetError> {
     let mut bytes = read_capped(path, limits::JSON_BYTES)?;
     if bytes.starts_with(b"\xef\xbb\xbf") {
@@ -276,12 +276,12 @@ fn text(path: &Path) -> Result<String, DatasetError> {
     utf8(path, bytes)
 }
 
-/// What `pointer` leads to, taken out of `value`.
+/// Takes the value at `pointer` out of `value`.
 fn taken(mut value: Value, pointer: &str) -> Option<Value> {
     value.pointer_mut(pointer).map(Value::take)
 }
 
-/// The error that `text`, which begins after so many lines of the file, is no JSON.
+/// Error for invalid JSON in `text`, which begins after `lines_before` lines of the file.
 fn no_json(path: &Path, text: &str, error: &serde_json::Error, lines_before: u64) -> DatasetError {
     let line = u64::try_from(error.line()).unwrap_or(1).max(1);
     DatasetError::Table {
@@ -290,7 +290,7 @@ fn no_json(path: &Path, text: &str, error: &serde_json::Error, lines_before: u64
     }
 }
 
-/// What is wrong with `text`, without the line, and what to do about numbers that JSON does not have.
+/// JSON error in `text` without its line, with a hint for numbers that JSON lacks.
 pub(super) fn json_problem(text: &str, error: &serde_json::Error) -> String {
     let (line, column) = (error.line(), error.column());
     let said = error.to_string();
@@ -306,7 +306,7 @@ pub(super) fn json_problem(text: &str, error: &serde_json::Error) -> String {
     }
 }
 
-/// The word for a number that is none, or an infinite one, in which the byte `column`, from 1, of a line is.
+/// Word for NaN or infinity around the byte `column`, from 1, of a line.
 fn word_at(line: &str, column: usize) -> Option<&str> {
     let bytes = line.as_bytes();
     let at = column.checked_sub(1)?.min(bytes.len().checked_sub(1)?);
@@ -317,7 +317,7 @@ fn word_at(line: &str, column: usize) -> Option<&str> {
         .take_while(|byte| is_of_word(**byte));
     let behind = bytes[at..].iter().take_while(|byte| is_of_word(**byte));
     let (begin, end) = (at - before.count(), at + behind.count());
-    // Bytes beside one of ASCII are boundaries of characters.
+    // Next to an ASCII byte there is always a character boundary.
     let word = line.get(begin..end)?;
     let bare = word.trim_start_matches('-').to_ascii_lowercase();
     ["nan", "inf", "infinity"]

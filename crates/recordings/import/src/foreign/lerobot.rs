@@ -1,4 +1,4 @@
-//! A LeRobot dataset as a table: a folder of Parquet files, with the frames of its clips.
+//! LeRobot dataset as a table: a folder of Parquet files, with the frames of its clips.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use super::pictures::Pictures;
 use super::said;
 use crate::frame_names::FrameNames;
 
-/// The rows of all episodes, in order.
+/// Rows of all episodes, in order.
 #[derive(Debug)]
 pub(super) struct LeRobotRows {
     dataset: Arc<LeRobot>,
@@ -51,7 +51,7 @@ impl ColumnSource for LeRobotRows {
         self.dataset.kind_within(name) == Some(ColumnKind::Integer)
     }
 
-    /// Pictures first, then depth maps whose codes are known.
+    /// Pictures first, then depth maps with known codes.
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let features = self.dataset.features().iter();
         let features = features.filter_map(|feature| {
@@ -73,7 +73,7 @@ impl ColumnSource for LeRobotRows {
         columns
     }
 
-    /// Depth maps whose codes are not known.
+    /// Depth maps with unknown codes.
     fn unread(&self) -> Vec<String> {
         let features = self.dataset.features().iter();
         let depths = features.filter(|feature| {

@@ -1,11 +1,11 @@
-//! The members of a JSON object in the order of the file, which a map of them by name does not keep.
+//! Members of a JSON object in file order, which a map by name does not preserve.
 
 use std::fmt;
 
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, Visitor};
 use serde_json::Value;
 
-/// The members of the object that `pointer` leads to through objects; `None` if it leads elsewhere.
+/// Members of the object at `pointer`, whose steps are all objects; `None` otherwise.
 pub(super) fn in_order(text: &str, pointer: &str) -> Option<Vec<(String, Value)>> {
     let parts = pointer.split('/').skip(1);
     let way: Vec<String> = parts
@@ -15,7 +15,7 @@ pub(super) fn in_order(text: &str, pointer: &str) -> Option<Vec<(String, Value)>
     Way(&way).deserialize(&mut deserializer).ok()?
 }
 
-/// The names of the objects on the way to the one whose members are wanted.
+/// Names of the objects on the path to the wanted one.
 struct Way<'w>(&'w [String]);
 
 impl<'de> DeserializeSeed<'de> for Way<'_> {

@@ -1,4 +1,4 @@
-//! The messages of one topic of a recording as a table: MCAP, rosbag2, bags of ROS 1.
+//! Messages of one topic of a recording as a table: MCAP, rosbag2, ROS 1 bags.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::frame_names::FrameNames;
 use taceva_dataset::internal::guarded;
 use taceva_dataset::{ChannelOrder, DatasetError};
 
-/// Messages of these types are pictures in their field `data`: of ROS 2, of ROS 1, of Foxglove.
+/// Message types with a picture in their field `data`: of ROS 2, ROS 1 and Foxglove.
 const PICTURES: [&str; 6] = [
     "sensor_msgs/msg/Image",
     "sensor_msgs/msg/CompressedImage",
@@ -23,31 +23,31 @@ const PICTURES: [&str; 6] = [
     "foxglove.CompressedImage",
 ];
 
-/// Endings of the names of recordings.
+/// Filename extensions of recordings.
 const ENDINGS: [&str; 3] = ["mcap", "db3", "bag"];
 
-/// True of the ending of a recording's name.
+/// True for the filename extension of a recording.
 pub(crate) fn is_recording(ending: &str) -> bool {
     ENDINGS.contains(&ending)
 }
 
-/// The messages of a topic, in the order in which they were logged.
+/// Messages of a topic, in logging order.
 #[derive(Debug)]
 pub(super) struct MessageRows {
     table: Arc<TopicTable>,
     names: Vec<String>,
-    /// Topics of the recording that are not read, each with the reason.
+    /// Unread topics of the recording, each with the reason.
     unread: Vec<String>,
 }
 
-/// The pictures in one field of them.
+/// Pictures in one field of the messages.
 #[derive(Debug)]
 struct MessagePictures {
     table: Arc<TopicTable>,
     field: String,
 }
 
-/// The topics of the recording at `path`.
+/// Topics of the recording at `path`.
 pub(crate) fn topics(path: &Path) -> Result<Vec<String>, String> {
     let opened = guarded(|| Recording::open(path))
         .and_then(|opened| opened.map_err(|error| said(path, &error)));
@@ -59,7 +59,7 @@ pub(crate) fn topics(path: &Path) -> Result<Vec<String>, String> {
 }
 
 impl MessageRows {
-    /// The messages of the topic, or of the only one.
+    /// Opens the messages of `topic`, or of the only topic.
     pub(super) fn open(path: &Path, topic: Option<&str>) -> Result<MessageRows, String> {
         let recording = Recording::open(path).map_err(|error| said(path, &error))?;
         let topic = match (topic, recording.topics()) {
@@ -94,7 +94,7 @@ impl MessageRows {
     }
 }
 
-/// The topics of `recording` that are not read, each with the reason.
+/// Unread topics of `recording`, each with the reason.
 fn unread(recording: &Recording) -> Vec<String> {
     let topics = recording.topics().iter();
     let unread = topics.filter_map(|topic| {
@@ -108,7 +108,7 @@ fn unread(recording: &Recording) -> Vec<String> {
 }
 
 impl MessageRows {
-    /// The order of the colours of the first picture, where its message says it.
+    /// Colour order of the first picture, if its message states it.
     fn order_of(&self, field: &str) -> Option<ChannelOrder> {
         let mut order = None;
         let _ = self.table.visit_pictures(field, &[0], &mut |_, picture| {
@@ -121,7 +121,7 @@ impl MessageRows {
     }
 }
 
-/// The order of colours that samples of a form have.
+/// Colour order of a sample form.
 fn order_of(form: SampleForm) -> Option<ChannelOrder> {
     match form {
         SampleForm::Mono8 | SampleForm::Mono16 => Some(ChannelOrder::Gray),
@@ -144,7 +144,7 @@ impl ColumnSource for MessageRows {
         self.names.iter().any(|known| known == name)
     }
 
-    /// All in one walk over the recording.
+    /// Reads all columns in one pass over the recording.
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
         let columns = self.table.columns(names);
         let columns = columns.map_err(|error| said(self.table.path(), &error))?;
@@ -155,7 +155,7 @@ impl ColumnSource for MessageRows {
         Ok(texts.collect())
     }
 
-    /// By the type that the schema in the file gives the field.
+    /// Field types come from the schema in the file.
     fn holds_integers(&self, name: &str) -> bool {
         let columns = self.table.columns(&[name]);
         columns.is_ok_and(|columns| columns.iter().flatten().all(is_integer))
@@ -222,7 +222,7 @@ impl Pictures for MessagePictures {
     }
 }
 
-/// Whether a cell is an integer, or a list of them.
+/// True for an integer, a null, or a list of these.
 fn is_integer(cell: &Cell) -> bool {
     match cell {
         Cell::Integer(_) | Cell::Null => true,
@@ -231,7 +231,7 @@ fn is_integer(cell: &Cell) -> bool {
     }
 }
 
-/// The picture as it is kept: a file as it came, samples with their colours in the order that the map declares.
+/// Picture as stored: encoded bytes unchanged, samples in the colour order of the map.
 fn kept(picture: taceva_tables::Picture, order: ChannelOrder) -> Result<Picture, String> {
     let samples = match picture {
         taceva_tables::Picture::Encoded(bytes) => return Ok(Picture::Encoded(bytes)),

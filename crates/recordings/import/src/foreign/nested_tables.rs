@@ -1,4 +1,4 @@
-//! Parquet and Arrow as tables, with nested cells and pictures in them.
+//! Parquet and Arrow as tables, with nested cells and pictures.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,11 +13,11 @@ use super::said;
 use crate::frame_names::FrameNames;
 use taceva_dataset::internal::ImageKind;
 
-/// A table of one of these forms: the readers of both have the same methods.
+/// Parquet or Arrow table; both readers have the same methods.
 pub(super) trait NestedTable: ByteColumns + 'static {
     fn of_file(path: &Path) -> Result<Self, TableError>;
     fn all_names(&self) -> Vec<String>;
-    /// The text that a writer put beside the schema.
+    /// Metadata text beside the schema.
     fn beside(&self, key: &str) -> Option<&str>;
 }
 
@@ -42,7 +42,7 @@ macro_rules! nested_table {
 nested_table!(ParquetTable);
 nested_table!(ArrowTable);
 
-/// The rows of such a table.
+/// Rows of a nested table.
 #[derive(Debug)]
 pub(super) struct NestedRows<T> {
     table: Arc<T>,
@@ -101,7 +101,7 @@ impl<T: NestedTable> ColumnSource for NestedRows<T> {
             .collect()
     }
 
-    /// As Hugging Face writes them: `{"info": {"features": {"label": {"names": […]}}}}`.
+    /// Class lists as Hugging Face writes them: `{"info": {"features": {"label": {"names": […]}}}}`.
     fn classes(&self) -> Vec<(String, Vec<String>)> {
         let stated = self.table.beside("huggingface");
         let stated: Option<Value> = stated.and_then(|text| serde_json::from_str(text).ok());

@@ -1,4 +1,4 @@
-//! Pictures that are no files of their own: in arrays, in cells, in clips, in messages.
+//! Pictures inside other files: in arrays, cells, clips, messages.
 
 use std::fmt;
 use std::path::Path;
@@ -11,16 +11,16 @@ use taceva_dataset::{ChannelOrder, DatasetError, FrameCodec};
 
 /// Pictures by their number, from 0.
 pub(crate) trait Pictures: fmt::Debug + Send + Sync {
-    /// The file that they are in.
+    /// File that contains the pictures.
     fn path(&self) -> &Path;
 
-    /// How many there are.
+    /// Number of pictures.
     fn count(&self) -> u64;
 
-    /// Hands over the pictures of `sorted`, ascending and each once, in that order.
+    /// Calls `each` for the pictures of `sorted`, which is strictly ascending, in that order.
     ///
     /// # Errors
-    /// What is wrong with one of them, and whatever `each` returns.
+    /// A damaged picture, or any error of `each`.
     fn visit(
         &self,
         sorted: &[u64],
@@ -28,30 +28,30 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         each: Visit<'_>,
     ) -> Result<(), DatasetError>;
 
-    /// How they were coded, where they are frames of a clip.
+    /// Codec of the frames of a clip.
     fn codec(&self) -> Option<FrameCodec> {
         None
     }
 
-    /// The file that the picture at `index` is in, and its number there.
+    /// File of the picture at `index`, with its number in that file.
     fn origin(&self, index: u64) -> (&Path, u64) {
         (self.path(), index)
     }
 
-    /// The files that they are in, each with how many are in it.
+    /// Files that contain the pictures, each with its number of pictures.
     fn files(&self) -> Vec<(&Path, u64)> {
         vec![(self.path(), self.count())]
     }
 
-    /// The arrays that they lie in of which chunks were never written, and how many.
+    /// Arrays with unwritten chunks, with the number of these chunks.
     ///
     /// # Errors
-    /// What is wrong with the list of chunks.
+    /// A damaged list of chunks.
     fn absent_chunks(&self) -> Result<Vec<(String, u64)>, DatasetError> {
         Ok(Vec::new())
     }
 
-    /// Whether there is a picture at `index`.
+    /// Checks that there is a picture at `index`.
     fn check_index(&self, index: u64) -> Result<(), DatasetError> {
         if index < self.count() {
             return Ok(());
@@ -64,10 +64,10 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
     }
 }
 
-/// What is done with each picture.
+/// Callback that receives each picture.
 pub(crate) type Visit<'v> = &'v mut dyn FnMut(u64, Picture) -> Result<(), DatasetError>;
 
-/// Why a visit ended early: the file is wrong, or the caller refused a picture.
+/// Reason that a visit ended early: the file is damaged, or the caller rejected a picture.
 pub(super) enum Ended<E> {
     File(E),
     Picture(DatasetError),
@@ -79,7 +79,7 @@ impl<E> From<E> for Ended<E> {
     }
 }
 
-/// Runs a visit of the file at `path`; a panic of its decoder is an error of the file.
+/// Runs a visit of the file at `path`. A panic of its decoder becomes an error of the file.
 pub(super) fn guarded_visit<E: fmt::Display>(
     path: &Path,
     visit: impl FnOnce() -> Result<(), Ended<E>>,
@@ -92,7 +92,7 @@ pub(super) fn guarded_visit<E: fmt::Display>(
     }
 }
 
-/// What is wrong with pictures in the file at `path`.
+/// Error for damaged pictures in the file at `path`.
 pub(super) fn damaged(path: &Path, problem: String) -> DatasetError {
     DatasetError::Image {
         place: None,
@@ -101,15 +101,15 @@ pub(super) fn damaged(path: &Path, problem: String) -> DatasetError {
     }
 }
 
-/// A picture as it was found.
+/// Picture as found in a file.
 pub(crate) enum Picture {
-    /// The bytes of a PNG, JPEG or TIFF file, which are kept.
+    /// Bytes of a PNG, JPEG or TIFF file, which are stored unchanged.
     Encoded(Vec<u8>),
     Pixels(Frame),
 }
 
 impl Picture {
-    /// What it takes in memory, bytes.
+    /// Size in memory, bytes.
     pub(crate) fn size(&self) -> usize {
         match self {
             Picture::Encoded(bytes) => bytes.len(),

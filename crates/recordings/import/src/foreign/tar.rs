@@ -1,5 +1,5 @@
-//! The members of a tar archive: ustar, POSIX (pax) and GNU names. Links, devices and holes are refused, and so is every name that leaves the
-//! folder; of an archive a header of 512 bytes and one long name are in memory at a time.
+//! Reader of tar archives with ustar, POSIX (pax) and GNU names. Rejects links, devices, sparse files and names that leave the folder.
+//! Holds one header of 512 bytes and one long name in memory.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read};
@@ -9,14 +9,14 @@ use thiserror::Error;
 use taceva_dataset::internal::check_relative;
 
 const BLOCK: usize = 512;
-/// The most bytes of a long name, or of the records of an extended header.
+/// Limit of a long name, or of the records of an extended header, bytes.
 const NAME_BYTES: u64 = 64 << 10;
-/// The most members of an archive.
+/// Limit of members in an archive.
 pub(crate) const MEMBERS: u64 = 1 << 20;
-/// The most members without a byte of their own: a small archive may hold any number of them.
+/// Limit of empty members, of which a small archive may hold any number.
 pub(crate) const EMPTY_MEMBERS: u64 = 20_000;
 
-/// What is wrong with an archive.
+/// Error of an archive.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub(crate) enum TarError {
@@ -52,16 +52,16 @@ pub(crate) enum TarError {
     Twice(String),
 }
 
-/// What an archive is read from: bytes in order, some of which are passed over.
+/// Input of an archive: bytes in order, some of which are skipped.
 pub(crate) trait Tape: Read {
-    /// Passes over so many bytes; whether they are there.
+    /// Skips `bytes`. Returns true if they exist.
     fn skip(&mut self, bytes: u64) -> io::Result<bool>;
 
-    /// How many bytes there are in all, where that is known.
+    /// Total length, bytes; `None` if unknown.
     fn length(&self) -> Option<u64>;
 }
 
-/// A file, in which what is passed over is not read.
+/// File, in which skipped bytes are not read.
 pub(crate) struct FileTape {
     pub(crate) file: BufReader<File>,
     pub(crate) length: u64,
@@ -87,25 +87,25 @@ impl Tape for FileTape {
     }
 }
 
-/// A file of the archive.
+/// File in the archive.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Member {
-    /// Relative, with `/`, without `.` in front.
+    /// Relative path with `/`, without a leading `.`.
     pub(crate) name: String,
-    /// Where its bytes begin.
+    /// Offset of its content, bytes.
     pub(crate) at: u64,
     pub(crate) size: u64,
 }
 
-/// The members of an archive, one after the other.
+/// Iterator over the members of an archive.
 pub(crate) struct Members<T> {
     tape: T,
-    /// Where the tape stands.
+    /// Current offset, bytes.
     at: u64,
-    /// What of the last member was not read, its filling included.
+    /// Unread bytes of the last member, padding included.
     left: u64,
     count: u64,
-    /// Files and folders without a byte of their own.
+    /// Number of empty files and folders so far.
     empty: u64,
 }
 
@@ -120,12 +120,12 @@ impl<T: Tape> Members<T> {
         }
     }
 
-    /// The tape, wherever it stands.
+    /// Returns the tape at its current position.
     pub(crate) fn into_tape(self) -> T {
         self.tape
     }
 
-    /// The next file; folders are passed over.
+    /// Returns the next file. Folders are skipped.
     pub(crate) fn next(&mut self) -> Result<Option<Member>, TarError> {
         let mut long_name = None;
         let mut long_size = None;
@@ -142,7 +142,7 @@ impl<T: Tape> Members<T> {
             }
             let stated = number(&header[124..136]).ok_or(TarError::Number(header_at))?;
             let kind = header[156];
-            // What belongs to the next member, and is short.
+            // Short records that belong to the next member.
             if matches!(kind, b'L' | b'x' | b'g' | b'K') {
                 if stated > NAME_BYTES {
                     return Err(TarError::LongName(stated));
@@ -214,7 +214,7 @@ impl<T: Tape> Members<T> {
         }
     }
 
-    /// Copies the bytes of `member`, the last that was found, to `into`; an archive that ends before is an error.
+    /// Copies the content of `member`, the last one found, to `into`. Fails if the archive ends early.
     pub(crate) fn copy(
         &mut self,
         member: &Member,
@@ -229,13 +229,13 @@ impl<T: Tape> Members<T> {
         }
     }
 
-    /// The next header; `None` at the end of the archive.
+    /// Returns the next header; `None` at the end of the archive.
     fn header(&mut self) -> Result<Option<[u8; BLOCK]>, TarError> {
         let mut header = [0; BLOCK];
         let at = self.at;
         self.fill(&mut header)?;
         if header.iter().all(|byte| *byte == 0) {
-            // Behind the first empty block stands a second; what follows is filling.
+            // A second empty block follows the first; the rest is padding.
             self.fill(&mut header)?;
             return match header.iter().all(|byte| *byte == 0) {
                 true => Ok(None),
@@ -266,7 +266,7 @@ impl<T: Tape> Members<T> {
         }
     }
 
-    /// So many bytes, which are few, and their filling.
+    /// Reads `size` bytes, which are few, and their padding.
     fn short(&mut self, size: u64) -> Result<Vec<u8>, TarError> {
         let length = filled(size).unwrap_or(0);
         let mut text = vec![0; usize::try_from(length).unwrap_or(0)];
@@ -285,14 +285,14 @@ impl<T: Tape> Members<T> {
     }
 }
 
-/// What the records of an extended header say of the next member.
+/// Records of an extended header for the next member.
 #[derive(Default)]
 struct Records {
     path: Option<Vec<u8>>,
     size: Option<u64>,
 }
 
-/// `LENGTH KEY=VALUE\n`, one behind the other.
+/// Parses consecutive records `LENGTH KEY=VALUE\n`.
 fn records(mut text: &[u8], at: u64) -> Result<Records, TarError> {
     let mut found = Records::default();
     while !text.is_empty() && text[0] != 0 {
@@ -328,14 +328,14 @@ fn records(mut text: &[u8], at: u64) -> Result<Records, TarError> {
     Ok(found)
 }
 
-/// The name in the header itself.
+/// Name in the header itself.
 fn own_name(header: &[u8; BLOCK]) -> Vec<u8> {
     let text = |field: &[u8]| {
         let end = field.iter().position(|byte| *byte == 0);
         field[..end.unwrap_or(field.len())].to_vec()
     };
     let name = text(&header[..100]);
-    // GNU archives, whose mark ends in blanks, have other things where POSIX has the folder.
+    // GNU archives, whose magic ends in blanks, store other fields in the place of the POSIX prefix.
     let folder = match &header[257..263] == b"ustar\0" {
         true => text(&header[345..500]),
         false => Vec::new(),
@@ -346,7 +346,7 @@ fn own_name(header: &[u8; BLOCK]) -> Vec<u8> {
     }
 }
 
-/// A number of a header: octal digits, or from 2^33 on bytes behind a first one of 128.
+/// Number of a header: octal digits, or from 2^33 on base 256 after a byte of 128.
 fn number(field: &[u8]) -> Option<u64> {
     if field[0] == 0x80 {
         let (high, low) = field[1..].split_at(field.len().checked_sub(9)?);
@@ -364,7 +364,7 @@ fn number(field: &[u8]) -> Option<u64> {
     }
 }
 
-/// A length with what fills its last block.
+/// Length padded to whole blocks.
 fn filled(size: u64) -> Option<u64> {
     size.checked_next_multiple_of(BLOCK as u64)
 }

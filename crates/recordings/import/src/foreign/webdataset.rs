@@ -1,4 +1,4 @@
-//! Shards of WebDataset: a tar whose members of one name before the first dot are a sample; pictures are read where they lie.
+//! WebDataset shards: tar members with one name before the first dot are a sample. Pictures are read in place.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -17,16 +17,16 @@ use crate::frame_names::FrameNames;
 use taceva_dataset::internal::{ImageKind, limits};
 use taceva_dataset::{ChannelOrder, DatasetError};
 
-/// How many samples are looked at to find whether a JSON has a member.
+/// Number of samples that are searched for a member of their JSON.
 const LOOKED_AT: usize = 100;
-/// The most bytes of a JSON or a text of a sample.
+/// Limit of a JSON or text of a sample, bytes.
 const TEXT_BYTES: u64 = 1 << 20;
-/// The most bytes of an array of a sample.
+/// Limit of an array of a sample, bytes.
 const ARRAY_BYTES: u64 = 1 << 26;
-/// Endings of members that are texts.
+/// Filename extensions of text members.
 const TEXTS: [&str; 4] = ["txt", "text", "cls", "id"];
 
-/// The samples of a shard.
+/// Samples of a shard.
 #[derive(Debug)]
 pub(super) struct Shard {
     path: PathBuf,
@@ -36,7 +36,7 @@ pub(super) struct Shard {
 #[derive(Debug, Default)]
 struct Sample {
     key: String,
-    /// For each part, by what stands behind the dot of its name: where its bytes begin and how many there are.
+    /// Offset and length, in bytes, of each member, by the name behind its first dot.
     parts: BTreeMap<Arc<str>, (u64, u64)>,
 }
 
@@ -69,7 +69,7 @@ impl Shard {
             .map_err(|_| format!("`{}.{name}` is no text of Unicode", sample.key))
     }
 
-    /// The JSON that a sample has in the field `field`.
+    /// JSON of a sample in the field `field`.
     fn json(&self, sample: &Sample, field: &str) -> Result<Option<Value>, String> {
         let Some(text) = self.text(sample, field)? else {
             return Ok(None);
@@ -89,7 +89,7 @@ impl Shard {
         })
     }
 
-    /// The numbers of the array that a sample has in the field `field`, as lists in lists; nothing without it.
+    /// Array of a sample in the field `field`, as nested lists; empty without it.
     fn array(&self, sample: &Sample, field: &str) -> Result<String, String> {
         let Some(place) = sample.parts.get(field) else {
             return Ok(String::new());
@@ -132,7 +132,7 @@ impl Shard {
         }
     }
 
-    /// The first samples' fields that end with one of these, whatever stands before: `meta.json`, `fz.cls`.
+    /// Fields of the first sample with one of these endings: `meta.json`, `fz.cls`.
     fn fields(&self, endings: &[&str]) -> Vec<String> {
         let first = self.samples.first().into_iter();
         let parts = first.flat_map(|first| first.parts.keys());
@@ -141,11 +141,11 @@ impl Shard {
     }
 }
 
-/// Member of a sample that the name of a column means.
+/// Member of a sample that a column name refers to.
 enum Field<'n> {
     Text(&'n str),
     Array(&'n str),
-    /// The field, and the pointer into its JSON.
+    /// Field, and the pointer into its JSON.
     Json(&'n str, &'n str),
 }
 
@@ -168,7 +168,7 @@ fn ending_of(field: &str) -> &str {
     field.rsplit_once('.').map_or(field, |(_, ending)| ending)
 }
 
-/// Numbers of such a shape as lists in lists, in the shortest form that reads back.
+/// Numbers of this shape as nested lists, in the shortest form that reads back.
 fn nested(shape: &[u64], numbers: &[f64]) -> String {
     match shape {
         [] => numbers
@@ -183,7 +183,7 @@ fn nested(shape: &[u64], numbers: &[f64]) -> String {
     }
 }
 
-/// The samples of a shard in its order.
+/// Samples of a shard in file order.
 fn samples(path: &Path) -> Result<Vec<Sample>, TarError> {
     let file = File::open(path)?;
     let length = file.metadata()?.len();
@@ -280,7 +280,7 @@ impl ColumnSource for Shard {
         }
     }
 
-    /// Members whose form is not read, such as TenBin and pickles.
+    /// Members with unsupported forms, such as TenBin and pickles.
     fn unread(&self) -> Vec<String> {
         let first = self.samples.first().into_iter();
         let parts = first.flat_map(|first| &first.parts);
@@ -310,7 +310,7 @@ impl ColumnSource for Shard {
         names.iter().map(column).collect()
     }
 
-    /// Of numbers in JSON; a text says nothing of what it means.
+    /// True only for JSON integers. Text members have no type.
     fn holds_integers(&self, name: &str) -> bool {
         let Field::Json(field, pointer) = Field::of(name) else {
             return false;
@@ -371,7 +371,7 @@ impl ColumnSource for Shard {
     }
 }
 
-/// The pictures of a shard, one a sample.
+/// Pictures of a shard, one per sample.
 #[derive(Debug)]
 struct ShardPictures {
     path: PathBuf,

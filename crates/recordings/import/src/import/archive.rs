@@ -1,4 +1,4 @@
-//! A recording that came as a tar archive.
+//! Recordings in a tar archive.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Read};
@@ -11,18 +11,18 @@ use taceva_dataset::internal::{open_regular, shown_path};
 use taceva_dataset::{DatasetError, Place};
 use taceva_files::TemporaryFolder;
 
-/// How many times as large as its file a compressed archive may be, and how many bytes more.
+/// Limit of the expansion of a compressed archive: a multiple of its size, and additional bytes.
 const GROWTH: u64 = 128;
 const GROWTH_BYTES: u64 = 64 << 20;
-/// Begin of the name of the folder that it is unpacked into.
+/// Name prefix of the folder of unpacked files.
 const PREFIX: &str = ".taceva-unpacked-";
 /// The first bytes of a gzip file.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// A `.tar` or `.tar.gz` whose files are unpacked into a hidden folder, which is removed with it.
+/// Unpacked `.tar` or `.tar.gz`. Its files are in a hidden folder that is removed on drop.
 ///
-/// Every reader of a recording opens files by their paths and seeks in them, and maps name further files: in an archive none of that is possible
-/// without holding it in memory. Shards of WebDataset are the exception: they are read where they lie.
+/// Readers of recordings open files by path and seek in them, and maps name further files. Inside an archive that would need all of it in
+/// memory. WebDataset shards are the exception: they are read in place.
 ///
 /// ```no_run
 /// use taceva_import::{MapDraft, UnpackedArchive};
@@ -37,12 +37,12 @@ pub struct UnpackedArchive {
     archive: PathBuf,
     /// Folder of the unpacked files, within `temporary`.
     content: PathBuf,
-    /// Removed with the archive.
+    /// Removed on drop.
     _temporary: TemporaryFolder,
 }
 
 impl UnpackedArchive {
-    /// Whether `path` is a file whose name ends in `.tar`, `.tar.gz` or `.tgz`.
+    /// True if `path` is a file whose name ends in `.tar`, `.tar.gz` or `.tgz`.
     ///
     /// ```
     /// assert!(!taceva_import::UnpackedArchive::is_archive("no/such/file.tar".as_ref()));
@@ -56,14 +56,14 @@ impl UnpackedArchive {
                 .any(|ending| name.ends_with(ending))
     }
 
-    /// Unpacks the archive into a hidden folder in the folder `beside`, whose name nobody can foretell; what killed imports left there is removed.
+    /// Unpacks the archive into a hidden folder with an unpredictable name in `beside`. Removes the remains of killed imports there.
     ///
-    /// Of an archive, one header and one name are in memory at a time. If everything in it lies in one folder, that is the recording.
+    /// Holds one header and one name in memory. If the archive has a single folder at its top, that folder is the recording.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] naming the member if it is damaged or cut, if a name leaves the folder, of links, devices and sparse files, of a
-    /// size that is not there, above a million members, and of a compressed archive that grows beyond 128 times its size and 64 MiB more;
-    /// [`DatasetError::Io`] if the disk is full.
+    /// [`DatasetError::Table`] naming the member if it is damaged, cut or larger than the archive, if its name leaves the folder, or for
+    /// links, devices and sparse files. Also above a million members, and if a compressed archive grows beyond 128 times its size and 64
+    /// MiB more. [`DatasetError::Io`] if the disk is full.
     pub fn open(archive: &Path, beside: &Path) -> Result<UnpackedArchive, DatasetError> {
         let temporary = TemporaryFolder::create(beside, PREFIX);
         let temporary = temporary.map_err(DatasetError::io("make a folder in", beside))?;
@@ -96,7 +96,7 @@ impl UnpackedArchive {
         })
     }
 
-    /// The same error, in whose paths the archive and its member stand and not where they were unpacked: `run.tar/run/labels.csv`.
+    /// The same error with paths in the archive instead of the temporary folder: `run.tar/run/labels.csv`.
     ///
     /// ```no_run
     /// # use taceva_import::{MapDraft, UnpackedArchive};
@@ -116,7 +116,7 @@ impl UnpackedArchive {
         )
     }
 
-    /// The same text, in which the archive stands and not where it was unpacked.
+    /// The same text with the archive's path instead of the temporary folder's.
     ///
     /// ```no_run
     /// # let archive = taceva_import::UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref())?;
@@ -131,7 +131,7 @@ impl UnpackedArchive {
         text.replace(&unpacked, &archive)
     }
 
-    /// Where its files lie.
+    /// Folder of the unpacked recording.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
@@ -153,12 +153,12 @@ fn unpack(tape: impl Tape, into: &Path) -> Result<(), TarError> {
         };
         members.copy(&member, &mut file)?;
     }
-    // The checksum of what is packed stands behind its end.
+    // The checksum of the compressed data follows its end.
     io::copy(&mut members.into_tape(), &mut io::sink())?;
     Ok(())
 }
 
-/// The folder, or the only folder in it, if nothing lies beside that.
+/// The folder, or its only subfolder if it has no other entry, repeatedly.
 fn innermost(folder: &Path) -> Result<PathBuf, DatasetError> {
     let mut folder = folder.to_owned();
     loop {
@@ -172,7 +172,7 @@ fn innermost(folder: &Path) -> Result<PathBuf, DatasetError> {
     }
 }
 
-/// A compressed archive, of which no more is read than it may hold.
+/// Compressed archive, read up to its size limit.
 struct PackedTape {
     decoder: MultiGzDecoder<BufReader<File>>,
     left: u64,

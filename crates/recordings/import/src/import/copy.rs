@@ -1,4 +1,4 @@
-//! Running an import: every frame is read, verified and copied, and the dataset appears whole.
+//! Runs an import: reads, verifies and copies every frame, and publishes the dataset atomically.
 
 mod frames;
 mod picture;
@@ -16,7 +16,7 @@ use taceva_dataset::internal::{
 };
 use taceva_dataset::{DatasetError, Digest, ViewInfo};
 
-/// What an import did.
+/// Result of an import.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
@@ -38,24 +38,24 @@ use taceva_dataset::{DatasetError, Digest, ViewInfo};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ImportReport {
-    /// What was read, kept and left out.
+    /// Numbers of items read, kept and left out.
     pub summary: ImportSummary,
-    /// Size and format of the frames; `None` if there is none.
+    /// Size and format of the frames; `None` if there are none.
     pub frames: Option<FrameInfo>,
-    /// Frames of each view, where samples have several pictures; then `frames` is `None`.
+    /// Frames of each view, if samples have several pictures; `frames` is then `None`.
     pub views: Vec<ViewInfo>,
-    /// The digest of the dataset.
+    /// Digest of the dataset.
     pub digest: Digest,
-    /// The folder of the dataset.
+    /// Folder of the dataset.
     pub path: PathBuf,
 }
 
 impl ImportPlan {
-    /// Writes the dataset to `target`, on `jobs` threads. The bytes are the same for any number of threads.
+    /// Writes the dataset to `target` on `jobs` threads. The bytes are the same for any number of threads.
     ///
-    /// Frames are kept as the bytes they came as; what came as numbers, of an array or a clip, becomes PNG. A JPEG is read to its end, so that what was cut, lost or
-    /// changed in it is noticed unless every code is still one of its tables and the last one still ends where it did: a bit that was
-    /// flipped before the import may change the picture without any error. Damage after the import is always noticed, by the digests.
+    /// Encoded frames keep their bytes; numbers from an array or a clip become PNG. A JPEG is decoded to its end, which detects missing or
+    /// changed data unless every code stays valid and the last one ends at the same place. A bit flipped before the import may therefore
+    /// change the picture without an error. Damage after the import is always detected by the digests.
     ///
     /// # Errors
     /// [`DatasetError::Image`] naming the image and the row if a frame does not decode or is unlike the first;
@@ -70,12 +70,12 @@ impl ImportPlan {
         self.run_at(target, Place::Free, jobs, progress)
     }
 
-    /// As [`run`](ImportPlan::run), in the place of the dataset at `target` if there is one: a reader sees the old one until
-    /// the new one is whole and durable.
+    /// As [`run`](ImportPlan::run), but replaces the dataset at `target` if there is one. Readers see the old dataset until the new one is
+    /// complete and durable.
     ///
     /// # Errors
-    /// As [`run`](ImportPlan::run), after which `target` is what it was; [`DatasetError::Request`] if it is no dataset, or holds what is no
-    /// part of one.
+    /// As [`run`](ImportPlan::run); `target` is then unchanged. [`DatasetError::Request`] if `target` is no dataset, or holds files that
+    /// are no part of one.
     pub fn replace(
         self,
         target: &Path,

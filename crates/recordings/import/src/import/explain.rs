@@ -1,4 +1,4 @@
-//! An import in words.
+//! Describes an import in words.
 
 use std::fmt;
 
@@ -79,7 +79,7 @@ impl fmt::Display for ImportSummary {
 }
 
 impl ImportSummary {
-    /// The frames of a view.
+    /// Writes the frames of a view.
     fn write_frames(&self, frames: &FrameSummary, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let view = frames.view.iter();
         let view: String = view.map(|view| format!(" of the view {view}")).collect();
@@ -101,7 +101,7 @@ impl ImportSummary {
         }
     }
 
-    /// The columns that are left behind; those that rate their rows, one by one.
+    /// Writes the unmapped columns; columns that rate their rows get a line each.
     fn write_unmentioned(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.unmentioned_columns.is_empty() {
             return Ok(());

@@ -1,4 +1,4 @@
-//! Adding rows to a dataset that was imported: a successor is written beside it, which shares its files, and takes its place at once.
+//! Adds rows to an imported dataset: writes a successor beside it that shares its files, then replaces it atomically.
 
 mod duplicates;
 
@@ -20,7 +20,7 @@ use taceva_dataset::internal::{
 };
 use taceva_dataset::{Dataset, DatasetError, Digest, Extension, Header, SignalsInfo, Table};
 
-/// When rows are added, and from where, as the header of the dataset will say it.
+/// Date and source of added rows, as recorded in the header of the dataset.
 ///
 /// ```
 /// let added = taceva_import::Addition::new("2026-11-23", "lab/tuesday");
@@ -29,14 +29,14 @@ use taceva_dataset::{Dataset, DatasetError, Digest, Extension, Header, SignalsIn
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Addition {
-    /// The day, in UTC: `2026-11-23`.
+    /// Date in UTC: `2026-11-23`.
     pub date: String,
-    /// The folder, as it was named.
+    /// Folder as named by the caller.
     pub from: String,
 }
 
 impl Addition {
-    /// Rows that are added on `date` from the folder called `from`.
+    /// Rows added on `date` from the folder called `from`.
     pub fn new(date: impl Into<String>, from: impl Into<String>) -> Addition {
         Addition {
             date: date.into(),
@@ -46,17 +46,16 @@ impl Addition {
 }
 
 impl ImportPlan {
-    /// Adds the rows to the dataset at `target`, behind those that are there. Whoever reads it sees it as it was until all of it is durable, and
-    /// keeps what it has opened; frames that are there are shared, not copied. The header says how many rows there were before, their digest, and
-    /// what `added` says.
+    /// Appends the rows to the dataset at `target`. Readers see the old dataset until the new one is durable, and keep open files valid.
+    /// Existing frames are shared, not copied. The header records the former number of rows, their digest, and `added`.
     ///
-    /// If the map names no column for the names of samples, they are numbered from the one behind the greatest number that is a name in the
-    /// dataset. Splits keep the part of every row that was there.
+    /// If the map names no column for sample names, numbering continues after the greatest number among the existing names. Existing rows
+    /// keep their part of each split.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] naming the key if the map contradicts the header of the dataset, naming the row if it is in the dataset already,
-    /// or if `target` is no imported dataset; [`DatasetError::NoDataset`]; else as [`run`](ImportPlan::run). After any of them `target` is what
-    /// it was.
+    /// [`DatasetError::Request`] naming the key if the map contradicts the header, or naming the row if the dataset already has it. Also if
+    /// `target` is no imported dataset. [`DatasetError::NoDataset`]; otherwise as [`run`](ImportPlan::run). After any error `target` is
+    /// unchanged.
     ///
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SilentProgress, SourceUnit};
@@ -86,7 +85,7 @@ impl ImportPlan {
         jobs: NonZeroUsize,
         progress: &dyn Progress,
     ) -> Result<ImportReport, DatasetError> {
-        // First, so that nobody else replaces meanwhile what is read here.
+        // Staged first, so that no other process replaces the dataset while it is read.
         let staged = StagedFolder::create(target, Place::OfDataset)?;
         let before = Dataset::open(target)?;
         self.check_alike(&before, None)?;
@@ -111,7 +110,7 @@ impl ImportPlan {
         let signals = signals.transpose()?;
         refuse_twice(&before, &table, signals.as_ref(), staged.path())?;
         let header = write_header(&staged, &before, &table, frames, signals, &self, added)?;
-        // Nobody reads the predecessor on our behalf any more: it is removed with its names, and not set aside.
+        // The predecessor is no longer read here, so it is removed instead of set aside.
         drop(before);
         staged.put_in_place(&folders.into_iter().collect::<Vec<_>>())?;
         Ok(ImportReport {
@@ -123,7 +122,7 @@ impl ImportPlan {
         })
     }
 
-    /// Refuses rows whose header would contradict that of `before`; `frames` are those of the rows, where they are known.
+    /// Rejects rows whose header would contradict that of `before`. `frames` are those of the new rows, if known.
     fn check_alike(
         &self,
         before: &Dataset,
@@ -214,7 +213,7 @@ impl ImportPlan {
         }
     }
 
-    /// The rows of `before` and behind them the new ones.
+    /// Rows of `before`, followed by the new rows.
     fn joined_table(&self, before: &Dataset) -> Table {
         let mut table = before.table().clone();
         let names = before.table().samples().iter();
@@ -243,7 +242,7 @@ fn differs(key: &str, own: &str, other: &str) -> String {
     )
 }
 
-/// Gives the frames of `before` a second name in the staged folder, where they then lie as they did; returns the folders that they lie in.
+/// Hard-links the frames of `before` into the staged folder under the same paths. Returns their folders.
 fn share_files(before: &Dataset, staged: &StagedFolder) -> Result<BTreeSet<String>, DatasetError> {
     let frames = before.table().frames().iter().flatten();
     let views = before.table().views().iter();
@@ -262,7 +261,7 @@ fn share_files(before: &Dataset, staged: &StagedFolder) -> Result<BTreeSet<Strin
         }
         let (from, to) = (before.path().join(relative), staged.path().join(relative));
         if fs::hard_link(&from, &to).is_err() {
-            // Where a file has one name only.
+            // On file systems without hard links.
             fs::copy(&from, &to).map_err(DatasetError::io("copy", &from))?;
             let copied = File::open(&to).and_then(|file| file.sync_all());
             copied.map_err(DatasetError::io("write", &to))?;
@@ -271,7 +270,7 @@ fn share_files(before: &Dataset, staged: &StagedFolder) -> Result<BTreeSet<Strin
     Ok(folders)
 }
 
-/// Takes the picture without contact out of `frames`, which must be the one that the dataset has.
+/// Removes the picture without contact from `frames`. It must equal that of the dataset.
 fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), DatasetError> {
     let header = before.header();
     let known = match &frames.view {
@@ -301,7 +300,7 @@ fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), D
     })
 }
 
-/// The signals of all rows, those of `before` first.
+/// Writes the signals of all rows, those of `before` first.
 fn write_signals(
     before: &Dataset,
     new: &PlannedSignals,

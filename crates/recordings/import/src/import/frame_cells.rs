@@ -1,22 +1,22 @@
-//! Which cells of a row name its frame.
+//! Cells of a row that name its frame.
 
 use super::map::FrameNames;
 use super::resolve::ResolvedTable;
 use taceva_dataset::DatasetError;
 
-/// The cells that name a frame.
+/// Cells that name a frame.
 pub(super) enum FrameCells {
     Column(usize),
-    /// A path made of texts and the cells of columns, in order.
+    /// Path made of texts and the cells of columns, in order.
     Pattern(Vec<PatternPart>),
-    /// The column of the position in another file, or without one in that of the table.
+    /// Column of the position in another file, or in the file of the table if `file` is `None`.
     Within {
         file: Option<Vec<PatternPart>>,
         index: usize,
     },
-    /// The clip of each row and the frame in it, as the table itself says.
+    /// Clip and frame number of each row, stated by the table itself.
     Clips(Vec<(String, u64)>),
-    /// Each row of the table has its own.
+    /// One frame for each row, by its position.
     OfRow,
 }
 
@@ -25,14 +25,14 @@ pub(super) enum PatternPart {
     Cell(usize),
 }
 
-/// How a row names its frame.
+/// Name of a row's frame.
 pub(super) enum FrameName {
     File(String),
-    /// The position in a file, or without one in that of the table.
+    /// Position in a file, or in the file of the table if `None`.
     Within(Option<String>, u64),
 }
 
-/// The path that texts and the cells between them make.
+/// Joins texts and cells to a path.
 pub(super) fn filled<'c>(parts: &'c [PatternPart], cell: impl Fn(usize) -> &'c str) -> String {
     let texts = parts.iter().map(|part| match part {
         PatternPart::Text(text) => text.as_str(),
@@ -66,7 +66,7 @@ impl FrameCells {
     }
 }
 
-/// The texts and columns of a pattern.
+/// Texts and columns of a pattern.
 fn parts(pattern: &str, table: &ResolvedTable) -> Result<Vec<PatternPart>, DatasetError> {
     let mut parts = Vec::new();
     let mut rest = pattern;

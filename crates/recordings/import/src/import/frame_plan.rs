@@ -1,4 +1,4 @@
-//! Where the frames of an import come from.
+//! Sources of the frames of an import.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -6,18 +6,18 @@ use std::sync::Arc;
 use crate::foreign::Pictures;
 use taceva_dataset::{ChannelOrder, Place};
 
-/// Where the frames come from.
+/// Frames of one view, as planned.
 #[derive(Debug)]
 pub(super) struct PlannedFrames {
-    /// The view that they are of, where rows have several pictures.
+    /// View of the frames, if rows have several pictures.
     pub(super) view: Option<String>,
     pub(super) order: ChannelOrder,
     pub(super) reference: Option<PathBuf>,
-    /// For each kept row.
+    /// One entry for each kept row.
     pub(super) of_rows: Vec<PlannedFrame>,
 }
 
-/// Where one frame comes from, and which cell says so.
+/// Source of one frame, with the cell that names it.
 #[derive(Debug)]
 pub(super) struct PlannedFrame {
     pub(super) from: FrameSource,
@@ -27,12 +27,12 @@ pub(super) struct PlannedFrame {
 #[derive(Debug)]
 pub(super) enum FrameSource {
     File(PathBuf),
-    /// The picture of that number in another file.
+    /// Picture with that number in another file.
     Within(Arc<dyn Pictures>, u64),
 }
 
 impl FrameSource {
-    /// Where it is in the folder of the lab.
+    /// Path in the lab's folder, with `#` and the picture number inside a file.
     pub(super) fn origin(&self, folder: &Path) -> String {
         let inside = |path: &Path| {
             let inside = path.strip_prefix(folder).unwrap_or(path);
@@ -55,17 +55,17 @@ impl FrameSource {
     }
 }
 
-/// A file with pictures in it, the numbers of those that are wanted, ascending, and the row of each.
+/// File with pictures, with the wanted numbers in ascending order and the row of each.
 pub(super) type Within = (Arc<dyn Pictures>, Vec<(u64, usize)>);
 
-/// The files with pictures in them, each with the numbers of its pictures, ascending, and their rows.
+/// Files with pictures, each with its wanted numbers in ascending order and their rows.
 pub(super) fn within(frames: &PlannedFrames) -> Vec<Within> {
     let mut found: Vec<Within> = Vec::new();
     for (row, planned) in frames.of_rows.iter().enumerate() {
         let FrameSource::Within(pictures, index) = &planned.from else {
             continue;
         };
-        // Rows of one file mostly follow one another.
+        // Consecutive rows usually share a file.
         let known = found
             .iter_mut()
             .rev()

@@ -1,4 +1,4 @@
-//! The map of an import: which column is which channel, in which unit, and which facts are unknown.
+//! Import map: the column and unit of each channel, and facts of the recording.
 
 mod axes;
 mod check;
@@ -44,7 +44,7 @@ pub(crate) use columns::OriginMap;
 pub use columns::{ColumnMap, IdMap, TimeMap};
 pub use drop::{DropRules, Placeholder};
 
-/// A checked map.
+/// Checked import map.
 ///
 /// ```
 /// let map = taceva_import::ImportMap::parse(
@@ -75,35 +75,35 @@ pub struct ImportMap {
     pub frames: Vec<FrameMap>,
     /// The channels, in order.
     pub channels: Channels,
-    /// For each channel the column it comes from.
+    /// For each channel its source column.
     pub columns: Vec<ColumnMap>,
-    /// The columns of the ids.
+    /// Columns of the ids.
     pub ids: IdMap,
     /// Text columns kept for splits: name and column.
     pub attributes: BTreeMap<String, String>,
-    /// The column of the time, and its unit.
+    /// Column and unit of the time.
     pub time: Option<TimeMap>,
-    /// Which rows are left out.
+    /// Rules for rows that are left out.
     pub drop: DropRules,
     /// Sensor, clock, source and footprint.
     pub facts: RecordingFacts,
-    /// How the table is written.
+    /// Form of the table.
     pub(crate) form: TableForm,
-    /// The coordinate frame whose rows of the table are taken alone.
+    /// Coordinate frame to which the rows of the table are restricted.
     pub(crate) frame_id: Option<String>,
-    /// True if elements of HDF5 that were never written are taken as the fill value.
+    /// True if unwritten HDF5 elements are read as the fill value.
     pub(crate) is_filled: bool,
-    /// Labels in the path of the table, of the file of a row, or of a cell.
+    /// Labels in the path of the table, in the file of a row, or in a cell.
     pub(crate) path: Option<PathPattern>,
     pub(crate) joins: Vec<JoinMap>,
     pub(crate) matrices: Vec<MatrixMap>,
-    /// Where the numbers of taxels are; without it the dataset has none.
+    /// Source of the taxel values; `None` for a dataset without signals.
     pub(crate) signals: Option<SignalsMap>,
-    /// Where rows first came from, of a table that was exported.
+    /// Origin of the rows of an exported table.
     pub(crate) origin: Option<OriginMap>,
-    /// Text columns whose values are of a closed list: name, column and list.
+    /// Text columns with a closed list of values: name, column and list.
     pub(crate) classes: BTreeMap<String, ClassMap>,
-    /// Channels that are the parts of one rotation.
+    /// Channels that are parts of one rotation.
     pub(crate) rotations: Vec<RotationMap>,
     /// Rows that read zero force.
     pub(crate) zero: Option<ZeroMap>,
@@ -111,22 +111,22 @@ pub struct ImportMap {
     pub(crate) gravity: Option<GravityMap>,
 }
 
-/// A column whose values are of a closed list.
+/// Column with a closed list of values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ClassMap {
     pub(crate) from: String,
-    /// Numbers in the column are positions in it, from 0, unless they are names of it.
+    /// Class names. Numbers in the column are positions in this list, from 0, unless they are themselves names.
     pub(crate) names: Vec<String>,
 }
 
 impl ClassMap {
-    /// The position that a cell holds, if it holds one of the list.
+    /// Position that a cell holds, if it is within the list.
     pub(crate) fn position(&self, cell: &str) -> Option<usize> {
         let position = cell.parse::<usize>().ok();
         position.filter(|position| *position < self.names.len())
     }
 
-    /// The first name that is also the position of another one, and that position.
+    /// First name that is also the position of another name, with that position.
     pub(crate) fn ambiguous(&self) -> Option<(&str, usize)> {
         let mut names = self.names.iter().enumerate();
         names.find_map(|(at, name)| {
@@ -137,7 +137,7 @@ impl ClassMap {
 }
 
 impl ImportMap {
-    /// A map of `table` without channels, frames and ids.
+    /// Map of `table` without channels, frames and ids.
     pub fn new(table: impl Into<String>, facts: RecordingFacts) -> ImportMap {
         ImportMap {
             table: table.into(),
@@ -164,7 +164,7 @@ impl ImportMap {
         }
     }
 
-    /// The map at `path`.
+    /// Reads the map at `path`.
     ///
     /// # Errors
     /// [`DatasetError::Toml`] naming the line; [`DatasetError::Path`] if it is no regular file or above 1 MiB;
@@ -173,7 +173,7 @@ impl ImportMap {
         ImportMap::parse(path, &read_toml_text(path)?)
     }
 
-    /// The map that `text` says; `path` is only named in messages.
+    /// Parses the map in `text`. `path` only appears in messages.
     ///
     /// # Errors
     /// [`DatasetError::Toml`] naming the line.

@@ -1,4 +1,4 @@
-//! How a map reads labels, joined tables, pictures and classes, as the header of the dataset keeps it.
+//! Summary of a map for the header of the dataset: labels, joins, pictures and classes.
 
 mod columns;
 mod tables;
@@ -10,11 +10,11 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::Mapping;
 use taceva_dataset::{DatasetError, Digest};
 
-/// Of so many columns of taxels all are named, and each by so many bytes; what is more is told apart by a digest, so that a header stays small.
+/// Limits of named taxel columns and of bytes per name in a header. The rest is represented by a digest.
 const NAMED: usize = 64;
 const NAME_BYTES: usize = 256;
 
-/// How `map` reads what it reads.
+/// Summary of `map` for the header.
 ///
 /// # Errors
 /// [`DatasetError`] if the file of a matrix cannot be read.
@@ -32,7 +32,7 @@ pub(super) fn mapping(map: &ImportMap, folder: &SourceFolder) -> Result<Mapping,
     })
 }
 
-/// `names`, of which no more are kept than a header has room for.
+/// `names`, shortened to the limit of a header.
 fn short(names: &[String]) -> Vec<String> {
     let (named, others) = names.split_at(names.len().min(NAMED));
     let named = named.iter().map(|name| short_name(name).into_owned());

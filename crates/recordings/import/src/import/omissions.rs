@@ -1,4 +1,4 @@
-//! What an import does not take of files that it reads, counted once every row is known.
+//! Counts unused frames and unwritten chunks of the files that an import reads.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,8 +12,8 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::add_left_out;
 
-/// Counts the frames of arrays and clips that no row uses, and the chunks of arrays that were never written; `absent_chunks` are those of
-/// arrays that are no frames.
+/// Counts frames of arrays and clips that no row uses, and unwritten chunks of arrays. `absent_chunks` holds those of arrays other than
+/// frames.
 pub(super) fn count(
     folder: &SourceFolder,
     maps: &[FrameMap],
@@ -29,7 +29,7 @@ pub(super) fn count(
             for (index, _) in &rows {
                 *used.entry(pictures.origin(*index).0).or_default() += 1;
             }
-            // A picture that is a cell of the table is left out with its row.
+            // A picture in a cell of the table is left out with its row.
             if !matches!(map.names, FrameNames::Bytes(_)) {
                 for (path, count) in pictures.files() {
                     let used = used.get(path).copied().unwrap_or_default();
@@ -62,7 +62,7 @@ pub(super) fn count(
     Ok(())
 }
 
-/// True if the array lies in a file of HDF5. Writers of zarr leave chunks out that hold the fill value alone, those of HDF5 do not.
+/// True if the array is in an HDF5 file. Unlike HDF5 writers, zarr writers omit chunks that hold only the fill value.
 fn is_of_hdf5(array: &str) -> bool {
     let ends = array.match_indices('/').map(|(at, _)| at);
     let mut files = ends.filter_map(|end| ArrayFormat::of(Path::new(&array[..end])));

@@ -1,4 +1,4 @@
-//! What an import would read, convert and leave out, before anything is written.
+//! Plans an import: reads and converts everything before any writing.
 
 mod channels;
 mod completion;
@@ -24,7 +24,7 @@ use reading::Reading;
 use taceva_dataset::internal::Mapping;
 use taceva_dataset::{DatasetError, RecordingFacts, Table};
 
-/// An import that can be made: every label is read and converted, every frame is found; frames are verified when it is run.
+/// Import with all labels read and converted, and all frames found. Frames are verified by [`run`](ImportPlan::run).
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
@@ -46,17 +46,17 @@ pub struct ImportPlan {
     pub(super) summary: ImportSummary,
     pub(super) facts: RecordingFacts,
     pub(super) table: Table,
-    /// The pictures of each view.
+    /// Pictures of each view.
     pub(super) frames: Vec<PlannedFrames>,
     pub(super) signals: Option<PlannedSignals>,
-    /// How the map reads what it reads.
+    /// Summary of the map for the header.
     pub(super) mapping: Mapping,
-    /// Whether samples are called by the number of their row, because the map names no column for it.
+    /// True if samples are named by row number, because the map names no column for it.
     pub(super) is_numbered: bool,
 }
 
 impl ImportPlan {
-    /// Reads the tables that `map` names in the folder at `source`, and finds every frame.
+    /// Reads the tables that `map` names in the folder `source`, and finds every frame.
     ///
     /// # Errors
     /// [`DatasetError::Table`] naming line and column; [`DatasetError::Path`] if a path is missing, leaves the folder or is no
@@ -65,10 +65,10 @@ impl ImportPlan {
         ImportPlan::with_decoders(source, map, &Decoders::default())
     }
 
-    /// As [`new`](ImportPlan::new), with programs that decode clips which are not decoded here.
+    /// As [`new`](ImportPlan::new), with external programs for clips that TacEva cannot decode.
     ///
     /// # Errors
-    /// As [`new`](ImportPlan::new); [`DatasetError::Image`] naming the codec and what would mend it if nothing at hand decodes a clip.
+    /// As [`new`](ImportPlan::new); [`DatasetError::Image`] naming the codec and a remedy if no decoder for a clip is available.
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
     /// # use taceva_dataset::{RecordingFacts, SensorFacts, Source};
@@ -112,14 +112,14 @@ impl ImportPlan {
         reading.into_plan()
     }
 
-    /// What the import reads, converts, keeps and leaves out.
+    /// Numbers of items that the import reads, converts, keeps and leaves out.
     pub fn summary(&self) -> &ImportSummary {
         &self.summary
     }
 
-    /// What the pictures will take on disk, in bytes: files as they are, each once. Pictures within other files are not counted here.
+    /// Size of the pictures on disk, bytes: each file once. Pictures inside other files are not counted.
     ///
-    /// A file that went away since counts as nothing: the import itself names it.
+    /// A file that has vanished counts as 0. The import itself reports it.
     pub fn frame_bytes(&self) -> u64 {
         let frames = self.frames.iter();
         let files: BTreeSet<&Path> = frames

@@ -1,4 +1,4 @@
-//! Pictures without contact that rows name each for themselves.
+//! Pictures without contact that each row names.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -7,14 +7,14 @@ use super::map::reference_attribute;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::{DatasetError, Place, Table};
 
-/// The picture without contact of each kept row, relative to the folder of the lab.
+/// Picture without contact of each kept row, relative to the lab's folder.
 #[derive(Debug, Default)]
 pub(super) struct References {
     of_rows: Vec<Option<String>>,
 }
 
 impl References {
-    /// Takes what a kept row names, relative to `base`; nothing where its cell is empty.
+    /// Adds the picture that a kept row names, relative to `base`; none for an empty cell.
     ///
     /// # Errors
     /// [`DatasetError::Path`] if there is no such file inside the folder.
@@ -37,13 +37,13 @@ impl References {
         Ok(())
     }
 
-    /// The files.
+    /// Paths of the files.
     pub(super) fn paths(&self, folder: &SourceFolder) -> BTreeSet<PathBuf> {
         let named = self.of_rows.iter().flatten();
         named.map(|name| folder.path().join(name)).collect()
     }
 
-    /// The one of `view` that every row names; where they differ, or some row names none, each becomes an attribute of `table`.
+    /// Returns the reference of `view` if every row names the same. Otherwise stores each as an attribute of `table`.
     pub(super) fn settle(
         self,
         folder: &SourceFolder,
@@ -69,11 +69,11 @@ impl References {
     }
 }
 
-/// What rows name as pictures without contact.
+/// Result of comparing the pictures without contact of all rows.
 #[derive(Debug, Default)]
 pub(super) struct Settled {
-    /// The one of all rows.
+    /// The picture that all rows share.
     pub(super) reference: Option<PathBuf>,
-    /// How many different ones there are instead.
+    /// Number of different pictures if there is no shared one.
     pub(super) different: usize,
 }

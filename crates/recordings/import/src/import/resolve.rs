@@ -1,4 +1,4 @@
-//! One table of the columns that a map names, which may stand in a cell of others, in the path of a file or in another table.
+//! Resolves the columns that a map names into one table: from the main table, its cells, file paths and joined tables.
 
 mod cell;
 mod classes;
@@ -37,44 +37,44 @@ pub(super) use signals::{ColumnSignals, place_first};
 pub(super) use table::ResolvedTable;
 pub(super) use unit_statement::{problem_of_names, problem_of_signals};
 
-/// A table in which every column that the map names is found by that name.
+/// Table in which every column of the map is found by the map's name.
 pub(super) struct Resolved {
     pub(super) table: ResolvedTable,
-    /// The columns of the main table that the map does not mention.
+    /// Columns of the main table that the map does not mention.
     pub(super) unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinMatches>,
-    /// Chunks that were never written of the arrays that are read, by file and array.
+    /// Unwritten chunks of the arrays read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
-    /// The main table itself.
+    /// Main table.
     pub(super) main: ForeignTable,
-    /// The numbers of taxels of every row, where they are in columns.
+    /// Taxel values of every row, if they are in columns.
     pub(super) signals: Option<ColumnSignals>,
-    /// What the cells of each class are.
+    /// Cell interpretation of each class.
     pub(super) class_cells: Vec<ClassCells>,
     pub(super) warnings: Vec<ImportWarning>,
-    /// Topics of the recording that are not read, each with the reason.
+    /// Unread topics of the recording, each with the reason.
     pub(super) unread_topics: Vec<String>,
-    /// The frames that labels are given in.
+    /// Coordinate frames of the labels.
     pub(super) coordinate_frames: CoordinateFrames,
-    /// The folders of joined tables that name files.
+    /// Folders of joined tables that name files.
     pub(super) named_by: NamedBy,
 }
 
-/// What the cells of a row are taken from.
+/// Sources of the cells of a row.
 struct Sources<'a> {
     map: &'a ImportMap,
     main: ForeignTable,
-    /// The path of the main table relative to the source folder, with `/`.
+    /// Path of the main table relative to the source folder, with `/`.
     relative: String,
-    /// What the parts of the path are in each row; one entry where they are the same in all.
+    /// Path parts of each row; a single entry if all rows share them.
     captures: Vec<Vec<String>>,
     joined: Vec<Joined<'a>>,
-    /// The column of the time as seconds, where the table writes it as text.
+    /// Time column in seconds, if the table writes times as text.
     times: Option<Vec<String>>,
     warnings: Vec<ImportWarning>,
 }
 
-/// The table at `path` as `map` reads it.
+/// Resolves the table at `path` by `map`.
 pub(super) fn resolve(
     map: &ImportMap,
     folder: &SourceFolder,
@@ -85,7 +85,7 @@ pub(super) fn resolve(
     let mut sources = Sources {
         map,
         main,
-        // A table that is the folder itself is called as its map calls it.
+        // A table that is the folder itself keeps the name in its map.
         relative: match inside.as_os_str().is_empty() {
             true => ".".to_owned(),
             false => inside.to_string_lossy().replace('\\', "/"),
@@ -107,14 +107,14 @@ pub(super) fn resolve(
     sources.main.read_ahead(&bases)?;
     sources.capture()?;
     sources.read_times()?;
-    // Before a join compares times, and once what is joined is known.
+    // Joins must be known, and their times are compared later.
     sources.check_units()?;
     for join in &map.joins {
         let joined = Joined::new(&sources, folder, join)?;
         sources.joined.push(joined);
     }
     sources.check_units()?;
-    // A joined table may have the column of the time.
+    // The time column may be in a joined table.
     sources.read_times()?;
     sources.warn_of_grouped_digits();
     let coordinate_frames = sources.coordinate_frames()?;
@@ -169,7 +169,7 @@ pub(super) fn resolve(
 }
 
 impl Sources<'_> {
-    /// Reads the column of the time where it is text; numbers are read row by row.
+    /// Reads the time column if it is text. Numbers are read row by row.
     fn read_times(&mut self) -> Result<(), DatasetError> {
         let Some(time) = &self.map.time else {
             return Ok(());
@@ -196,7 +196,7 @@ impl Sources<'_> {
         Ok(())
     }
 
-    /// Warns of columns of labels whose points may group digits.
+    /// Warns of label columns whose points may group digits.
     fn warn_of_grouped_digits(&mut self) {
         for column in &self.map.columns {
             let base = base_of(&column.from);
@@ -214,7 +214,7 @@ impl Sources<'_> {
         }
     }
 
-    /// The cell, of the column of the time in seconds where the table writes it as text.
+    /// Cell of a column, in seconds for a time column written as text.
     fn cell_in_seconds(&self, row: usize, name: &str) -> Result<String, DatasetError> {
         let is_time = self
             .map
@@ -227,7 +227,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Takes the labels out of the path.
+    /// Extracts the labels of the path.
     fn capture(&mut self) -> Result<(), DatasetError> {
         let Some(pattern) = &self.map.path else {
             return Ok(());
@@ -247,7 +247,7 @@ impl Sources<'_> {
             None => vec![captured(&self.relative, Place::file(self.main.path()))?],
             Some(column) => {
                 let rows = 0..self.main.rows();
-                // A row without a path has no parts of one; [drop] may leave it out.
+                // A row without a path has empty parts; [drop] may leave it out.
                 let nothing = vec![String::new(); pattern.names().count()];
                 let captures: Result<Vec<Vec<String>>, DatasetError> = rows
                     .map(|row| match self.cell(row, column)? {
@@ -261,7 +261,7 @@ impl Sources<'_> {
         Ok(())
     }
 
-    /// What a row has in the column that the map calls `name`.
+    /// Cell of a row in the column that the map calls `name`.
     fn cell(&self, row: usize, name: &str) -> Result<String, DatasetError> {
         if let Some(part) = name.strip_prefix("path.") {
             return self.part(row, part);
@@ -270,7 +270,7 @@ impl Sources<'_> {
             return joined.cell(row, column);
         }
         match name {
-            // Also where the table has a column called `row`.
+            // Takes precedence over a column called `row`.
             OWN_ROW => return Ok(row.to_string()),
             _ if self.main.has(name) => {}
             "row" => return Ok(row.to_string()),
@@ -281,14 +281,14 @@ impl Sources<'_> {
         cell_of(&self.main, row, name)
     }
 
-    /// The join that `name` begins with, and the column of it; none where the main table has a column of that name.
+    /// Join and column that `name` refers to; `None` if the main table has a column of that name.
     fn joined_column<'n>(&self, name: &'n str) -> Option<(&Joined<'_>, &'n str)> {
         let (join, column) = name.split_once('.')?;
         let joined = self.joined.iter().find(|joined| joined.name() == join)?;
         (!self.main.has(name)).then_some((joined, column))
     }
 
-    /// A part of the path.
+    /// Part of the path of a row.
     fn part(&self, row: usize, part: &str) -> Result<String, DatasetError> {
         let names = self.map.path.iter().flat_map(|pattern| pattern.names());
         let names: Vec<&str> = names.collect();
@@ -309,7 +309,7 @@ impl Sources<'_> {
         }
     }
 
-    /// `text` with `{path.PART}` filled in.
+    /// Replaces `{path.PART}` in `text`.
     fn filled(&self, row: usize, text: &str) -> Result<String, DatasetError> {
         let mut filled = String::new();
         let mut rest = text;
@@ -324,7 +324,7 @@ impl Sources<'_> {
         Ok(filled + rest)
     }
 
-    /// The columns of the main table that neither the map nor a join names.
+    /// Columns of the main table that neither the map nor a join names.
     fn unmentioned(&self, table: &table::ResolvedTable) -> Vec<String> {
         let keys = self.joined.iter().flat_map(Joined::own_columns);
         let of_path = self.map.path.iter().filter_map(|path| path.of.as_deref());
@@ -341,7 +341,7 @@ impl Sources<'_> {
             FrameNames::Array(array) if array.file.is_none() => array.path.as_deref(),
             _ => None,
         });
-        // An array is listed without the slash of the root.
+        // Arrays are listed without the leading slash.
         let of_frame = of_frame.map(|name| name.trim_start_matches('/'));
         let named = named.into_iter().chain(keys).chain(of_path).chain(signals);
         let named = named.chain(of_frame);

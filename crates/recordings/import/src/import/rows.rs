@@ -1,4 +1,4 @@
-//! The rows of one table, read by a map.
+//! Rows of one table, read by a map.
 
 mod labels;
 mod point;
@@ -19,22 +19,22 @@ use taceva_dataset::{DatasetError, Place, Row};
 use views::MappedView;
 use zero::Zeros;
 
-/// The rule that leaves rows out in which a taxel measured nothing.
+/// Rule that drops rows in which a taxel measured nothing.
 pub(super) const SIGNAL_PLACEHOLDERS: &str = "placeholders of [signals]";
 
-/// A table whose columns have been found.
+/// Table with resolved columns.
 pub(super) struct MappedTable<'a> {
     map: &'a ImportMap,
     table: ResolvedTable,
-    /// The columns that the map mentions nowhere, where they are not found by the others.
+    /// Columns that the map mentions nowhere.
     unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinMatches>,
     pub(super) warnings: Vec<ImportWarning>,
-    /// Topics of the recording that are not read, each with the reason.
+    /// Unread topics of the recording, each with the reason.
     pub(super) unread_topics: Vec<String>,
-    /// The frames that labels are given in.
+    /// Coordinate frames of the labels.
     pub(super) coordinate_frames: CoordinateFrames,
-    /// Chunks that were never written of the arrays that are read, by file and array.
+    /// Unwritten chunks of the arrays read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     truth: Vec<usize>,
     sample: Option<usize>,
@@ -50,21 +50,21 @@ pub(super) struct MappedTable<'a> {
     spacing: Option<usize>,
     attributes: Vec<usize>,
     classes: Vec<usize>,
-    /// What the cells of each class are.
+    /// Cell interpretation of each class.
     class_cells: Vec<ClassCells>,
     time: Option<usize>,
-    /// The columns of the table, the row and the picture that rows first came from.
+    /// Columns of the original table, row and picture.
     origin: [Option<usize>; 3],
     flags: Option<usize>,
-    /// The pictures of each row, those of each view.
+    /// Pictures of the rows, for each view.
     pub(super) views: Vec<MappedView>,
-    /// The numbers of taxels of every row, where they are in columns.
+    /// Taxel values of every row, if they are in columns.
     signals: Option<ColumnSignals>,
-    /// The folders of joined tables that name files.
+    /// Folders of joined tables that name files.
     pub(super) named_by: NamedBy,
-    /// Whether the table has a column called `row`, so that the word is not the number of the row.
+    /// True if the table has a column called `row`, which replaces the row number.
     pub(super) has_row_column: bool,
-    /// The zeros of forces, where the map says any.
+    /// Zeros of forces, if the map sets any.
     pub(super) zeros: Option<Zeros>,
 }
 
@@ -145,12 +145,12 @@ impl<'a> MappedTable<'a> {
         Ok(mapped)
     }
 
-    /// The columns of the table that the map mentions nowhere.
+    /// Columns of the table that the map mentions nowhere.
     pub(super) fn unmentioned(&self) -> Vec<String> {
         self.unmentioned.clone()
     }
 
-    /// The numbers of taxels of a row, where they are in columns; NaN where there is none.
+    /// Taxel values of a row, if they are in columns; NaN for absent ones.
     pub(super) fn signals(&self, row: usize) -> Option<&[f32]> {
         let length = self.map.signals.as_ref()?.spec.info.len();
         let first = row.checked_mul(length)?;
@@ -160,7 +160,7 @@ impl<'a> MappedTable<'a> {
             .get(first..first.checked_add(length)?)
     }
 
-    /// Where a row stands.
+    /// Place of a row, for messages.
     pub(super) fn place(&self, row: usize) -> Place {
         self.table.place(row, usize::MAX)
     }
@@ -169,12 +169,12 @@ impl<'a> MappedTable<'a> {
         self.table.rows()
     }
 
-    /// The folder of the table.
+    /// Folder of the table.
     pub(super) fn folder(&self) -> PathBuf {
         taceva_files::parent_of(self.table.path()).to_owned()
     }
 
-    /// The rules that leave the row out.
+    /// Rules that drop the row.
     pub(super) fn drop_reasons(&self, row: usize) -> Vec<String> {
         if let Some(join) = self.table.unmatched(row) {
             return vec![join.to_owned()];
@@ -209,7 +209,7 @@ impl<'a> MappedTable<'a> {
         reasons
     }
 
-    /// The labels of a row; `number` is its place among the rows of all tables.
+    /// Labels of a row. `number` is its index over all tables.
     pub(super) fn row(&self, row: usize, number: u64) -> Result<Row, DatasetError> {
         let text = |column: Option<usize>| {
             column
@@ -250,7 +250,7 @@ impl<'a> MappedTable<'a> {
         Ok(read)
     }
 
-    /// The error that another row has the name of this one.
+    /// Error for a sample name that another row has.
     pub(super) fn duplicate(&self, row: usize, name: &str) -> DatasetError {
         let column = self.sample.unwrap_or(usize::MAX);
         DatasetError::Table {
@@ -259,7 +259,7 @@ impl<'a> MappedTable<'a> {
         }
     }
 
-    /// A count, also where a spreadsheet made `3.0` of it.
+    /// Count in a cell; also accepts `3.0`, as spreadsheets write it.
     fn count(&self, row: usize, column: Option<usize>) -> Result<Option<u32>, DatasetError> {
         let Some(column) = column else {
             return Ok(None);

@@ -1,4 +1,4 @@
-//! The signals of an import: found with the rows that are kept, written when it is run.
+//! Signals of an import: planned with the kept rows, written when the import runs.
 
 mod array;
 
@@ -14,28 +14,28 @@ use array::ArraySignals;
 use taceva_dataset::internal::SignalsWriter;
 use taceva_dataset::{DatasetError, SignalsInfo, SignalsSpec};
 
-/// The signals of the rows that are kept, as they are found.
+/// Signals of the kept rows during planning.
 #[derive(Debug)]
 pub(super) struct FoundSignals<'a> {
     map: &'a SignalsMap,
     from: Found,
-    /// Rows that are kept so far.
+    /// Number of kept rows so far.
     kept: u64,
-    /// Runs of those that are without contact.
+    /// Ranges of kept rows without contact.
     rest: Vec<[u64; 2]>,
-    /// Rows of an array in which a taxel measured nothing.
+    /// Array rows in which a taxel measured nothing.
     placeholders: BTreeSet<u64>,
 }
 
 #[derive(Debug)]
 enum Found {
-    /// The numbers themselves, row by row.
+    /// Values, row by row.
     Numbers(Vec<f32>),
-    /// Rows of an array, which is read when the import is run.
+    /// Rows of an array that is read when the import runs.
     Array(ArraySignals, Vec<u64>),
 }
 
-/// The signals that an import writes.
+/// Signals that an import writes.
 #[derive(Debug)]
 pub(super) struct PlannedSignals {
     map: SignalsMap,
@@ -69,12 +69,12 @@ impl<'a> FoundSignals<'a> {
         })
     }
 
-    /// True of a row of the array with a number that stands for "nothing measured"; rows count through all tables.
+    /// True if the array row has a number that means "nothing measured". `number` counts over all tables.
     pub(super) fn is_placeholder(&self, number: u64) -> bool {
         self.placeholders.contains(&number)
     }
 
-    /// Takes the signals of a row that is kept; `number` is its place among the rows of all tables.
+    /// Adds the signals of a kept row. `number` is its index over all tables.
     pub(super) fn take(
         &mut self,
         rows: &MappedTable<'_>,
@@ -104,7 +104,7 @@ impl<'a> FoundSignals<'a> {
         Ok(())
     }
 
-    /// The error that a row has no number for one of its signals.
+    /// Error for a row without a number for one of its signals.
     fn none_at(&self, rows: &MappedTable<'_>, row: usize, position: usize) -> DatasetError {
         let columns = self.map.columns();
         let length = self.map.spec.info.len();
@@ -133,7 +133,7 @@ impl<'a> FoundSignals<'a> {
         }
     }
 
-    /// Counts the chunks of an array that were never written.
+    /// Counts the unwritten chunks of an array.
     pub(super) fn count_absent_chunks(
         &self,
         folder: &SourceFolder,
@@ -158,12 +158,12 @@ impl<'a> FoundSignals<'a> {
 }
 
 impl PlannedSignals {
-    /// The taxels, with the runs of rows without contact.
+    /// Taxels, with the ranges of rows without contact.
     pub(super) fn spec(&self) -> &SignalsSpec {
         &self.spec
     }
 
-    /// Writes them to `path`.
+    /// Writes the signals to `path`.
     pub(super) fn write(
         &self,
         path: &Path,
@@ -174,7 +174,7 @@ impl PlannedSignals {
         writer.finish()
     }
 
-    /// Adds them to what `writer` holds; of an array no more than some rows are in memory.
+    /// Appends the signals to `writer`, with only some rows of an array in memory.
     pub(super) fn write_to(
         &self,
         writer: &mut SignalsWriter,

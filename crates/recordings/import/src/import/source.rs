@@ -1,4 +1,4 @@
-//! Finding tables and images in a foreign folder, without leaving it.
+//! Finds tables and images within a foreign folder.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -8,7 +8,7 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{limits, shown};
 
-/// The files that `pattern` names, sorted; `*` stands for any characters within one name.
+/// Files that match `pattern`, sorted. `*` matches any characters within one name.
 pub(crate) fn matching_files(
     folder: &SourceFolder,
     pattern: &str,
@@ -50,7 +50,7 @@ pub(crate) fn matching_files(
     Ok(found)
 }
 
-/// Checks that a pattern leads to no file twice, through a link: its rows would count twice.
+/// Checks that links do not lead to the same file twice, whose rows would count twice.
 fn each_once(folder: &SourceFolder, pattern: &str, found: &[PathBuf]) -> Result<(), DatasetError> {
     let mut known: BTreeMap<PathBuf, &PathBuf> = BTreeMap::new();
     for path in found {
@@ -71,7 +71,7 @@ fn each_once(folder: &SourceFolder, pattern: &str, found: &[PathBuf]) -> Result<
     Ok(())
 }
 
-/// Whether a file or folder is as `pattern`; the first that is found ends the search.
+/// True if a file or folder matches `pattern`. Stops at the first match.
 pub(crate) fn has_match(folder: &Path, pattern: &str) -> bool {
     let (part, rest) = match pattern.split_once('/') {
         Some((part, rest)) => (part, Some(rest)),
@@ -93,7 +93,7 @@ fn names_like(folder: &Path, pattern: &str) -> Vec<String> {
         .collect()
 }
 
-/// Whether `name` follows `pattern`, in which each `*` stands for any characters.
+/// True if `name` matches `pattern`, in which `*` matches any characters.
 fn is_like(name: &str, pattern: &str) -> bool {
     let mut parts = pattern.split('*');
     let first = parts.next().unwrap_or("");
@@ -116,11 +116,11 @@ fn is_like(name: &str, pattern: &str) -> bool {
 /// Images that no row names.
 pub(super) struct Unnamed {
     pub(super) images: Vec<PathBuf>,
-    /// Whether there are more files than are looked at.
+    /// True if the search ended at its limit of files.
     pub(super) has_more: bool,
 }
 
-/// The images below `folder` that are not among `named`; links are not followed.
+/// Images below `folder` that are not in `named`. Links are not followed.
 pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Unnamed {
     let mut unnamed = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -136,7 +136,7 @@ pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Unname
             }
             let path = entry.path();
             match entry.file_type() {
-                // A dataset that was made here is no part of what the lab recorded.
+                // A dataset made by TacEva is no part of the lab's recording.
                 Ok(kind) if kind.is_dir() && path.join("dataset.toml").is_file() => {}
                 Ok(kind) if kind.is_dir() => folders.push(path),
                 Ok(kind) if kind.is_file() && is_image(&path) && !named.contains(&path) => {

@@ -1,4 +1,4 @@
-//! What an import reads, keeps, converts and leaves out.
+//! Summary of an import: numbers of items read, kept, converted and left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use super::suspicion::Suspicion;
 use super::warning::ImportWarning;
 use taceva_dataset::{ChannelOrder, LeftOut, names_quality};
 
-/// The counts of an import.
+/// Summary of an import.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
@@ -30,49 +30,49 @@ use taceva_dataset::{ChannelOrder, LeftOut, names_quality};
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ImportSummary {
-    /// The main tables, in the order in which their rows are read.
+    /// Main tables, in reading order.
     pub tables: Vec<PathBuf>,
-    /// How many files are rows of their own, where there is no table; else 0.
+    /// Number of files that are rows themselves; 0 if there is a table.
     pub files: u64,
-    /// How many rows the main tables have.
+    /// Number of rows in the main tables.
     pub rows_read: u64,
-    /// How many of them become samples of the dataset.
+    /// Number of rows that become samples of the dataset.
     pub rows_kept: u64,
-    /// Rows left out by each rule; a row may be left out by several.
+    /// Dropped rows by rule. Several rules may drop the same row.
     pub dropped: BTreeMap<String, u64>,
-    /// How the rows of joined tables were matched, a join each.
+    /// Row matches of each join.
     pub joins: Vec<JoinSummary>,
-    /// How each channel is computed from its column, and how many values it has.
+    /// Conversion and number of values of each channel.
     pub conversions: Vec<Conversion>,
-    /// The zero that is subtracted from each force, where the map says one.
+    /// Zero subtracted from each force, if the map sets one.
     pub zeros: Vec<ZeroSummary>,
-    /// The weight that is subtracted from forces and torques, in words.
+    /// Weight subtracted from forces and torques, in words.
     pub gravity: Option<String>,
-    /// The grid and the unit of the signals; `None` without such.
+    /// Grid and unit of the signals; `None` without signals.
     pub signals: Option<SignalInfo>,
-    /// The frames of each view; none without frames.
+    /// Frames of each view; empty without frames.
     pub frames: Vec<FrameSummary>,
-    /// Images beside the table that no row names.
+    /// Number of images beside the table that no row names.
     pub unnamed_images: u64,
     /// The first 20 of these images, sorted.
     pub first_unnamed_images: Vec<PathBuf>,
-    /// Whether there may be more such images: only the first files below the folder were looked at.
+    /// True if there may be more such images, because the search ended at its limit of files.
     pub has_more_files: bool,
     /// Frames in arrays and clips that no row uses, by file.
     pub unused_frames: BTreeMap<String, u64>,
-    /// Chunks of arrays that were never written, by file and array: what is read instead is their fill value.
+    /// Unwritten chunks of arrays, by file and array, which read as their fill value.
     pub absent_chunks: BTreeMap<String, u64>,
     /// Columns of the tables that the map does not mention, sorted.
     pub unmentioned_columns: BTreeSet<String>,
-    /// Topics of recordings that are not read, each with the reason.
+    /// Unread topics of recordings, each with the reason.
     pub unread_topics: BTreeSet<String>,
-    /// Channels whose numbers look like those of another unit.
+    /// Channels whose numbers suggest another unit.
     pub suspicions: Vec<Suspicion>,
-    /// Warnings about the map and what it reads, sorted.
+    /// Warnings about the map and its data, sorted.
     pub warnings: BTreeSet<ImportWarning>,
 }
 
-/// The frames of one view, or those of rows that have one picture.
+/// Frames of one view, or of rows with one picture.
 ///
 /// ```
 /// # use taceva_import::{ImportMap, ImportPlan};
@@ -89,22 +89,22 @@ pub struct ImportSummary {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FrameSummary {
-    /// The view; `None` where rows have one picture.
+    /// View; `None` if rows have one picture.
     pub view: Option<String>,
-    /// Order of the colours in the files.
+    /// Colour order in the files.
     pub channel_order: ChannelOrder,
-    /// The frame without contact; `None` if none is known.
+    /// Frame without contact; `None` if unknown.
     pub reference: Option<PathBuf>,
-    /// Number of different frames without contact that rows name, where these differ. Their pictures are not copied: the attribute `reference`, of
-    /// a view `reference_VIEW`, names them.
+    /// Number of different frames without contact, if rows name different ones. These pictures are not copied. The attribute `reference`,
+    /// or `reference_VIEW`, names them.
     pub references: u64,
 }
 
-/// How many columns that the map does not mention a dataset remembers, and how long their names may be.
+/// Limits of the unmentioned columns in a header, and of bytes per name.
 const REMEMBERED: usize = 256;
 const REMEMBERED_BYTES: usize = 256;
 
-/// How the rows of another table were matched.
+/// Row matches of a join.
 ///
 /// ```
 /// use taceva_import::JoinSummary;
@@ -115,26 +115,26 @@ const REMEMBERED_BYTES: usize = 256;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct JoinSummary {
-    /// The name of the join in the map.
+    /// Name of the join in the map.
     pub name: String,
-    /// Rows of the main table to which one belongs.
+    /// Rows of the main table with a match.
     pub matched: u64,
-    /// Rows of the main table to which none belongs.
+    /// Rows of the main table without a match.
     pub unmatched: u64,
-    /// Rows of the other table that belong to none.
+    /// Rows of the joined table that no main row uses.
     pub unused: u64,
-    /// Rows of the other table that `skip` says are no candidates.
+    /// Rows of the joined table excluded by `skip`.
     pub skipped: u64,
-    /// The coordinate frame whose rows the map takes, where it names one.
+    /// Coordinate frame to which the map restricts the rows, if any.
     pub frame_id: Option<String>,
-    /// Rows of the other table that are given in other frames than `frame_id`.
+    /// Rows of the joined table in frames other than `frame_id`.
     pub in_other_frames: u64,
-    /// The greatest distance in time of what was matched, s; `None` of a join by anything else.
+    /// Greatest time difference of a match, s; `None` for joins other than by time.
     pub greatest_gap_s: Option<f64>,
 }
 
 impl ImportSummary {
-    /// What the dataset remembers of what is left out.
+    /// Left-out items, as the header of the dataset records them.
     pub(super) fn left_out(&self) -> LeftOut {
         let of_joins = |count: fn(&JoinSummary) -> u64| {
             let joins = self.joins.iter();
@@ -153,14 +153,14 @@ impl ImportSummary {
         left_out
     }
 
-    /// The warnings as the dataset keeps them.
+    /// Warnings as the dataset records them.
     pub(super) fn warnings_in_words(&self) -> Vec<String> {
         let warnings = self.warnings.iter().map(ToString::to_string);
         let suspicions = self.suspicions.iter().map(ToString::to_string);
         warnings.chain(suspicions).collect()
     }
 
-    /// The columns that the map does not mention, as the dataset remembers them: those that rate their rows first.
+    /// Unmentioned columns as the dataset records them, quality columns first.
     pub(super) fn columns_left_behind(&self) -> Vec<String> {
         let short = |name: &&String| name.len() <= REMEMBERED_BYTES;
         let mut columns: Vec<String> = self
@@ -175,7 +175,7 @@ impl ImportSummary {
     }
 }
 
-/// The zero that is subtracted from one channel.
+/// Zero subtracted from one channel.
 ///
 /// ```
 /// # use taceva_import::{ImportMap, ImportPlan};
@@ -191,19 +191,19 @@ impl ImportSummary {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ZeroSummary {
-    /// The channel.
+    /// Name of the channel, such as `Fz`.
     pub channel: String,
-    /// The rule of the map in words.
+    /// Rule of the map, in words.
     pub rule: String,
-    /// The least mean of a block, in the unit of the channel.
+    /// Least mean of a block, in the unit of the channel.
     pub least: f64,
-    /// The greatest mean of a block, in the unit of the channel.
+    /// Greatest mean of a block, in the unit of the channel.
     pub greatest: f64,
-    /// Number of blocks, each with a zero of its own.
+    /// Number of blocks, each with its own zero.
     pub blocks: u64,
 }
 
-/// How one channel is computed: unit(sign · scale · (cell − offset)).
+/// Computation of one channel: unit(sign · scale · (cell − offset)).
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
@@ -225,20 +225,20 @@ pub struct ZeroSummary {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Conversion {
-    /// The name of the channel, such as `Fz`.
+    /// Name of the channel, such as `Fz`.
     pub channel: String,
-    /// The column that it comes from, as the map names it.
+    /// Source column as the map names it.
     pub column: String,
-    /// The unit of the numbers in the column.
+    /// Unit of the column.
     pub from: SourceUnit,
-    /// The unit that the dataset keeps them in.
+    /// Unit in the dataset.
     pub to: Unit,
-    /// Whether its sign is inverted.
+    /// True if the sign is inverted.
     pub is_negated: bool,
-    /// What is subtracted from each cell first, in the unit of the cells.
+    /// Offset subtracted from each cell first, in the unit of the cells.
     pub offset: Option<f64>,
-    /// What the difference is then multiplied by.
+    /// Factor applied after the offset.
     pub scale: Option<f64>,
-    /// How many samples have a value of it.
+    /// Number of samples with a value.
     pub present: u64,
 }

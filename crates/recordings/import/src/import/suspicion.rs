@@ -1,10 +1,10 @@
-//! Numbers that contradict the unit they are said to be in.
+//! Detects numbers whose magnitude contradicts their stated unit.
 
 use std::fmt;
 
 use taceva_core::{Channel, SourceUnit, Unit};
 
-/// A channel whose numbers look like those of another unit.
+/// Channel whose numbers suggest another unit.
 ///
 /// ```
 /// use taceva_core::Channel;
@@ -18,15 +18,15 @@ use taceva_core::{Channel, SourceUnit, Unit};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Suspicion {
-    /// Stable, for scripts: `magnitude-small` or `magnitude-large`.
+    /// Stable code for scripts: `magnitude-small` or `magnitude-large`.
     pub code: &'static str,
-    /// The name of the channel, such as `Fz`.
+    /// Name of the channel, such as `Fz`.
     pub channel: String,
-    /// The magnitude looked at, in the channel's unit: the largest, the median, or the one that 95 % stay below.
+    /// Suspicious magnitude in the channel's unit: the largest, the median, or the 95th percentile.
     pub magnitude: f64,
-    /// The unit that the map states, as the dataset keeps it.
+    /// Unit of the channel in the dataset.
     pub unit: Unit,
-    /// The units that the numbers may be in, as they follow `are the numbers in`.
+    /// Likely units, worded to follow `are the numbers in`.
     pub perhaps: String,
 }
 
@@ -45,17 +45,17 @@ impl fmt::Display for Suspicion {
     }
 }
 
-/// The least number of values that is checked.
+/// Least number of values for a check.
 const LEAST_VALUES: usize = 3;
 
-/// What contacts of a gel look like in a unit: not all magnitudes are below `small`, the median is not above `large`, and 95 % of them not
-/// above `most`; and where a typical one lies if the unit is right.
+/// Plausible magnitudes of gel contacts in a unit. At least one must reach `small`; the median must not exceed `large`, nor the 95th
+/// percentile `most`. `typical` is the usual range.
 struct Plausible {
     small: f64,
     large: f64,
     most: f64,
     typical: [f64; 2],
-    /// The units that labs write such numbers in.
+    /// Units that labs use for such numbers.
     written: &'static [&'static str],
 }
 
@@ -64,7 +64,7 @@ fn plausible(channel: &Channel) -> Option<Plausible> {
     match channel.unit() {
         Unit::Millimetre => Some(Plausible {
             small: 0.05,
-            // Gripper widths and the like may be larger than any place on a gel.
+            // Positions outside the gel, such as gripper widths, may be larger.
             large: if is_contact { 150.0 } else { 5_000.0 },
             most: f64::INFINITY,
             typical: [0.05, 50.0],
@@ -72,7 +72,7 @@ fn plausible(channel: &Channel) -> Option<Plausible> {
         }),
         Unit::Newton => Some(Plausible {
             small: 0.01,
-            // Fingers of a few square centimetres press with some newtons; one of them is about a hundred gram-force.
+            // Fingers of a few square centimetres press with some newtons; 1 N is about 100 gram-force.
             large: if is_contact { 30.0 } else { 150.0 },
             most: if is_contact { 100.0 } else { f64::INFINITY },
             typical: [0.05, 30.0],
@@ -82,10 +82,10 @@ fn plausible(channel: &Channel) -> Option<Plausible> {
     }
 }
 
-/// Whether the numbers of `channel` are those of another unit: metres said to be millimetres, gram-force said to be newtons.
+/// Detects numbers of `channel` in another unit: metres labelled as millimetres, gram-force labelled as newtons.
 ///
 /// # Units
-/// `values`: those of the channel.
+/// `values`: the unit of the channel.
 ///
 /// ```
 /// use taceva_core::Channel;
@@ -102,7 +102,7 @@ pub fn magnitude_suspicion(
 ) -> Option<Suspicion> {
     let plausible = plausible(channel)?;
     let found = odd(&plausible, values)?;
-    // What the map said is not known any more.
+    // The unit stated by the map is unknown here.
     let pairs = plausible.written.iter().filter_map(|said| {
         let meant = meant(&plausible, said, found.typical);
         (!meant.is_empty()).then(|| format!("{} and said to be {said}", meant.join(" or ")))
@@ -111,7 +111,7 @@ pub fn magnitude_suspicion(
     Some(found.suspicion(channel, perhaps))
 }
 
-/// As [`magnitude_suspicion`], of numbers that were converted from the unit `said`: only what they can be is suggested.
+/// As [`magnitude_suspicion`], for numbers converted from the unit `said`, which narrows the suggestions.
 pub(super) fn magnitude_suspicion_in(
     channel: &Channel,
     said: &SourceUnit,
@@ -130,7 +130,7 @@ pub(super) fn magnitude_suspicion_in(
     ))
 }
 
-/// The units that would make the number `typical`, converted from the unit `said`, a usual one.
+/// Common units that would make `typical`, converted from the unit `said`, a usual number.
 fn meant(plausible: &Plausible, said: &str, typical: f64) -> Vec<&'static str> {
     let in_kept = |symbol: &str| SourceUnit::parse(symbol).ok().map(|unit| unit.convert(1.0));
     let Some(said_as) = in_kept(said) else {
@@ -145,11 +145,11 @@ fn meant(plausible: &Plausible, said: &str, typical: f64) -> Vec<&'static str> {
     others.copied().filter(fits).collect()
 }
 
-/// Magnitudes that no gel shows.
+/// Magnitudes that no gel produces.
 struct Odd {
     code: &'static str,
     magnitude: f64,
-    /// The median.
+    /// Median magnitude.
     typical: f64,
 }
 

@@ -1,8 +1,8 @@
-//! Warnings of an import: what a map says may be, and is seldom meant.
+//! Warnings of an import: valid maps with an improbable meaning.
 
 use std::fmt;
 
-/// Warning of an import, with a code that does not change.
+/// Warning of an import with a stable code.
 ///
 /// ```
 /// use taceva_import::ImportWarning;
@@ -16,43 +16,43 @@ use std::fmt;
 pub enum ImportWarning {
     /// Several channels are read from one column, with the same sign and scale.
     ColumnTwice {
-        /// The column, as the map names it.
+        /// Column as the map names it.
         column: String,
-        /// The channels.
+        /// Names of the channels.
         channels: Vec<String>,
     },
-    /// The numbers of a column look like whole ones with a point between groups of three digits.
+    /// Numbers of a column look like integers with points between groups of three digits.
     GroupedDigits {
-        /// The column, as the map names it.
+        /// Column as the map names it.
         column: String,
-        /// One of its cells.
+        /// Example cell.
         example: String,
         /// Number of cells with such a point.
         cells: u64,
     },
-    /// Times as text say no time zone, and the map states none for a clock that counts from 1970.
+    /// Text times have no time zone, and the map states none for a clock that counts from 1970.
     ZoneUnstated {
-        /// The column, as the map names it.
+        /// Column as the map names it.
         column: String,
     },
-    /// Times of day pass midnight: later rows are taken for those of the next day.
+    /// Times of day cross midnight; later rows are assigned to the next day.
     Midnight {
-        /// The column, as the map names it.
+        /// Column as the map names it.
         column: String,
         /// Number of midnights.
         days: u64,
     },
-    /// The rows that are taken for zero spread so much that contacts may be among them.
+    /// Zero rows spread so widely that contacts may be among them.
     ZeroSpread {
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// The rule of the map in words.
+        /// Rule of the map, in words.
         rule: String,
     },
 }
 
 impl ImportWarning {
-    /// The code, for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight` or `zero-spread`.
+    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight` or `zero-spread`.
     pub fn code(&self) -> &'static str {
         match self {
             ImportWarning::ColumnTwice { .. } => "column-twice",

@@ -1,11 +1,11 @@
-//! Maps of layouts whose columns differ from recording to recording: a draft, whose units are those that the layout is written in.
+//! Maps of layouts whose columns vary: a draft in the layout's units.
 
 use std::path::Path;
 
 use crate::draft::MapDraft;
 use taceva_dataset::DatasetError;
 
-/// The map for the folder at `source`, below the comments of the layout.
+/// Map for the folder at `source`, below the comments of the layout.
 pub(super) fn text(comments: &str, source: &Path) -> Result<String, DatasetError> {
     let draft = MapDraft::of(source)?;
     let mut text = format!("{}\n", comments.trim_end());
@@ -14,7 +14,7 @@ pub(super) fn text(comments: &str, source: &Path) -> Result<String, DatasetError
         all.any(|line| line.contains("{ from = \"") && !line.contains("{ from = \"?\""));
     let lines = draft.text().lines();
     let lines = lines.skip_while(|line| line.starts_with('#'));
-    // That there is such a preset is known here.
+    // The user has already chosen the preset.
     for line in lines.filter(|line| !line.contains("`--preset")) {
         let unit = match line.as_bytes().first() {
             Some(b'F') => "\"N\"",
@@ -25,7 +25,7 @@ pub(super) fn text(comments: &str, source: &Path) -> Result<String, DatasetError
             true => line.replace("\"?\"", "\"unknown\""),
             false => line.replace("unit = \"?\"", &format!("unit = {unit}")),
         };
-        // A channel of which nothing is sure is left out, as long as there is another.
+        // An uncertain channel is left out if there is another channel.
         let line = match line.contains("{ from = \"?\"") && has_channel {
             true => format!("# Left out: {}", line.replace("\"?\"", "?")),
             false => line,

@@ -1,4 +1,4 @@
-//! Built-in maps, fitted to a folder: which of the files and columns that a layout may have are there.
+//! Fits built-in maps to a folder by its existing files and columns.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 use taceva_dataset::{ChannelOrder, DatasetError, Place};
 
-/// The map for the folder.
+/// Map for the folder.
 pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, DatasetError> {
     let mut text = format!("{}\n", layout.map.trim_end());
     for instead in &layout.instead {
@@ -44,13 +44,13 @@ pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, Dat
     coloured(text, folder)
 }
 
-/// The first of the files that are as `pattern`.
+/// First file that matches `pattern`.
 fn first(folder: &SourceFolder, pattern: &str) -> Result<std::path::PathBuf, DatasetError> {
     let mut found = matching_files(folder, pattern)?;
     Ok(found.swap_remove(0))
 }
 
-/// The first of the patterns that some file is like.
+/// First of the patterns that a file matches.
 fn there<'p>(folder: &SourceFolder, patterns: &'p [String]) -> &'p str {
     let mut found = patterns
         .iter()
@@ -58,9 +58,9 @@ fn there<'p>(folder: &SourceFolder, patterns: &'p [String]) -> &'p str {
     found.next().unwrap_or(&patterns[0])
 }
 
-/// The first table that the map names.
+/// First table that the map names.
 fn first_table(text: &str, folder: &SourceFolder) -> Result<ForeignTable, DatasetError> {
-    // Alone, since lines of channels may stand there twice until it is known which columns there are.
+    // Parsed alone: the map may still hold alternative lines for the same channel.
     let table = text
         .lines()
         .find(|line| line.starts_with("table = "))
@@ -73,13 +73,13 @@ fn first_table(text: &str, folder: &SourceFolder) -> Result<ForeignTable, Datase
     ForeignTable::read(&first(folder, &map.table)?, &map.form)
 }
 
-/// Whether the table has the column, or an element of it; parts of paths, names of rows and other tables are always there.
+/// True if the table has the column or its element. Path parts, row names and joined tables always count as present.
 fn is_there(table: &ForeignTable, column: &str) -> bool {
     let base = column.rsplit_once('[').map_or(column, |(base, _)| base);
     column.starts_with("path.") || ["group", "key", "row"].contains(&column) || table.has(base)
 }
 
-/// The text without the column of the time where the table has none.
+/// Text without the time column if the table lacks it.
 fn with_time(text: &str, table: &ForeignTable) -> String {
     let stated = text.split_once("[time]").and_then(|(_, time)| {
         let column = time
@@ -95,7 +95,7 @@ fn with_time(text: &str, table: &ForeignTable) -> String {
     }
 }
 
-/// Gray where the first picture is gray; without the reference where there is none.
+/// Sets gray order for a gray first picture, and removes a missing reference.
 fn coloured(text: String, folder: &SourceFolder) -> Result<String, DatasetError> {
     let reference = quoted(&text, "reference = \"").filter(|path| *path != "unknown");
     let text = match reference {
@@ -126,13 +126,13 @@ fn coloured(text: String, folder: &SourceFolder) -> Result<String, DatasetError>
     })
 }
 
-/// What stands in quotes behind `before` at the beginning of a line.
+/// Quoted text behind `before` at the beginning of a line.
 fn quoted<'t>(text: &'t str, before: &str) -> Option<&'t str> {
     let rest = text.lines().find_map(|line| line.strip_prefix(before))?;
     Some(rest.split_once('"')?.0)
 }
 
-/// Either generation of columns; without forces where every one of them is the 0.0 of a column never filled.
+/// Handles both generations of columns, and drops forces whose columns are 0.0 throughout.
 fn bristol(text: String, folder: &SourceFolder) -> Result<String, DatasetError> {
     let table = CsvTable::read(&folder.file(folder.path(), "targets.csv")?)?;
     let mut text = match table.has("pose_1") {
@@ -158,7 +158,7 @@ fn bristol(text: String, folder: &SourceFolder) -> Result<String, DatasetError> 
     })
 }
 
-/// The first sensor that the file names, and the pictures of the left hand where there are two.
+/// Selects the file's first sensor, and the left-hand pictures if there are two.
 fn touchd(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
     let path = folder.file(folder.path(), "all_data_direction.json")?;
     let wrong = |problem: &str| DatasetError::Table {
@@ -195,7 +195,7 @@ fn touchd(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
         .replace("image_{/0}.png", name))
 }
 
-/// The names of the columns in the header of `f_t.csv`, whatever they are called, and a header of `stages.csv` where it has one.
+/// Sets the actual column names of `f_t.csv`, and the header of `stages.csv` if it has one.
 fn poseit(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
     let path = first(folder, "*/f_t.csv")?;
     let forces = CsvTable::read(&path)?;
@@ -231,14 +231,14 @@ fn poseit(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
     })
 }
 
-/// The last number of the line, however many there are.
+/// Selects the last number of the line.
 fn tool_force(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
     let line = CsvTable::read_headerless(&first(folder, "*/force/force_data_*.txt")?)?;
     let last = line.names().len().saturating_sub(1);
     Ok(text.replace("\"force.0\"", &format!("\"force.{last}\"")))
 }
 
-/// The names of the left gel and of its pictures.
+/// Sets the names of the left gel and its pictures.
 fn univtac(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
     let table = first_table(text, folder)?;
     let text = match table.has("/tactile/left_gsmini/pose") || table.has("/tactile/left_gsmini/rgb")
@@ -254,7 +254,7 @@ fn univtac(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
     Ok(kept(&text, |_, column| is_there(&table, column)))
 }
 
-/// The store, whether its arrays lie in `data`, the first camera, and whether it says where episodes end.
+/// Sets the store, its `data` group, the first camera and the episode ends.
 fn diffusion_zarr(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
     let store = first(folder, "*.zarr")?;
     let name = store

@@ -1,11 +1,11 @@
-//! Lines of a map: those that name a column that is not there are left out.
+//! Drops map lines that name missing columns.
 
 use std::collections::BTreeSet;
 
-/// Sections whose lines are a name and a column each.
+/// Sections with one name and column per line.
 const OPTIONAL: [&str; 2] = ["[columns]", "[attributes]"];
 
-/// The text without the lines of channels and attributes for which `has` is false, and of several for one name the first that is left.
+/// Text without channels and attributes for which `has` is false. The first remaining line of each name wins.
 pub(super) fn kept(text: &str, has: impl Fn(&str, &str) -> bool) -> String {
     let mut section = "";
     let mut names = BTreeSet::new();
@@ -27,7 +27,7 @@ pub(super) fn kept(text: &str, has: impl Fn(&str, &str) -> bool) -> String {
     kept
 }
 
-/// The name and the column of a line: `Fx = { from = "ft[0]", unit = "N" }`, `object = "path.object"`.
+/// Name and column of a line: `Fx = { from = "ft[0]", unit = "N" }`, `object = "path.object"`.
 fn entry(line: &str) -> Option<(&str, &str)> {
     let (name, value) = line.split_once(" = ")?;
     let value = value.strip_prefix("{ from = ").unwrap_or(value);
@@ -35,7 +35,7 @@ fn entry(line: &str) -> Option<(&str, &str)> {
     Some((name, column))
 }
 
-/// The text without the section that begins with `first`, up to the next one.
+/// Text without the section that begins with `first`, up to the next section.
 pub(super) fn without_section(text: &str, first: &str) -> String {
     let mut is_within = false;
     let mut kept = String::new();

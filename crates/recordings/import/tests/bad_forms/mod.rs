@@ -14,7 +14,7 @@ use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::{ImportMap, ImportPlan};
 
-/// What an import may take.
+/// Limits of time and memory for an import.
 const TIME: Duration = Duration::from_secs(10);
 const MEMORY_KIB: u64 = 512 << 10;
 

@@ -166,7 +166,7 @@ pub(crate) fn imported(folder: &Path) -> Dataset {
     import(&lab, &map, &folder.join("imported"))
 }
 
-/// What an import of the folder at `source` gives.
+/// Dataset imported from the folder `source`.
 pub(crate) fn import(source: &Path, map: &ImportMap, target: &Path) -> Dataset {
     let plan = ImportPlan::new(source, map).expect("planned");
     plan.run(target, NonZeroUsize::MIN, &SilentProgress)

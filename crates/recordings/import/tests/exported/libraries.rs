@@ -11,10 +11,10 @@ use taceva_needs::{Need, skip};
 
 use super::drawn::{exported, imported, recorded, skin};
 
-/// Where `.ci/install` puts the libraries.
+/// Python interpreter with the libraries that `.ci/install` installs.
 const INSTALLED: &str = "../../../target/libraries/bin/python";
 
-/// What a library found.
+/// Content that a library read.
 #[derive(Deserialize)]
 struct ReadBack {
     columns: BTreeMap<String, Vec<Option<String>>>,
@@ -53,13 +53,13 @@ fn libraries() -> Option<PathBuf> {
     )
 }
 
-/// What the library of `form` finds in `folder`.
+/// Content of `folder` as read by the library of `form`.
 fn read_back(python: &Path, form: &str, folder: &Path) -> ReadBack {
     let home = folder.with_extension("home");
     let output = Command::new(python)
         .args(["-c", include_str!("read_back.py"), form])
         .arg(folder)
-        // Nothing is asked of the network, and nothing is left in the home of whoever tests.
+        // No network requests, and no files in the home of the user.
         .envs([
             ("HF_HUB_OFFLINE", "1"),
             ("HF_DATASETS_OFFLINE", "1"),
@@ -78,7 +78,7 @@ fn read_back(python: &Path, form: &str, folder: &Path) -> ReadBack {
     serde_json::from_str(line.expect("a line")).expect("JSON")
 }
 
-/// Whether a cell is what the dataset has: the same text, or the same number, to the last bit or that of single precision.
+/// True if a cell equals that of the dataset: the same text, or the same bits in double or single precision.
 fn is_same(found: Option<&str>, expected: Option<&str>, is_single: bool) -> bool {
     let (Some(found), Some(expected)) = (found, expected) else {
         return found == expected;

@@ -1,4 +1,4 @@
-//! What cannot be exported, and what is left of an export that did not end.
+//! Rejected exports, and the state after an interrupted export.
 
 use std::fs;
 use std::num::NonZeroUsize;

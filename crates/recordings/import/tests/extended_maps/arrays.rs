@@ -39,7 +39,7 @@ fn map(frame: &str) -> String {
     )
 }
 
-/// What planning and running say of these frames.
+/// Error of planning or running an import of these frames.
 fn problem(frames: &[u8], frame: &str) -> String {
     let folder = lab(frames);
     let plan = match planned(folder.path(), &map(frame)) {

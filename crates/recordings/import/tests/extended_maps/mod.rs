@@ -46,7 +46,7 @@ fn planned(folder: &Path, map: &str) -> Result<ImportPlan, String> {
     ImportPlan::new(folder, &map).map_err(|error| error.to_string())
 }
 
-/// What is imported: the summary, and the columns asked for, cells as text.
+/// Summary of an import, with the requested columns as text cells.
 fn imported(
     files: &[(&str, &str)],
     map: &str,
@@ -55,7 +55,7 @@ fn imported(
     imported_from(lab(files).path(), map, columns)
 }
 
-/// The same of a folder that is there.
+/// The same for an existing folder.
 fn imported_from(folder: &Path, map: &str, columns: &[&str]) -> (ImportSummary, Vec<Vec<String>>) {
     let plan = planned(folder, map).expect("an import");
     let summary = plan.summary().clone();

@@ -1,12 +1,11 @@
-//! What docs/your-recording.md says that a map says: the whole map in a fence, and every fragment of the table of layouts, read by the reader of
-//! maps.
+//! Parses the maps of docs/your-recording.md: the complete map in a fence, and every fragment of the table of layouts.
 
 use taceva_import::ImportMap;
 use toml::{Table, Value};
 
 const PAGE: &str = include_str!("../../../../../docs/your-recording.md");
 
-/// What every map says.
+/// Lines common to all maps.
 const LEAST: &str = r#"
 map_version = 2
 table = "t.csv"
@@ -23,7 +22,7 @@ gel = "unknown"
 opaque = "unknown"
 "#;
 
-/// What stands around a fragment where it says no more of its table, by the table.
+/// Required lines around a fragment, by its table.
 const AROUND: [(&str, &str); 6] = [
     ("frame", "channel_order = \"gray\"\nreference = \"unknown\""),
     ("join", "name = \"j\"\ntable = \"j.csv\""),
@@ -85,7 +84,7 @@ struct Fragment {
     values: Option<Table>,
 }
 
-/// What stands for `…` in the page, by the key in front.
+/// Replaces `…` of the page, by the key before it.
 fn filled(text: &str) -> String {
     text.replace("[…]", "[\"a\", \"b\"]")
         .replace("{ … }", "{ column = \"t\", unit = \"s\" }")

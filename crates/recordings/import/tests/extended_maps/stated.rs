@@ -1,10 +1,10 @@
-//! What files say of their own numbers, held against what a map says of them; and how many pictures there are for how many rows.
+//! Compares attributes of files with the map, and numbers of pictures with numbers of rows.
 
 use super::arrays::{bytes_of, npy};
 use super::{NO_TIME, imported_from, planned};
 use taceva_arrays::{Hdf5Writer, WrittenElement};
 
-/// A file of HDF5 with two forces, of which the file says this.
+/// HDF5 file of two forces with these attributes.
 fn forces(attributes: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.h5");

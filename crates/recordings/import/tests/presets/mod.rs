@@ -10,9 +10,9 @@ use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::{Decoders, ImportMap, ImportPlan, MapDraft, Preset};
 
-/// What an import of a layout gives.
+/// Expected result of importing a layout.
 struct Expected {
-    /// The name of the preset.
+    /// Name of the preset.
     preset: &'static str,
     rows: usize,
     channels: &'static [&'static str],

@@ -1,4 +1,4 @@
-//! What `expected.json` of a recording says, held against the dataset that an import made.
+//! Compares `expected.json` of a recording with its imported dataset.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ const ELSEWHERE: [&str; 3] = ["frame", "t_s", "file"];
 /// Recordings whose keys in `expected.json` are rows of the main table.
 const BY_SOURCE_ROW: [&str; 3] = ["join-time", "join-key", "taxels-csv"];
 
-/// What of the recording, imported by the map `text`, is not as its `expected.json` says.
+/// Differences between the recording, imported by `map`, and its `expected.json`.
 pub(crate) fn differences(name: &str, map: &str) -> Vec<String> {
     let target = tempfile::tempdir().expect("a folder");
     let target = target.path().join("dataset");

@@ -126,7 +126,7 @@ fn arrays_of_zarr() {
     all_as_expected(&["zarr-v2", "zarr-v3"]);
 }
 
-/// What ffmpeg says of itself, where it is installed.
+/// Output of `ffmpeg -version`; an error if it is not installed.
 fn ffmpeg() -> std::io::Result<Output> {
     Command::new("ffmpeg").arg("-version").output()
 }

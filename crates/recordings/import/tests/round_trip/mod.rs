@@ -1,4 +1,4 @@
-//! What is imported is read back the same, in each way of reading and on any number of threads.
+//! Imported data reads back unchanged, by each reader and on any number of threads.
 
 mod gratings;
 mod import;

@@ -1,4 +1,4 @@
-//! The data sheet of a sensor unit: limits, what was found, pass or fail, on one page.
+//! Data sheet of a sensor unit: limits, findings, pass or fail, on one page.
 
 use maud::{Markup, html};
 use serde_json::json;
@@ -13,31 +13,31 @@ use crate::short_digests::short_digests;
 use crate::table::{Cell, Column, Table};
 use taceva_results::SampleChannel;
 
-/// The schema of an acceptance as JSON. 1.1: each finding says which values are good.
+/// Schema of an acceptance as JSON. 1.1: each finding states which values are good.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
 
-/// The findings of one sensor unit, with what its data sheet names beside them.
+/// Findings of one sensor unit, with the facts of its data sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct Acceptance<'a> {
-    /// The name of the limits.
+    /// Name of the limits.
     pub name: &'a str,
-    /// The sensor that was tested.
+    /// Tested sensor.
     pub study: &'a Study,
-    /// The finding of each limit.
+    /// One finding per limit.
     pub findings: &'a [Finding],
-    /// The date of the test: `2026-11-22`.
+    /// Date of the test: `2026-11-22`.
     pub date: Option<&'a str>,
-    /// What the sensor sees, where pictures are at hand.
+    /// Pictures of the sensor, if available.
     pub pictures: Option<&'a Triple>,
 }
 
 impl Acceptance<'_> {
-    /// Whether every limit is kept.
+    /// True if every limit is met.
     pub fn is_passed(&self) -> bool {
         self.findings.iter().all(|finding| finding.is_kept)
     }
 
-    /// One row for each limit.
+    /// Table with one row per limit.
     pub fn table(&self) -> Table {
         let verdict = if self.is_passed() { "passed" } else { "failed" };
         let name = match self.name {
@@ -65,7 +65,7 @@ impl Acceptance<'_> {
         table
     }
 
-    /// As JSON of [`ACCEPTANCE_SCHEMA`].
+    /// JSON of [`ACCEPTANCE_SCHEMA`].
     pub fn json(&self) -> String {
         let finding = |finding: &Finding| {
             json!({
@@ -94,7 +94,7 @@ impl Acceptance<'_> {
         format!("{whole:#}\n")
     }
 
-    /// As a data sheet of one page.
+    /// Data sheet of one page, HTML.
     pub fn page(&self) -> String {
         let studies = std::slice::from_ref(self.study);
         let lead = html! { (badge(studies)) (self.verdict()) };
@@ -121,7 +121,7 @@ impl Acceptance<'_> {
         }
     }
 
-    /// The tested unit and the date.
+    /// Tested unit and date.
     fn unit(&self) -> Markup {
         let study = self.study;
         let mut entries = vec![
@@ -152,7 +152,7 @@ impl Acceptance<'_> {
     }
 }
 
-/// From the least to the greatest truth of each channel, where the samples are at hand: `Pz 0 … 1.2 mm`.
+/// Range of the truth of each channel, if samples are available: `Pz 0 … 1.2 mm`.
 fn ranges(study: &Study) -> String {
     let range = |channel: SampleChannel<'_>| {
         let truth = channel.truths();

@@ -1,4 +1,4 @@
-//! Limits to begin with: those that a result itself keeps, each with the value of the result beside it.
+//! Initial limits that a result itself meets, each with the result's value beside it.
 
 use taceva_metrics::{Better, Range};
 
@@ -9,13 +9,13 @@ use crate::results::Study;
 use crate::scores::ScoreTable;
 use taceva_results::{Interval, Score};
 
-/// How much worse than the value of the result a limit is, as a part of the value.
+/// Distance of a limit from the result, as a share of the value.
 const MARGIN: f64 = 0.2;
-/// Digits of a limit: a limit of more is read as if it were known that well.
+/// Significant digits of a limit; more would suggest an accuracy that it lacks.
 const DIGITS: i32 = 3;
 
-/// Limits that `study` keeps, as a file that [`super::LimitsFile::read`] reads: one limit for each score of which lower or higher is better, a fifth worse
-/// than the value, or the worse end of its interval where that is further.
+/// Limits that `study` meets, as a file for [`super::LimitsFile::read`]. Each score with a better direction gets one limit: a fifth worse
+/// than the value, or the worse end of its interval if that is further away.
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};
@@ -61,7 +61,7 @@ pub fn limits_template(study: &Study) -> String {
     out + &left_out(&barred)
 }
 
-/// What keeps no limit whatever its value, a comment a reason; nothing where nothing was left out.
+/// Comments on scores that meet no limit at any value, grouped by reason; empty if there are none.
 fn left_out(barred: &[&Score]) -> String {
     let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
     for score in barred.iter().filter(|score| score.value.number().is_some()) {
@@ -84,7 +84,7 @@ fn left_out(barred: &[&Score]) -> String {
     comments.collect()
 }
 
-/// A limit with the value of the result; nothing of scores that only describe or have no value.
+/// Limit with the value of the result; `None` for descriptive scores and absent values.
 fn limit(score: &Score) -> Option<String> {
     let value = score.value.number()?;
     let ends = score.interval.as_ref().and_then(Interval::ends);
@@ -92,7 +92,7 @@ fn limit(score: &Score) -> Option<String> {
     let room = value.abs() * MARGIN;
     let bounds = match score.better() {
         Better::Lower => format!("most = {:?}\n", upwards((value + room).max(high))),
-        // What is left unexplained grows by the margin, and not what is explained.
+        // The margin applies to the unexplained share 1 − value.
         Better::Higher if is_below_one(score) => {
             let room = (1.0 - value).abs() * MARGIN;
             format!("least = {:?}\n", -upwards(-(value - room).min(low)))
@@ -117,18 +117,18 @@ fn limit(score: &Score) -> Option<String> {
     ))
 }
 
-/// Tells a share of 1 that is explained, such as R² and skill.
+/// True for explained shares of 1, such as R² and skill.
 fn is_below_one(score: &Score) -> bool {
     let metric = taceva_metrics::catalogue::find(&score.metric);
     metric.is_some_and(|metric| metric.range == Range::BelowOne)
 }
 
-/// A text that stays on its line of a comment.
+/// Text on a single comment line.
 fn line(text: &str) -> String {
     terminal(text).replace(['\n', '\r'], " ")
 }
 
-/// `number` with [`DIGITS`] digits, rounded towards plus infinity.
+/// `number` rounded towards plus infinity to [`DIGITS`] digits.
 fn upwards(number: f64) -> f64 {
     if number.abs() < f64::MIN_POSITIVE {
         return 0.0;
@@ -136,7 +136,7 @@ fn upwards(number: f64) -> f64 {
     let digits = usize::try_from(DIGITS - 1).unwrap_or(0);
     let rounded = |number: f64| format!("{number:.digits$e}").parse().unwrap_or(number);
     let nearest = rounded(number);
-    // What rounding leaves of a product is no reason for another digit.
+    // Rounding errors of a product add no further digit.
     if nearest >= number - number.abs() * 1e-12 {
         return nearest;
     }

@@ -1,13 +1,13 @@
-//! Which published numbers are comparable with ours: those of the same sensor, quantity, unit and definition.
+//! Finds published numbers that are comparable with ours: same sensor, quantity, unit and definition.
 
 use taceva_core::Unit;
 
 use super::{Published, Sensor};
 
-/// Definitions of ours, and in which words the catalogue writes the same one. What is not in this list is another definition.
+/// Definitions of this program, with the catalogue's words for the same definition. Other pairs are not comparable.
 ///
-/// Success rates are not: ours are of as many spacings as a scene has, and the fewer there are the easier each is to predict. Nor is robustness over the
-/// surface: the table of its publication is not half the sum of what its figure shows, so that nobody knows which of them the definition gave.
+/// Success rates are excluded: ours depend on the number of spacings in a scene, and fewer spacings are easier to predict. Robustness over
+/// the surface is excluded too. In its publication the table is not half the sum of what the figure shows, so the definition is unclear.
 const SAME: [(&str, &str); 6] = [
     (
         "mae/1",
@@ -27,8 +27,8 @@ const SAME: [(&str, &str); 6] = [
 ];
 
 impl Sensor {
-    /// The published number of a metric and channel that may stand beside one of ours with `definition` and `unit`; `None` where what was
-    /// published is defined otherwise, or nothing was.
+    /// Published number of a metric and channel that is comparable with ours of `definition` and `unit`; `None` if there is none, or its
+    /// definition differs.
     pub fn published_alike(
         &self,
         metric: &str,

@@ -1,6 +1,6 @@
-//! The files of the catalogue, built in.
+//! Built-in catalogue files.
 
-/// Every file by its name; a test holds this list to the folder.
+/// Files by name. A test compares this list with the folder.
 pub(super) const FILES: &[(&str, &str)] = &[
     ("9dtact.toml", include_str!("../../catalogue/9dtact.toml")),
     (

@@ -1,4 +1,4 @@
-//! A sensor of the catalogue.
+//! Catalogue entry of a sensor.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,13 @@ use super::facts::{Intrinsic, Limits, Size};
 use super::offer::{Availability, Price};
 use super::published::{Missing, Published, Source};
 
-/// A sensor, or a study of sensors, as the catalogue knows it.
+/// Catalogue entry of a sensor, or of a study of sensors.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sensor {
-    /// 1.
+    /// Version of the file; always 1.
     pub(super) catalogue_version: u32,
-    /// Its name.
+    /// Name of the sensor.
     pub name: String,
     /// Other names that stand for it, whatever their case.
     #[serde(default)]
@@ -24,15 +24,15 @@ pub struct Sensor {
     /// IMM (intensity mapping), MDM (marker displacement), MFM (modality fusion) of a sensor with a camera; `magnetic`, `capacitive`, `resistive` or
     /// `optical` of taxels.
     pub mechanism: Vec<String>,
-    /// Its form.
+    /// Shape of the sensor.
     pub shape: Option<String>,
-    /// Whether no light from outside reaches the camera.
+    /// True if no outside light reaches the camera.
     pub opaque: Option<bool>,
-    /// Whether its gel carries markers.
+    /// True if the gel has markers.
     pub markers: Option<bool>,
-    /// Its construction.
+    /// Construction.
     pub intrinsic: Option<Intrinsic>,
-    /// Its limits.
+    /// Limits.
     pub limits: Option<Limits>,
     /// Its outer dimensions.
     pub size: Option<Size>,
@@ -42,24 +42,24 @@ pub struct Sensor {
     /// Ways to get one.
     #[serde(default)]
     pub availability: Vec<Availability>,
-    /// Where the numbers are from.
+    /// Sources of the numbers.
     #[serde(default, rename = "source")]
     pub sources: Vec<Source>,
-    /// What was published of it.
+    /// Published numbers.
     #[serde(default, rename = "result")]
     pub results: Vec<Published>,
-    /// What was not published, and why.
+    /// Unpublished numbers, with the reason.
     #[serde(default)]
     pub missing: Vec<Missing>,
-    /// Which properties the work itself reports: `yes`, `no` or `partial`; and the `source` that says so.
+    /// Properties that the work reports, each `yes`, `no` or `partial`, with the key `source` for their source.
     #[serde(default)]
     pub reported: BTreeMap<String, String>,
-    /// What it was evaluated on, by theme.
+    /// Applications in its evaluation, by theme.
     #[serde(default)]
     pub applications: BTreeMap<String, Vec<String>>,
 }
 
-/// The kind of an entry.
+/// Kind of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -70,38 +70,38 @@ pub enum Kind {
 }
 
 impl Sensor {
-    /// The published number of a metric and channel, if it is stated exactly.
+    /// Published number of a metric and channel, if it is stated exactly.
     pub fn result(&self, metric: &str, channel: &str) -> Option<&Published> {
         let exact = self.results.iter().filter(|result| result.bound.is_none());
         let mut named = exact.filter(|result| result.metric == metric);
         named.find(|result| result.channel == channel)
     }
 
-    /// Pictures a second, in Hz, where that is known.
+    /// Frame rate, Hz; `None` if unknown.
     pub fn frame_rate_hz(&self) -> Option<f64> {
         let built = self.intrinsic.as_ref().map(|of| of.frame_rate_hz);
         built.or_else(|| Some(self.result("intrinsic", "frame_rate")?.value))
     }
 
-    /// The area of the sensing surface, in mm², where that is known.
+    /// Area of the sensing surface, mm²; `None` if unknown.
     pub fn field_of_view_mm2(&self) -> Option<f64> {
         let built = self.intrinsic.as_ref().map(|of| of.field_of_view_mm2);
         built.or_else(|| Some(self.result("intrinsic", "field_of_view")?.value))
     }
 
-    /// How many numbers are known of it: of its construction, its limits and its published results.
+    /// Number of known values: of construction, limits and published results.
     pub fn known(&self) -> usize {
         let built = if self.intrinsic.is_some() { 4 } else { 0 };
         let limits = if self.limits.is_some() { 3 } else { 0 };
         built + limits + self.results.len()
     }
 
-    /// The source called `id`.
+    /// Source called `id`.
     pub fn source(&self, id: &str) -> Option<&Source> {
         self.sources.iter().find(|source| source.id == id)
     }
 
-    /// Its name in file names and links: ASCII letters in lower case and digits as they are, `-` for every other character.
+    /// Name for files and links: ASCII letters in lower case and digits; `-` for any other character.
     pub fn slug(&self) -> String {
         let letters = self.name.chars().map(|letter| {
             if letter.is_ascii_alphanumeric() {

@@ -1,11 +1,11 @@
-//! The catalogue as rows.
+//! Catalogue as table rows.
 
 use taceva_metrics::Better;
 
 use super::{Kind, Sensor};
 use crate::table::{Column, Direction, Table};
 
-/// One row for each sensor; studies of sensors are named below the rows.
+/// Table with one row per sensor. Studies of sensors are named in a note.
 pub fn list(sensors: &[Sensor]) -> Table {
     let error = |name: &str, unit: &str| {
         let column = Column::new(name).unit(unit);
@@ -25,7 +25,7 @@ pub fn list(sensors: &[Sensor]) -> Table {
     let mut table = Table::new("Catalogue of tactile sensors, as published", columns);
     let is_sensor = |entry: &&Sensor| entry.kind == Kind::Sensor;
     for sensor in sensors.iter().filter(is_sensor) {
-        // Published numbers keep the digits that were published.
+        // Published numbers keep their digits.
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |of| of.to_string());
         let mae = |channel| number(sensor.result("mae", channel).map(|result| result.value));
         let opaque = sensor
@@ -97,7 +97,7 @@ fn offers(sensor: &Sensor) -> Vec<[String; 7]> {
     size.chain(prices).chain(ways).collect()
 }
 
-/// Every published number of a sensor, with source and conditions.
+/// Table of all published numbers of a sensor, with source and conditions.
 pub fn details(sensor: &Sensor) -> Table {
     let others = [
         "channel",

@@ -1,74 +1,74 @@
-//! Published numbers of a sensor, and their sources.
+//! Published numbers of a sensor, with their sources.
 
 use serde::Deserialize;
 use taceva_metrics::Standing;
 
-/// Where numbers are from.
+/// Source of numbers.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
-    /// The name by which numbers of the same file refer to it.
+    /// Id that numbers of the same file refer to.
     pub id: String,
     /// Authors, title, place and year of publication.
     pub text: String,
-    /// Its address, if it has one.
+    /// URL, if there is one.
     pub link: Option<String>,
 }
 
-/// A published number.
+/// Published number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Published {
-    /// The metric: `mae`.
+    /// Metric: `mae`.
     pub metric: String,
-    /// The channel or plane.
+    /// Channel or plane.
     pub channel: String,
-    /// The number, in `unit`.
+    /// Number, in `unit`.
     pub value: f64,
-    /// The unit.
+    /// Unit.
     pub unit: String,
-    /// The id of the source.
+    /// Id of the source.
     pub source: String,
-    /// Where in the source: `table`, `figure`, `text`, or `derived` from its numbers.
+    /// Place in the source: `table`, `figure`, `text`, or `derived` from its numbers.
     pub read_from: String,
-    /// How it was measured.
+    /// Measurement conditions.
     pub conditions: String,
-    /// How it is defined.
+    /// Definition.
     pub definition: String,
-    /// How the true value relates to the number where it is not stated exactly: `about`, `above` or `below` it; absent of an exact number.
+    /// Relation of the true value to an inexact number: `about`, `above` or `below`; `None` for an exact number.
     pub bound: Option<Roughly>,
-    /// What a reader must know.
+    /// Remark for readers.
     pub note: Option<String>,
-    /// Whether it takes part in verdicts, by the published R² of its channel.
+    /// Standing, by the published R² of its channel.
     #[serde(skip)]
     pub standing: Standing,
-    /// Its interval of 95 %; none of published numbers.
+    /// Interval of 95 %; `None` for published numbers.
     #[serde(skip)]
     pub interval: Option<[f64; 2]>,
 }
 
 impl Published {
-    /// The number as it was published, with `≈`, `>` or `<` where it is not exact.
+    /// Number as published, with `≈`, `>` or `<` if it is inexact.
     pub fn shown(&self) -> String {
         let sign = self.bound.map_or("", Roughly::sign);
         format!("{sign}{}", self.value)
     }
 }
 
-/// How a published number that is not exact relates to the true one. Such a number is shown, but not compared.
+/// Relation of the true value to an inexact published number, which is displayed but not compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Roughly {
-    /// About as much.
+    /// Approximately equal.
     About,
-    /// More than that.
+    /// Above the number.
     Above,
-    /// Less than that.
+    /// Below the number.
     Below,
 }
 
 impl Roughly {
-    /// The sign before the number.
+    /// Sign before the number.
     pub const fn sign(self) -> &'static str {
         match self {
             Roughly::About => "≈ ",
@@ -78,12 +78,12 @@ impl Roughly {
     }
 }
 
-/// A number that was not published.
+/// Number that was not published.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Missing {
-    /// The metric.
+    /// Metric.
     pub metric: String,
-    /// Why there is none.
+    /// Reason that it is missing.
     pub reason: String,
 }

@@ -1,4 +1,4 @@
-//! Reading of the files of the catalogue.
+//! Reads catalogue files.
 
 use taceva_core::{Unit, shown};
 use taceva_metrics::Standing;
@@ -7,33 +7,33 @@ use super::definition;
 use super::entry::Sensor;
 use super::offer::{self, DAY};
 
-/// Why a file of the catalogue cannot be read.
+/// Error while reading a catalogue file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CatalogueError {
-    /// It is no TOML, or has other keys than it may have.
+    /// The file is no TOML, or has unknown keys.
     #[error("{file}: {source}")]
     Toml {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What is wrong, with its line.
+        /// TOML error with its line.
         source: Box<toml::de::Error>,
     },
-    /// A value is none of those that are accepted.
+    /// A value is not accepted.
     #[error("{file}: {what} `{found}`: expected {expected}")]
     Value {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What the value is of.
+        /// Name of the value.
         what: &'static str,
-        /// What is there.
+        /// Value found.
         found: String,
-        /// What is accepted.
+        /// Accepted values.
         expected: &'static str,
     },
 }
 
-/// How a sensor senses: by a camera, whose words are those of the TacEva study, or by taxels.
+/// Sensing mechanisms: by camera, in the words of the TacEva study, or by taxels.
 const MECHANISMS: [&str; 7] = [
     "IMM",
     "MDM",
@@ -45,7 +45,7 @@ const MECHANISMS: [&str; 7] = [
 ];
 
 impl Sensor {
-    /// The sensor described by `text`, the content of `file`.
+    /// Parses the sensor in `text`, the content of `file`.
     ///
     /// # Errors
     /// [`CatalogueError`] with file and line.

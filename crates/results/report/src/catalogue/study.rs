@@ -1,4 +1,4 @@
-//! Sensors of the catalogue as studies, and studies as sensors.
+//! Converts catalogue sensors to studies, and studies to sensors.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +11,8 @@ use crate::results::{Made, PUBLISHED, Study, by_published_r2};
 use taceva_results::{Interval, Score};
 
 impl Sensor {
-    /// Results as a sensor that can be chosen: its numbers, and whether light is kept out as far as the results say. The limits of a
-    /// sensor are not part of results; they are taken from the sensor of that name in the catalogue, if there is one, and not known of one that was simulated.
+    /// Converts results to a sensor for `choose`: their numbers, and opacity as far as results state it. Limits come from
+    /// the catalogue sensor of the same name; they stay unknown without one, and for simulated sensors.
     pub fn of_study(study: &Study) -> Sensor {
         let result = |score: &Score| {
             let decided_by = score.decided_by().map(|variant| variant.name.clone());
@@ -60,7 +60,7 @@ impl Sensor {
         }
     }
 
-    /// Its published numbers as results that can be shown and compared beside others; their source is `published`, and none has an interval.
+    /// Published numbers as results for tables and comparisons. Their source is `published`, and none has an interval.
     pub fn as_study(&self) -> Study {
         let score = |metric: &str, channel: &str, value: f64, unit: Unit| Score {
             interval: Some(Interval::Absent("published without one".to_owned())),

@@ -1,4 +1,4 @@
-//! What tests say about places, which follow values: who is shown to be better than whom, and in what.
+//! Significance of the differences between ranked sensors. Places follow values, which may differ by chance.
 
 use std::collections::BTreeSet;
 
@@ -12,21 +12,20 @@ use crate::number::significant;
 use crate::results::Study;
 use crate::spread;
 
-/// A difference that a test shows between two ranked sensors, in one of the numbers that they were ranked by.
+/// Significant difference between two ranked sensors in one of the ranking numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
-    /// The sensor that is better.
+    /// Better sensor.
     pub better: String,
-    /// The sensor that it is better than.
+    /// Worse sensor.
     pub than: String,
-    /// The number in which it is better.
+    /// Property in which it is better.
     pub property: Property,
-    /// The p value, adjusted by Holm's method over all pairs and channels of the metric.
+    /// P value, adjusted by Holm's method over all pairs and channels of the metric.
     pub p: f64,
 }
 
-/// Chooses among the sensors of `studies` for `needs`, as [`choose`] does, and says which of the differences that rank them are shown: places
-/// follow values, and a difference of values may be chance.
+/// Chooses among the sensors of `studies` for `needs`, as [`choose`] does, and tests the differences that rank them.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose_results};
@@ -91,7 +90,7 @@ fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence>
     comparison.answers.iter().filter_map(of_answer).collect()
 }
 
-/// The study that is shown to have more of what a need asks for, of a score that describes a sensor and has no better end of its own.
+/// Position of the study with significantly more of the needed property, for a descriptive score without a better direction.
 fn by_need(answer: &Answer, property: Property) -> Option<usize> {
     let describes = answer.direction == Better::Described;
     let difference = answer.difference.as_ref();
@@ -103,7 +102,7 @@ fn by_need(answer: &Answer, property: Property) -> Option<usize> {
     }
 }
 
-/// Which of the scores that rank are of labels of different spread among those that are ranked.
+/// Remark on ranking scores whose labels differ in spread between the ranked sensors.
 fn spread(studies: &[Study], names: &[String], choice: &Choice) -> Option<String> {
     let steps = choice.ranked.first()?.steps.iter();
     let scores: BTreeSet<(&str, &str)> = steps.filter_map(|step| step.property.score()).collect();
@@ -112,8 +111,8 @@ fn spread(studies: &[Study], names: &[String], choice: &Choice) -> Option<String
 }
 
 impl Choice {
-    /// What tests say of the best against each other one, and of all others between whom a difference is shown, a sentence each; nothing where
-    /// nothing was tested, as of published numbers.
+    /// Test results in sentences: the best against each other sensor, and other pairs with a significant difference. Empty if nothing was
+    /// tested, as with published numbers.
     pub(super) fn tested(&self) -> Vec<String> {
         let Some(best) = self.ranked.first().filter(|_| self.evidence.is_some()) else {
             return Vec::new();
@@ -154,7 +153,7 @@ impl Choice {
         })
     }
 
-    /// What to add to the sentence that names first and second: whether tests show the difference, or speak against a place.
+    /// Addition to the sentence on first and second: whether tests support the difference or contradict a place.
     pub(super) fn caveat(&self) -> String {
         let [first, second, ..] = self.ranked.as_slice() else {
             return String::new();

@@ -1,4 +1,4 @@
-//! Needs, as words and as bounds.
+//! Needs as words and bounds.
 
 use std::fmt;
 use taceva_core::shown;
@@ -7,46 +7,46 @@ use taceva_metrics::Better;
 use super::property::Property;
 use super::words::{QUANTITIES, Quantity, WORDS};
 
-/// One need of a task.
+/// Need of a task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Need {
-    /// The need as it was written.
+    /// Need as written.
     pub words: String,
     /// Bounds; a sensor that breaks one is dropped.
     pub bounds: Vec<Bound>,
-    /// Properties by which the remaining sensors are ranked.
+    /// Properties that rank the remaining sensors.
     pub ranks: Vec<Property>,
 }
 
-/// A number that a sensor must reach or stay below.
+/// Lower or upper bound of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
-    /// The property that is bounded.
+    /// Bounded property.
     pub property: Property,
-    /// Whether the number must be at least this, else at most.
+    /// True for a lower bound, false for an upper bound.
     pub is_least: bool,
-    /// The number, in the unit of the property.
+    /// Bound, in the unit of the property.
     pub value: f64,
 }
 
-/// A need that cannot be parsed.
+/// Error while parsing needs.
 #[derive(Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NeedError {
-    /// There is none.
+    /// No need is given.
     #[error(
         "no need is given: expected words such as `shear` or numbers such as `rate >= 50 Hz`, separated by commas"
     )]
     Empty,
-    /// The word is not known.
+    /// Unknown word.
     #[error("`{0}`: unknown need, expected one of {known}", known = known())]
     Unknown(String),
-    /// The number or its unit is not what is expected.
+    /// The number or its unit is invalid.
     #[error("`{words}`: expected a number above 0 in {unit}", unit = if unit.is_empty() { "parts of 1" } else { unit })]
     Number {
-        /// The need.
+        /// Need as written.
         words: String,
-        /// The unit that is expected.
+        /// Expected unit.
         unit: &'static str,
     },
     /// The file is no TOML of the form `needs = ["…", …]`.
@@ -55,11 +55,11 @@ pub enum NeedError {
 }
 
 impl Need {
-    /// The needs in `text`, separated by commas: words such as `accurate shear`, and numbers such as `rate >= 50 Hz`, `force <= 1 N` or
-    /// `localisation 0.3 mm`, which asks for an error of at most that.
+    /// Parses needs separated by commas: words such as `accurate shear`, bounds such as `rate >= 50 Hz` or `force <= 1 N`, and
+    /// `localisation 0.3 mm`, which limits the error.
     ///
     /// # Errors
-    /// [`NeedError`] with the need and what is known.
+    /// [`NeedError`] with the need and the known ones.
     pub fn parse(text: &str) -> Result<Vec<Need>, NeedError> {
         let words = text
             .split(',')
@@ -72,7 +72,7 @@ impl Need {
         }
     }
 
-    /// The needs in a file: `needs = ["shear", "rate >= 50 Hz"]`.
+    /// Parses needs from a file: `needs = ["shear", "rate >= 50 Hz"]`.
     ///
     /// # Errors
     /// [`NeedError`] with the line or the need.
@@ -118,7 +118,7 @@ impl Need {
         words.chain(quantities).collect::<Vec<_>>().join("\n")
     }
 
-    /// Every property that it uses.
+    /// Properties that the need uses.
     pub fn properties(&self) -> impl Iterator<Item = Property> {
         let bounds = self.bounds.iter().map(|bound| bound.property);
         bounds.chain(self.ranks.iter().copied())
@@ -142,7 +142,7 @@ fn one(words: &str) -> Result<Need, NeedError> {
             ranks: word.ranks.to_vec(),
         });
     }
-    // The longest name first: `depth error` is not `depth`.
+    // Longest name first: `depth error` contains `depth`.
     let named = QUANTITIES
         .iter()
         .filter(|quantity| lower.starts_with(quantity.name));
@@ -156,7 +156,7 @@ fn one(words: &str) -> Result<Need, NeedError> {
     })
 }
 
-/// `<= 1 N`, `>= 50 Hz`, or a number alone, which bounds to the side where worse ones lie.
+/// Parses `<= 1 N`, `>= 50 Hz`, or a bare number, which bounds the worse side.
 fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedError> {
     let refuse = || NeedError::Number {
         words: shown(words).to_string(),
@@ -185,7 +185,7 @@ fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedErro
 }
 
 impl Bound {
-    /// Whether `value` meets it.
+    /// True if `value` meets the bound.
     pub fn holds(&self, value: f64) -> bool {
         if self.is_least {
             value >= self.value

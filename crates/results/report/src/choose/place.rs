@@ -1,14 +1,14 @@
-//! Places of those that are ranked: equals share one.
+//! Places of ranked sensors. Equal sensors share one.
 
 use super::{Candidate, Choice};
 use crate::names::listed;
 
-/// What the first places are called.
+/// Names of the first places.
 const FIRST: &str = "first";
 const SECOND: &str = "second";
 
 impl Choice {
-    /// The place of each that is ranked, from 1: those of the very same share have the same place, and the next follows after all of them.
+    /// Place of each ranked sensor, from 1. Equal shares have equal places, and the next place follows after all of them.
     pub fn places(&self) -> Vec<usize> {
         let mut places: Vec<usize> = Vec::new();
         for (at, candidate) in self.ranked.iter().enumerate() {
@@ -21,7 +21,7 @@ impl Choice {
         places
     }
 
-    /// Whether another one has the place of the one that is ranked `at`.
+    /// True if another ranked sensor has the place of the sensor at position `at`.
     pub fn is_tied(&self, at: usize) -> bool {
         let own = self.ranked.get(at);
         let others = self.ranked.iter().enumerate();
@@ -29,7 +29,7 @@ impl Choice {
         own.is_some_and(|own| others.any(|(_, other)| same(own, other)))
     }
 
-    /// Who is first and who is second, with their ties; `None` where nothing ranks them.
+    /// Sentence on first and second place with ties; `None` if no need ranks the sensors.
     pub(super) fn leaders(&self) -> Option<String> {
         let is_ranked = |candidate: &Candidate| {
             let mut steps = candidate.steps.iter();

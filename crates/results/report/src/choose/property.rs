@@ -1,4 +1,4 @@
-//! What needs ask of a sensor.
+//! Properties of a sensor that needs refer to.
 
 use std::fmt;
 
@@ -7,37 +7,37 @@ use taceva_metrics::{Better, Standing};
 use crate::catalogue::Sensor;
 use crate::number::FormattedValue;
 
-/// A number of a sensor that needs ask for.
+/// Property of a sensor that needs refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Property {
-    /// The mean absolute error of a channel or plane, in mm or N.
+    /// Mean absolute error of a channel or plane, mm or N.
     Error(&'static str),
-    /// The repeatability of a channel or plane, in mm or N.
+    /// Repeatability of a channel or plane, mm or N.
     Repeatability(&'static str),
-    /// The spatial robustness of a channel or plane, in mm or N.
+    /// Spatial robustness of a channel or plane, mm or N.
     Spatial(&'static str),
-    /// The share of gratings whose spacing is predicted to within 0.05 mm: of lines or dots.
+    /// Share of gratings, of lines or dots, with a spacing predicted to within 0.05 mm.
     Resolution(&'static str),
-    /// Indentation over normal force, in mm/N.
+    /// Indentation over normal force, mm/N.
     Sensitivity,
-    /// Evenness of the sensitivity over the surface.
+    /// Uniformity of the sensitivity over the surface.
     Uniformity,
-    /// Frames a second, in Hz.
+    /// Frame rate, Hz.
     FrameRate,
-    /// The area that is sensed, in mm².
+    /// Sensing area, mm².
     FieldOfView,
-    /// Thickness of the sensor, in mm.
+    /// Thickness of the sensor, mm.
     Thickness,
-    /// The greatest indentation, in mm.
+    /// Greatest indentation, mm.
     GreatestDepth,
-    /// The greatest normal force, in N.
+    /// Greatest normal force, N.
     GreatestForce,
-    /// Whether light from outside is kept out: 1 or 0.
+    /// Opacity to outside light: 1 or 0.
     Opaque,
 }
 
 impl Property {
-    /// The number of `sensor`, if it is known.
+    /// Number of `sensor`; `None` if unknown.
     pub fn of(self, sensor: &Sensor) -> Option<f64> {
         let result = || {
             let (metric, channel) = self.score()?;
@@ -65,7 +65,7 @@ impl Property {
         matches!(self, Property::GreatestDepth | Property::GreatestForce)
     }
 
-    /// The metric and channel of the score that it is, where it is one.
+    /// Metric and channel of the score; `None` for other properties.
     pub(super) fn score(self) -> Option<(&'static str, &'static str)> {
         match self {
             Property::Error(channel) => Some(("mae", channel)),
@@ -83,20 +83,20 @@ impl Property {
         }
     }
 
-    /// The interval of 95 % of the number of `sensor`, if there is one.
+    /// Interval of 95 % of the number of `sensor`, if there is one.
     pub fn interval(self, sensor: &Sensor) -> Option<[f64; 2]> {
         let (metric, channel) = self.score()?;
         sensor.result(metric, channel)?.interval
     }
 
-    /// Whether the number of `sensor` takes part in verdicts, and if not, why; what is no score takes part.
+    /// Standing of the number of `sensor`. Properties other than scores count.
     pub fn standing(self, sensor: &Sensor) -> Standing {
         let score = self.score();
         let result = score.and_then(|(metric, channel)| sensor.result(metric, channel));
         result.map_or(Standing::Counts, |result| result.standing)
     }
 
-    /// Whether lower or higher numbers are better.
+    /// Better direction of the property.
     pub fn better(self) -> Better {
         match self {
             Property::Error(_)
@@ -114,7 +114,7 @@ impl Property {
         }
     }
 
-    /// The unit of the number; empty for a share.
+    /// Unit of the number; empty for a share.
     pub fn unit(self) -> &'static str {
         match self {
             Property::Error(channel)
@@ -138,7 +138,7 @@ impl Property {
     /// `value` with its unit, to four digits.
     pub fn shown(self, value: f64) -> String {
         let value_shown = FormattedValue::number(value, None).value;
-        // Published numbers have few digits, and keep them as they were printed.
+        // Published numbers have few digits and are displayed as printed.
         let short = value.to_string();
         let digits = if short.len() <= value_shown.len() {
             short
@@ -153,7 +153,7 @@ impl Property {
         }
     }
 
-    /// The share that `value` has of the best of `sensors`.
+    /// Share of the best of `sensors` that `value` has.
     pub(super) fn share(self, value: f64, sensors: &[&Sensor]) -> Option<f64> {
         let known = sensors.iter().filter_map(|sensor| self.of(sensor));
         if self.better() == Better::Lower {

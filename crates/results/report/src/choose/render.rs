@@ -1,4 +1,4 @@
-//! Choices as rows, as JSON and as a page.
+//! Choices as table rows, JSON and a page.
 
 use maud::html;
 use serde_json::json;
@@ -9,13 +9,12 @@ use crate::names::listed;
 use crate::number::{fixed, numeral};
 use crate::table::{Column, Direction, Table};
 
-/// The schema of a choice as JSON. 1.1: `open` lists those of which it is not known whether they meet a hard need. 1.2: each step
-/// says which numbers are good. 1.3: each that is ranked has a place, and says whether it is tied. 1.4: intervals, and the differences that are shown.
-/// 1.5: whose limits are of the catalogue.
+/// Schema of a choice as JSON. 1.1: `open` lists sensors with an undecided hard need. 1.2: each step states which numbers are good. 1.3:
+/// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue.
 pub const CHOICE_SCHEMA: &str = "taceva.choice/1.5";
 
 impl Choice {
-    /// One row for each sensor, need and number; the best sensor first, those that were dropped last.
+    /// Table with one row per sensor, need and number, from the best sensor to the dropped ones.
     pub fn table(&self) -> Table {
         let columns = [
             Column::new("place"),
@@ -107,7 +106,7 @@ impl Choice {
         table
     }
 
-    /// The answer in a sentence.
+    /// Result in one sentence.
     pub fn headline(&self) -> String {
         match self.ranked.as_slice() {
             [] => "No sensor meets every need, as far as is known".to_owned(),
@@ -126,7 +125,7 @@ impl Choice {
         }
     }
 
-    /// As JSON of [`CHOICE_SCHEMA`].
+    /// JSON of [`CHOICE_SCHEMA`].
     pub fn json(&self) -> String {
         let step = |step: &Step| {
             json!({
@@ -166,7 +165,7 @@ impl Choice {
         format!("{whole:#}\n")
     }
 
-    /// As a page.
+    /// HTML page.
     pub fn page(&self, needs: &str) -> String {
         let lead = html! { p.lead { "Needs: " (needs) } };
         let mut document = Document::new("Which sensor?", lead);

@@ -1,14 +1,14 @@
-//! The vocabulary of needs.
+//! Vocabulary of needs.
 
 use super::property::Property;
 
-/// A word with its meaning.
+/// Word with its meaning.
 pub(super) struct Word {
-    /// Its synonyms.
+    /// Synonyms.
     pub(super) names: &'static [&'static str],
-    /// Its bounds: property, whether at least, number.
+    /// Bounds: property, true for a lower bound, number.
     pub(super) bounds: &'static [(Property, bool, f64)],
-    /// What it ranks by.
+    /// Properties to rank by.
     pub(super) ranks: &'static [Property],
 }
 
@@ -99,13 +99,13 @@ pub(super) const WORDS: &[Word] = &[
     },
 ];
 
-/// A quantity with a number.
+/// Quantity with a number.
 pub(super) struct Quantity {
     pub(super) name: &'static str,
     pub(super) unit: &'static str,
     pub(super) property: Property,
-    /// Whether the sensor's number must be at least the need's, however the need is said: a sensor that is pressed with up to 1 N must stand
-    /// 1 N.
+    /// True if the number of the sensor must be at least that of the need, whatever the wording. For example, a press of up to 1 N requires
+    /// a sensor that withstands 1 N.
     pub(super) is_reach: bool,
 }
 

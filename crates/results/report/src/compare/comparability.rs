@@ -1,4 +1,4 @@
-//! Whether two scores can be compared at all: which of them take part in verdicts, and on which samples skill was shown.
+//! Decides whether two scores are comparable: their standing, and the samples on which skill was shown.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use crate::names::listed;
 use crate::results::Study;
 use taceva_results::Score;
 
-/// Why two scores give no verdict, if one of them takes no part or is of light that hardly changed: `ViTacTip: no skill: …`.
+/// Reason that two scores give no verdict, such as `ViTacTip: no skill: …`.
 pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String> {
     let sides = [(scores.a, names.a), (scores.b, names.b)];
     let reasons: Vec<String> = sides
@@ -21,7 +21,7 @@ pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String
     (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
-/// Why a difference between units gives no verdict: that of one pair says nothing of other units, however many points it was taken at.
+/// Reason that a difference between units gives no verdict: a single pair, at any number of points, says nothing about other units.
 fn of_one_pair(score: &Score) -> Option<&'static str> {
     let pairs = score.counts.iter().find(|(name, _)| name == "pairs_valid");
     pairs
@@ -29,7 +29,7 @@ fn of_one_pair(score: &Score) -> Option<&'static str> {
         .map(|_| "one pair of units alone was compared")
 }
 
-/// What a reader must know where the skill of the studies was shown on different samples.
+/// Note if the skill of the studies was shown on different samples.
 pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
     let shown: Vec<(&str, String)> = studies
         .iter()
@@ -47,7 +47,7 @@ pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
     })
 }
 
-/// The samples that the skill of a study was shown on, in words.
+/// Description of the samples on which a study's skill was shown.
 fn ground(study: &Study) -> String {
     let of = |key: &str| {
         let found = study.provenance.iter().find(|(name, _)| name == key);
@@ -62,7 +62,7 @@ fn ground(study: &Study) -> String {
     let split = of("split").map(|split| format!("split {split}"));
     let seed = of("seed").map(|seed| format!("seed {seed}"));
     let part = of("part").map(|part| format!("part {part}"));
-    // Predictions differ in any case; the samples are those of the truth.
+    // Predictions always differ, so the digest is that of the truth.
     let truth = study.made.truth.as_ref().map(|digest| {
         let short: String = digest.chars().take(SHORT).collect();
         format!("of the truth {short}")
@@ -77,8 +77,8 @@ fn ground(study: &Study) -> String {
     all.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-/// `sha256:` and twelve digits distinguish recordings.
+/// Length of a shortened digest: `sha256:` and twelve digits.
 const SHORT: usize = 19;
 
-/// As many letters as name the first table and twelve digits of it.
+/// Length of a shortened list of tables: the first table, with twelve digits of its digest.
 const TABLES: usize = 40;

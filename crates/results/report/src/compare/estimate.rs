@@ -1,13 +1,13 @@
-//! Scores as they are read back, as estimates that can be tested.
+//! Converts scores from results to estimates for tests.
 
 use taceva_metrics::{Estimate, Sides, StatedInterval};
 
 use taceva_results::{Interval, Score};
 
-/// The flag of a skill that is measured by another constant than that of the training part.
+/// Flag of a skill with another constant than that of the training part.
 const MEAN_OF_TRUTH: &str = "constant is the mean of truth";
 
-/// Both scores, if they have one meaning; why not, in words.
+/// Estimates of both scores; an error in words if their meanings differ.
 pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> {
     let Sides { a, b } = scores;
     let meaning = |score: &Score| {
@@ -31,8 +31,8 @@ pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> 
     })
 }
 
-/// A score with the interval that is stated of it; of one degree of freedom less than there are clusters where an older result does not say
-/// with how many it was made.
+/// Estimate of a score with its stated interval. If an older result states no degrees of freedom, they are the number of clusters minus
+/// one.
 fn estimate(score: &Score) -> Result<Estimate, String> {
     let Some(value) = score.value.number() else {
         let reason = score.value.reason();

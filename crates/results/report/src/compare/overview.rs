@@ -1,4 +1,4 @@
-//! The decisions of a comparison, as an overview.
+//! Overview of the decisions of a comparison.
 
 use taceva_metrics::{Better, Verdict};
 
@@ -7,9 +7,9 @@ use crate::names::listed;
 use crate::number::{at_most, numeral, spaced};
 use crate::tie::best;
 
-/// The most lines of [`Comparison::overview`].
+/// Limit of lines in [`Comparison::overview`].
 pub const OVERVIEW_LINES: usize = 12;
-/// The most letters of a line of a terminal.
+/// Limit of characters in a terminal line.
 pub const OVERVIEW_WIDTH: usize = 100;
 
 /// First questions of a reader: metric, channel and words.
@@ -26,24 +26,24 @@ pub(crate) const QUESTIONS: [(&str, &str, &str); 10] = [
     ("hysteresis", "Fz", "Hysteresis"),
 ];
 
-/// A question about one score, and its answer.
+/// Question about one score, with its answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decision {
-    /// The question: `Depth`; empty where it has no name.
+    /// Question: `Depth`; empty if it has no name.
     pub question: String,
-    /// The metric.
+    /// Metric.
     pub metric: String,
-    /// The channel or plane.
+    /// Channel or plane.
     pub channel: String,
-    /// The variant of the metric that decides; `None` where it is the value itself.
+    /// Deciding variant of the metric; `None` for the value itself.
     pub decided_by: Option<String>,
-    /// Whether lower or higher values are better.
+    /// Better direction of the values.
     pub better: Better,
-    /// The position of the study that is shown to be better than every other one.
+    /// Position of the study that is significantly better than every other.
     pub winner: Option<usize>,
-    /// The positions of those that are tied for the best value, bit by bit; empty where none are.
+    /// Positions of the studies tied for the best value, bit by bit; empty without a tie.
     pub tied: Vec<usize>,
-    /// Who has the best value, what it is, than whom it is shown to be better, and how sure that is.
+    /// Best study and value, the studies that it is significantly better than, and the p value.
     pub words: String,
 }
 
@@ -69,7 +69,7 @@ impl Decision {
 }
 
 impl Comparison {
-    /// The questions that are asked first, each with its answer: those that have names, or else the first score of each metric.
+    /// First questions with their answers: the named ones, or else the first score of each metric.
     pub fn decisions(&self) -> Vec<Decision> {
         let named = QUESTIONS.iter();
         let named =
@@ -112,8 +112,8 @@ impl Comparison {
         )
     }
 
-    /// The questions that are asked first with their answers, in at most [`OVERVIEW_LINES`] lines. With a `width` they have at most so many letters, cut between
-    /// words; questions for which there is no line left are counted.
+    /// First questions with their answers, in at most [`OVERVIEW_LINES`] lines. With a `width`, lines are cut between words to that many
+    /// characters. Omitted questions are counted.
     pub fn overview(&self, width: Option<usize>) -> String {
         let line = |words: &str| {
             let words = crate::escape::terminal(words);
@@ -153,7 +153,7 @@ impl Comparison {
         let valued = values(&answers, |_| true);
         let tested = values(&answers, |answer| answer.difference.is_some());
         let (winner, words) = match (best(tested, better), &aside.tie) {
-            // Of those that are tied for the best none is shown to be better, whomever else they beat.
+            // Studies tied for the best are not winners, even if they beat others.
             (_, Some(tie)) => {
                 let others = valued.iter().map(|(at, _)| *at);
                 let unbeaten = tie.unbeaten(&answers, others, &self.names);
@@ -183,7 +183,7 @@ impl Comparison {
                 let p = p_words(p);
                 let alike = self.equivalent(&equals, &equal);
                 match (losers.len(), open.len()) {
-                    // One decision a row: what is equivalent is not left undecided beside it.
+                    // A row has one decision, so an equivalence is not also reported as undecided.
                     (0, 0) if !equal.is_empty() => (
                         None,
                         format!("no winner; the best value, {start}, is {alike}"),
@@ -262,12 +262,12 @@ impl Comparison {
 }
 
 impl Answer {
-    /// Tells scores that are closer to each other than the margin.
+    /// True for scores within the margin of each other.
     fn is_equivalent(&self) -> bool {
         matches!(self.verdict, Verdict::Equivalent { .. })
     }
 
-    /// `mae Pz ↓`, or `repeatability.pooled Pz ↓` where a variant was compared
+    /// `mae Pz ↓`, or `repeatability.pooled Pz ↓` for a compared variant.
     pub(super) fn named(&self) -> String {
         let metric = self.compared();
         self.direction.beside(&format!("{metric} {}", self.channel))
@@ -281,13 +281,13 @@ impl Answer {
         }
     }
 
-    /// Tells a difference that is shown and not within the margin.
+    /// True for a significant difference beyond the margin.
     pub(super) fn is_shown(&self) -> bool {
         matches!(self.verdict, Verdict::Differs { .. })
     }
 }
 
-/// The studies of those answers that are wanted, each once, with their values.
+/// Studies of the wanted answers, each once, with their values.
 fn values(answers: &[&Answer], is_wanted: impl Fn(&Answer) -> bool) -> Vec<(usize, f64)> {
     let mut values: Vec<(usize, f64)> = Vec::new();
     for answer in answers.iter().filter(|answer| is_wanted(answer)) {
@@ -305,7 +305,7 @@ fn values(answers: &[&Answer], is_wanted: impl Fn(&Answer) -> bool) -> Vec<(usiz
     values
 }
 
-/// Why nothing is decided.
+/// Reason that nothing is decided.
 fn untested(answers: &[&Answer], valued: &[(usize, f64)], names: &[String]) -> String {
     let reason = answers.iter().find_map(|answer| answer.reason.as_deref());
     let reason = reason.unwrap_or("no value");
@@ -316,7 +316,7 @@ fn untested(answers: &[&Answer], valued: &[(usize, f64)], names: &[String]) -> S
     }
 }
 
-/// The largest p value of those that are shown.
+/// Largest p value of the significant differences, in words.
 fn p_words(p: f64) -> String {
     if p < 0.001 {
         "p < 0.001".to_owned()
@@ -325,7 +325,7 @@ fn p_words(p: f64) -> String {
     }
 }
 
-/// A line of at most `width` letters, cut between words if there are any; what is left out is marked.
+/// Line of at most `width` characters, cut between words if possible, with a mark for the omission.
 fn cut(line: &str, width: usize) -> String {
     if line.chars().count() <= width {
         return line.to_owned();

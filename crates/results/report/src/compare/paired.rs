@@ -1,4 +1,4 @@
-//! Two predictions of the same samples, sample by sample.
+//! Compares two predictions of the same samples in pairs.
 
 use std::collections::BTreeMap;
 
@@ -8,14 +8,14 @@ use crate::results::Study;
 use taceva_results::Score;
 use taceva_results::{SampleChannel, Samples};
 
-/// The difference of both mean absolute errors, or the reason why the two are not compared in pairs.
+/// Difference of both mean absolute errors, or the reason that the two are not compared in pairs.
 ///
-/// They are if their results name the same truth, or none, if each has the ids of the other with the same truth, bit by bit, and if the errors of
-/// the samples have the mean that the score says: otherwise the table belongs to something else. Two sensors that press the same plan have ids and
-/// commanded places in common, and are not the same samples.
+/// Pairing requires three conditions. Both results name the same truth, or none. Both have the same ids with the same truth, bit by bit.
+/// The errors of the samples have the mean stated by the score; otherwise the table belongs to other results. Two sensors pressed by the
+/// same plan share ids and commanded positions, but not samples.
 ///
 /// # Errors
-/// The reason in words where both results name the same truth; `None` where nothing says that they do.
+/// The reason in words if both results name the same truth; `None` if nothing says that they do.
 pub(super) fn difference(
     scores: Sides<&Score>,
     studies: Sides<&Study>,
@@ -44,7 +44,7 @@ pub(super) fn difference(
     }))
 }
 
-/// The digest of the truth: of the dataset whose samples were predicted, or of the table of truth, where the result says so.
+/// Digest of the truth: of the predicted dataset, or of the truth table, if the result states it.
 fn truth(study: &Study) -> Option<&str> {
     let mut provenance = study.provenance.iter();
     let dataset = provenance.find(|(term, _)| term == "dataset");
@@ -56,13 +56,13 @@ fn truth(study: &Study) -> Option<&str> {
 
 /// |truth − prediction| of each sample, by contact point.
 struct Errors<'a> {
-    /// The bits of the truth of each sample.
+    /// Bits of the truth of each sample.
     truths: BTreeMap<&'a str, u64>,
     sums: ClusterSums,
 }
 
 impl<'a> Errors<'a> {
-    /// The errors behind `score`, or in words the reason why they are not known.
+    /// Errors behind `score`, or the reason that they are unknown.
     fn of(study: &'a Study, score: &Score) -> Result<Errors<'a>, &'static str> {
         let samples = study
             .samples
@@ -71,7 +71,7 @@ impl<'a> Errors<'a> {
         let strange = "the score does not follow from the table of samples";
         let channel = samples.channel(&score.channel).ok_or(strange)?;
         let rows = scored(samples, channel, score.n).ok_or(strange)?;
-        // Each sample is a point of its own only where the interval of the score says so too.
+        // Samples are their own points only if the interval of the score agrees.
         let is_alone = score
             .interval
             .as_ref()
@@ -106,7 +106,7 @@ impl<'a> Errors<'a> {
     }
 }
 
-/// The rows that a score of `n` samples was made of: all with a prediction, or those of the calibration.
+/// Rows behind a score of `n` samples: all with a prediction, or those of the calibration.
 fn scored(samples: &Samples, channel: SampleChannel<'_>, n: u64) -> Option<Vec<usize>> {
     let paired = |rows: Vec<usize>| -> Vec<usize> {
         let mut rows = rows;

@@ -7,16 +7,16 @@ use crate::results::Study;
 use crate::spread;
 use crate::tie::{Tie, tie};
 
-/// What a reader must know of one score of all studies.
+/// Remarks on one score of all studies.
 #[derive(Clone, Debug)]
 pub(super) struct Remarks {
     pub(super) metric: String,
     pub(super) channel: String,
-    /// Who is tied for the best.
+    /// Tie for the best value.
     pub(super) tie: Option<Tie>,
-    /// Those that take no part in verdicts, with the words for it.
+    /// Studies without a part in verdicts, with the reason.
     pub(super) barred: Vec<(usize, String)>,
-    /// How the labels of those that take part differ in spread; empty where they do not.
+    /// Difference in label spread between the other studies; empty if there is none.
     pub(super) spread: String,
 }
 

@@ -1,4 +1,4 @@
-//! Comparisons as rows, as text and as JSON.
+//! Comparisons as table rows, text and JSON.
 
 use serde_json::json;
 use taceva_metrics::{Difference, DifferenceTest};
@@ -9,10 +9,10 @@ use crate::escape::terminal;
 use crate::number::{fixed, numeral, significant, spaced};
 use crate::table::{Column, Table};
 
-/// The schema of a comparison as JSON.
+/// Schema of a comparison as JSON.
 pub const COMPARISON_SCHEMA: &str = "taceva.comparison/2";
 
-/// The names of the columns of every answer, but for the metric.
+/// Column names of every answer, after the metric.
 const HEAD: [&str; 12] = [
     "channel",
     "A",
@@ -28,14 +28,14 @@ const HEAD: [&str; 12] = [
     "answer",
 ];
 
-/// A level as a share, with as many digits as set it apart from 1: `0.9983`.
+/// Confidence level as a share, with enough digits to differ from 1: `0.9983`.
 fn level(confidence: f64) -> String {
     let beside = significant(1.0 - confidence).len().saturating_sub(2).max(2);
     fixed(confidence, beside)
 }
 
 impl Comparison {
-    /// One row for each answer.
+    /// Table with one row per answer.
     pub fn table(&self) -> Table {
         let columns = [Column::of_metrics()].into_iter();
         let mut table = Table::new("Comparison", columns.chain(HEAD.map(Column::new)));
@@ -48,7 +48,7 @@ impl Comparison {
         table
     }
 
-    /// How the answers were found.
+    /// Notes on the statistical method.
     fn rules(&self) -> Vec<String> {
         let differences = self.answers.iter();
         let differences = differences.filter_map(|answer| answer.difference.as_ref());
@@ -91,7 +91,7 @@ impl Comparison {
         ]
     }
 
-    /// Every question and every answer, for a terminal: score by score, in lines of at most 100 letters.
+    /// All questions and answers for a terminal, score by score, in lines of at most 100 characters.
     pub fn text(&self) -> String {
         let mut out = format!("{}\n", self.summary());
         for decision in self.decisions() {
@@ -135,7 +135,7 @@ impl Comparison {
         )
     }
 
-    /// As JSON of [`COMPARISON_SCHEMA`]; an end of an interval that is open is null.
+    /// JSON of [`COMPARISON_SCHEMA`]; an open end of an interval is null.
     pub fn json(&self) -> String {
         let answer = |answer: &Answer| {
             let difference = answer.difference.as_ref().map(|difference| {
@@ -190,7 +190,7 @@ impl Comparison {
     }
 }
 
-/// An end of an interval, which may be open.
+/// End of an interval, which may be open.
 fn end(end: f64) -> String {
     if end.is_finite() {
         numeral(end)
@@ -201,7 +201,7 @@ fn end(end: f64) -> String {
     }
 }
 
-/// Words in lines of at most [`OVERVIEW_WIDTH`] letters, all but the first set in further.
+/// Wraps words at [`OVERVIEW_WIDTH`] characters, with a hanging indent.
 fn wrapped(text: &str) -> String {
     let mut out = String::new();
     let mut line = String::from(" ");
@@ -218,7 +218,7 @@ fn wrapped(text: &str) -> String {
     out + line.trim_end() + "\n"
 }
 
-/// Degrees of freedom of the intervals of both, where the test is by them.
+/// Degrees of freedom of both intervals, for a test by intervals.
 fn freedom(test: DifferenceTest) -> Option<[f64; 2]> {
     match test {
         DifferenceTest::Intervals { freedom } => Some([freedom.a, freedom.b]),

@@ -1,11 +1,12 @@
-//! What a tie leaves open: whom those that share the best value are not shown to be better than.
+//! Studies that tied studies are not significantly better than.
 
 use super::{Answer, CompareRequest, compare};
 use crate::names::listed;
 use crate::results::Study;
 use crate::tie::{GRATINGS, Tie, tie};
 
-/// The ties of `studies` in predicting the spacing of gratings, one line each: `sr line: tie: GelSight and TacTip both predict the spacing of gratings down to 0.25 mm to within
+/// Ties of `studies` in predicting the spacing of gratings, one line each: `sr line: tie: GelSight and TacTip both predict the spacing of
+/// gratings down to 0.25 mm to within
 /// 0.05 mm`.
 pub fn ties(studies: &[Study]) -> Vec<String> {
     let names = crate::names::names(studies);
@@ -36,8 +37,8 @@ pub fn ties(studies: &[Study]) -> Vec<String> {
 }
 
 impl Tie {
-    /// Whom of `others` those that are tied are not shown to be better than, by `answers` about this score: `; neither is shown to be better
-    /// than MagicTac and ViTacTip`. A tie says who shares the best value, and no more.
+    /// Studies among `others` that the tied ones are not significantly better than, by `answers` about this score: `; neither is shown to
+    /// be better than MagicTac and ViTacTip`.
     pub(crate) fn unbeaten(
         &self,
         answers: &[&Answer],

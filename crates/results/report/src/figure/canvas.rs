@@ -1,33 +1,33 @@
-//! What a figure is made of: marks in order, each of one ink.
+//! Canvas of a figure: ordered marks, each of one ink.
 
-/// A colour by its role, so that the page decides what it looks like in the light and in the dark.
+/// Colour role. The page maps it to a colour for light and dark mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Ink {
-    /// What is read first.
+    /// Primary text.
     Text,
-    /// What is read second.
+    /// Secondary text.
     Muted,
-    /// Lines that help the eye.
+    /// Grid lines.
     Grid,
-    /// What lies behind marks.
+    /// Background.
     Paper,
-    /// One of several things that are compared.
+    /// One of several compared series.
     Series(usize),
-    /// A colour of a scale.
+    /// Fixed colour of a colour scale.
     Rgb([u8; 3]),
 }
 
-/// How a line is drawn.
+/// Line style.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stroke {
     pub(crate) ink: Ink,
     pub(crate) width: f64,
-    /// Lengths of dashes and gaps; none for a whole line.
+    /// Lengths of dashes and gaps; empty for a solid line.
     pub(crate) dash: &'static str,
 }
 
 impl Stroke {
-    /// A thin whole line.
+    /// Thin solid line.
     pub(crate) const fn thin(ink: Ink) -> Stroke {
         Stroke {
             ink,
@@ -36,7 +36,7 @@ impl Stroke {
         }
     }
 
-    /// The line of a series: distinguished by dashes as well as by colour.
+    /// Line of a series, distinguished by dashes as well as colour.
     pub(crate) fn series(position: usize) -> Stroke {
         const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
         Stroke {
@@ -47,7 +47,7 @@ impl Stroke {
     }
 }
 
-/// The end of a text that is at its position.
+/// Alignment of a text at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -55,7 +55,7 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// A text at a place.
+/// Text at a position.
 #[derive(Clone, Debug)]
 pub(crate) struct Label {
     pub(crate) at: [f64; 2],
@@ -64,12 +64,12 @@ pub(crate) struct Label {
     pub(crate) ink: Ink,
     pub(crate) size: f64,
     pub(crate) bold: bool,
-    /// Whether it is read from below to above.
+    /// True for text that reads upwards.
     pub(crate) upwards: bool,
 }
 
 impl Label {
-    /// A text of the usual size.
+    /// Text of the default size.
     pub(crate) fn new(at: [f64; 2], text: impl Into<String>, anchor: Anchor) -> Label {
         Label {
             at,
@@ -92,15 +92,15 @@ impl Label {
     }
 }
 
-/// Many dots of one kind.
+/// Dots of one kind.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Points {
     pub(crate) at: Vec<[f64; 2]>,
-    /// The tooltip of each; empty, or as many as there are dots.
+    /// Tooltip of each dot; empty, or one per dot.
     pub(crate) words: Vec<String>,
 }
 
-/// A mark.
+/// Mark.
 #[derive(Clone, Debug)]
 pub(crate) enum Mark {
     Path {
@@ -127,7 +127,7 @@ pub(crate) enum Mark {
     Label(Label),
 }
 
-/// Marks, the later above the earlier.
+/// Marks in drawing order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Canvas {
     pub(crate) width: f64,
@@ -162,7 +162,7 @@ impl Canvas {
         });
     }
 
-    /// A filled box with the tooltip `words`, if it is not empty.
+    /// Adds a filled box with the tooltip `words`, unless that is empty.
     pub(crate) fn fill(&mut self, place: [f64; 4], ink: Ink, words: String) {
         self.marks.push(Mark::Box { place, ink, words });
     }
@@ -182,13 +182,13 @@ impl Canvas {
         self.marks.push(Mark::Label(label));
     }
 
-    /// A text on a coloured cell: dark, since the cell does not change with the page.
+    /// Adds a text on a coloured cell, always dark, as the cell does not follow the page's mode.
     pub(crate) fn cell_label(&mut self, label: Label) {
         let ink = Ink::Rgb([27, 31, 36]);
         self.marks.push(Mark::Label(Label { ink, ..label }));
     }
 
-    /// Names beside their lines, each by the position of its series, from `at` to the right and down where a row is full.
+    /// Adds a legend of lines by series position, from `at` to the right, in several rows if needed.
     pub(crate) fn legend(&mut self, at: [f64; 2], series: &[(usize, String)]) {
         for ([x, y], position, name) in self.entries(at, series) {
             self.line([x, y - 4.0], [x + 22.0, y - 4.0], Stroke::series(position));
@@ -196,7 +196,7 @@ impl Canvas {
         }
     }
 
-    /// As [`Canvas::legend`], of dots.
+    /// As [`Canvas::legend`], with dots.
     pub(crate) fn dot_legend(&mut self, at: [f64; 2], series: &[(usize, String)]) {
         for ([x, y], position, name) in self.entries(at, series) {
             let dot = Points {
@@ -214,7 +214,7 @@ impl Canvas {
         self.label(label);
     }
 
-    /// Where each entry of a legend begins, as far to the right as the canvas goes.
+    /// Position of each entry of a legend, wrapped at the canvas width.
     fn entries(&self, at: [f64; 2], series: &[(usize, String)]) -> Vec<([f64; 2], usize, String)> {
         let [mut x, mut y] = at;
         let mut entries = Vec::new();
@@ -233,7 +233,7 @@ impl Canvas {
 
 use super::words::short;
 
-/// About how wide a text is: letters of East Asia and all behind them are as wide as they are high.
+/// Approximate width of a text. East Asian letters, and all beyond them, are as wide as they are high.
 pub(crate) fn width_of(text: &str, size: f64) -> f64 {
     let wide = text
         .chars()

@@ -13,7 +13,8 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// `count` panels as large as `first`, which is the one at the upper left, at most `most` a row; `gaps` are those across and down.
+    /// Grid of `count` panels of the size of `first`, the upper left one, at most `most` per row. `gaps` are the horizontal and vertical
+    /// distances.
     pub(crate) fn new(count: usize, most: usize, first: Area, gaps: [f64; 2]) -> Grid {
         let columns = count.min(most).max(1);
         Grid {
@@ -24,7 +25,7 @@ impl Grid {
         }
     }
 
-    /// `count` square maps, two a row, each with room for a scale of colours, and the canvas that holds them.
+    /// Grid of `count` square maps, two per row, each with room for a colour scale, and its canvas.
     pub(crate) fn of_maps(count: usize) -> (Grid, Canvas) {
         let first = Area {
             left: 58.0,
@@ -36,7 +37,7 @@ impl Grid {
         (grid, grid.canvas([78.0, 42.0]))
     }
 
-    /// Where a panel is, counted along the rows.
+    /// Area of the panel at `position`, counted along the rows.
     #[expect(clippy::cast_precision_loss, reason = "a handful of rows and columns")]
     pub(crate) fn area(&self, position: usize) -> Area {
         let (row, column) = (position / self.columns, position % self.columns);
@@ -48,7 +49,7 @@ impl Grid {
         }
     }
 
-    /// A canvas that holds every panel, and what stands to the right of the last and below it.
+    /// Canvas for all panels, with margins to the right and below.
     pub(crate) fn canvas(&self, [right, below]: [f64; 2]) -> Canvas {
         let last = self.area(self.rows * self.columns - 1);
         Canvas::new(last.right() + right, last.bottom() + below)

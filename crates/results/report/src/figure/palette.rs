@@ -1,9 +1,9 @@
 //! Colours that are distinguishable with any colour vision.
 
-/// How many series have a colour of their own.
+/// Number of series with their own colour.
 pub const SERIES: usize = 7;
 
-/// The colours of series on white: those of Okabe and Ito, yellow darkened to be read on paper.
+/// Series colours on white, by Okabe and Ito, with yellow darkened for paper.
 pub const LIGHT: [&str; SERIES] = [
     "#0072b2", "#d55e00", "#009e73", "#b5568d", "#c98a00", "#3d9bd6", "#857c00",
 ];
@@ -12,7 +12,7 @@ pub const DARK: [&str; SERIES] = [
     "#5cb3ea", "#ff8d4a", "#3fcba1", "#e59ac8", "#f2b94b", "#9ad4f7", "#d8cd3a",
 ];
 
-/// Cividis in ten steps: even in lightness, and the same to eyes without red or green (Nuñez, Anderton and Renslow, 2018).
+/// Cividis in ten steps: uniform in lightness, and equal under red or green blindness (Nuñez, Anderton and Renslow, 2018).
 const CIVIDIS: [[u8; 3]; 10] = [
     [0, 34, 78],
     [18, 53, 112],
@@ -25,7 +25,7 @@ const CIVIDIS: [[u8; 3]; 10] = [
     [225, 204, 85],
     [254, 232, 56],
 ];
-/// From blue over near white to orange.
+/// Diverging scale from blue over near white to orange.
 const SIGNED: [[u8; 3]; 5] = [
     [27, 94, 160],
     [146, 190, 222],
@@ -34,12 +34,12 @@ const SIGNED: [[u8; 3]; 5] = [
     [190, 85, 10],
 ];
 
-/// The colour of a share from 0 to 1 of a scale from little to much.
+/// Colour for a share from 0 to 1 on a sequential scale.
 pub(crate) fn sequential(share: f64) -> [u8; 3] {
     between(&CIVIDIS, share)
 }
 
-/// The colour of a share from −1 to 1 of a scale with a middle.
+/// Colour for a share from −1 to 1 on a diverging scale.
 pub(crate) fn diverging(share: f64) -> [u8; 3] {
     between(&SIGNED, f64::midpoint(share, 1.0))
 }

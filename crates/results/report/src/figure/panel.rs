@@ -1,10 +1,10 @@
-//! A plotting area with its two axes.
+//! Plotting area with two axes.
 
 use super::canvas::{Anchor, Canvas, Ink, Label, Points, Stroke, width_of};
 use super::scale::Scale;
 use super::words::short;
 
-/// A place on a canvas, in its own units.
+/// Rectangle on a canvas, in canvas units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Area {
     pub(crate) left: f64,
@@ -22,18 +22,18 @@ impl Area {
         self.top + self.height
     }
 
-    /// The places from left to right.
+    /// Horizontal range from left to right.
     pub(crate) fn across(&self) -> [f64; 2] {
         [self.left, self.right()]
     }
 
-    /// The places from below to above.
+    /// Vertical range from bottom to top.
     pub(crate) fn upwards(&self) -> [f64; 2] {
         [self.bottom(), self.top]
     }
 }
 
-/// The titles of a panel and its axes.
+/// Titles of a panel and its axes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Axes {
     pub(crate) title: String,
@@ -41,7 +41,7 @@ pub(crate) struct Axes {
     pub(crate) y: String,
 }
 
-/// An area with two scales.
+/// Area with two scales.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Panel {
     pub(crate) area: Area,
@@ -50,12 +50,12 @@ pub(crate) struct Panel {
 }
 
 impl Panel {
-    /// Where a pair of values lies.
+    /// Canvas position of a pair of values.
     pub(crate) fn at(&self, x: f64, y: f64) -> [f64; 2] {
         [self.x.at(x), self.y.at(y)]
     }
 
-    /// Draws grid, ticks and names; what is measured comes above it.
+    /// Draws grid, ticks and names, to be followed by the data.
     pub(crate) fn axes(&self, axes: &Axes, canvas: &mut Canvas) {
         let (top, bottom) = (self.area.top, self.area.bottom());
         let room = (self.area.width / 62.0).clamp(2.0, 8.0);
@@ -67,7 +67,7 @@ impl Panel {
         self.frame(axes, bottom + 32.0, canvas);
     }
 
-    /// As [`Panel::axes`], where x counts `names`: a column each, its name below it, upright where names are too long for a row.
+    /// As [`Panel::axes`], with a column on the x axis for each of `names`. Names are set upright if they are too long for a row.
     #[expect(clippy::cast_precision_loss, reason = "a handful of names")]
     pub(crate) fn axes_of_names(&self, axes: &Axes, names: &[String], canvas: &mut Canvas) {
         let (top, bottom) = (self.area.top, self.area.bottom());
@@ -90,7 +90,7 @@ impl Panel {
         self.frame(axes, bottom + below, canvas);
     }
 
-    /// The y axis, the lines of both, and the names of both; that of x at `below`.
+    /// Draws the y axis, both axis lines and both titles, that of x at `below`.
     fn frame(&self, axes: &Axes, below: f64, canvas: &mut Canvas) {
         let Area { left, top, .. } = self.area;
         let (right, bottom) = (self.area.right(), self.area.bottom());
@@ -116,7 +116,7 @@ impl Panel {
         canvas.label(y);
     }
 
-    /// A line through those levels that have a value: a level without one is a gap.
+    /// Draws a line through levels with a value, with gaps elsewhere.
     pub(crate) fn curve(
         &self,
         levels: impl Iterator<Item = (f64, Option<f64>)>,
@@ -133,7 +133,7 @@ impl Panel {
         self.end_run(&mut run, stroke, canvas);
     }
 
-    /// A level between two gaps is a dot.
+    /// Ends a run of levels; a single level between two gaps becomes a dot.
     fn end_run(&self, run: &mut Vec<[f64; 2]>, stroke: Stroke, canvas: &mut Canvas) {
         if let [alone] = run[..] {
             let points = Points {
@@ -145,7 +145,7 @@ impl Panel {
         canvas.path(std::mem::take(run), stroke);
     }
 
-    /// The band between two curves, with gaps where either has one.
+    /// Draws the band between two curves, with a gap at levels without a band.
     pub(crate) fn band(
         &self,
         levels: impl Iterator<Item = (f64, Option<[f64; 2]>)>,

@@ -1,4 +1,4 @@
-//! Figures as PDF: vectors, one page as large as the figure, with the used glyphs of its fonts embedded.
+//! Figures as PDF: vectors on one page of the figure's size, with embedded glyphs.
 
 mod content;
 mod embed;
@@ -14,10 +14,10 @@ use super::Figure;
 use super::canvas::Mark;
 use content::{Painter, number};
 
-/// How hard streams are compressed, from 0 to 10.
+/// Compression level of streams, from 0 to 10.
 const COMPRESSION: u8 = 8;
 
-/// `figure` as a file of PDF 1.5: a function of the figure alone, without a date or a number of its own.
+/// `figure` as a PDF 1.5 file. Deterministic: without a date or a random id.
 pub(super) fn write(figure: &Figure) -> Vec<u8> {
     let [catalog, pages, page, content, info] = [1, 2, 3, 4, 5].map(Ref::new);
     let canvas = &figure.canvas;
@@ -60,7 +60,7 @@ pub(super) fn write(figure: &Figure) -> Vec<u8> {
     pdf.finish()
 }
 
-/// Letters of the labels of `figure` for which there is no glyph: boxes with their code point stand for them.
+/// Letters of the labels of `figure` without a glyph, which become boxes with their code point.
 pub(super) fn letters_without_glyph(figure: &Figure) -> BTreeSet<char> {
     let labels = figure.canvas.marks.iter().filter_map(|mark| match mark {
         Mark::Label(label) => Some(label),
@@ -72,7 +72,7 @@ pub(super) fn letters_without_glyph(figure: &Figure) -> BTreeSet<char> {
         .collect()
 }
 
-/// A stream for the filter `FlateDecode`.
+/// Compresses a stream for the filter `FlateDecode`.
 fn compressed(bytes: &[u8]) -> Vec<u8> {
     miniz_oxide::deflate::compress_to_vec_zlib(bytes, COMPRESSION)
 }

@@ -1,8 +1,8 @@
-//! From values to places, and the values that are named beside an axis.
+//! Scales from values to positions, and the ticks of axes.
 
 use crate::number::{fixed, minus, numeral};
 
-/// A straight or a logarithmic way from values to places.
+/// Linear or logarithmic scale from values to positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scale {
     values: [f64; 2],
@@ -10,7 +10,7 @@ pub(crate) struct Scale {
     is_logarithmic: bool,
 }
 
-/// A named value of an axis.
+/// Labelled value of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tick {
     pub(crate) value: f64,
@@ -18,7 +18,7 @@ pub(crate) struct Tick {
 }
 
 impl Scale {
-    /// A straight scale; a range without width is widened.
+    /// Linear scale; an empty range is widened.
     pub(crate) fn linear(values: [f64; 2], places: [f64; 2]) -> Scale {
         Scale {
             values: widened(values),
@@ -27,7 +27,7 @@ impl Scale {
         }
     }
 
-    /// A straight scale from one round value to another that hold `values`.
+    /// Linear scale between round values that contain `values`.
     pub(crate) fn round(values: [f64; 2], places: [f64; 2]) -> Scale {
         let [low, high] = widened(values);
         let step = step([low, high], 5.0);
@@ -35,7 +35,7 @@ impl Scale {
         Scale::linear(ends.map(|end| end * step), places)
     }
 
-    /// A logarithmic scale; both values must be above 0.
+    /// Logarithmic scale; both values must be above 0.
     pub(crate) fn logarithmic([low, high]: [f64; 2], places: [f64; 2]) -> Scale {
         let low = low.max(f64::MIN_POSITIVE);
         Scale {
@@ -45,12 +45,12 @@ impl Scale {
         }
     }
 
-    /// The lowest and the highest value.
+    /// Lowest and highest value.
     pub(crate) fn values(&self) -> [f64; 2] {
         self.values
     }
 
-    /// Where `value` lies; values beyond an end lie beyond it.
+    /// Position of `value`; extrapolated beyond the ends.
     pub(crate) fn at(&self, value: f64) -> f64 {
         let [low, high] = self.values;
         let share = if self.is_logarithmic {
@@ -62,7 +62,7 @@ impl Scale {
         from + share * (to - from)
     }
 
-    /// Round values inside, about `count` of them.
+    /// Round values within the scale, about `count` of them.
     pub(crate) fn ticks(&self, count: f64) -> Vec<Tick> {
         if self.is_logarithmic {
             return self.logarithmic_ticks();
@@ -112,7 +112,7 @@ impl Scale {
     }
 }
 
-/// The lowest and the highest of `values`, if there is any.
+/// Lowest and highest finite value; `None` if there is none.
 pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     values.into_iter().filter(|value| value.is_finite()).fold(
         None,
@@ -135,7 +135,7 @@ fn widened([low, high]: [f64; 2]) -> [f64; 2] {
     [low - half, low + half]
 }
 
-/// A step of 1, 2 or 5 times a power of ten that makes about `count` steps.
+/// Step of 1, 2 or 5 times a power of ten that makes about `count` steps.
 fn step([low, high]: [f64; 2], count: f64) -> f64 {
     let raw = (high - low) / count.max(1.0);
     let power = 10_f64.powf(raw.log10().floor());
@@ -148,7 +148,7 @@ fn step([low, high]: [f64; 2], count: f64) -> f64 {
     factor * power
 }
 
-/// Decimals that a multiple of `step` needs.
+/// Number of decimals of a multiple of `step`.
 fn decimals(step: f64) -> usize {
     let decimals = (0..12).find(|&decimals| step * 10_f64.powi(decimals) > 0.99);
     decimals.map_or(12, |decimals| decimals.unsigned_abs() as usize)

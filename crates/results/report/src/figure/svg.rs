@@ -1,4 +1,4 @@
-//! Figures as SVG: classes for inks, so that a page can be light or dark and no element carries a style of its own.
+//! Figures as SVG: classes for inks, so that a page can be light or dark without inline styles.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use super::canvas::{Anchor, Ink, Label, Mark, Points, Stroke};
 use super::palette::LIGHT;
 use crate::escape;
 
-/// The style of figures: what a page or a figure that stands alone must hold, beside the values of its variables.
+/// Style of figures, required in a page or standalone figure besides the values of its variables.
 pub const STYLE: &str = "\
 svg text{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;font-variant-numeric:tabular-nums}\
 svg .b{font-weight:600}\
@@ -53,7 +53,7 @@ pub(super) fn write(figure: &Figure, alone: bool) -> String {
     out
 }
 
-/// The variables of a figure on white paper.
+/// Variables of a figure on white paper.
 fn paper() -> String {
     let series = LIGHT.iter().enumerate();
     let series: String = series.fold(String::new(), |mut all, (at, colour)| {
@@ -128,7 +128,7 @@ fn dots(points: &Points, ink: Ink, radius: f64, opacity: f64, alone: bool, out: 
     out.push_str("</g>");
 }
 
-/// Ends an element; what is said of it is for the page's own hover, or a title where there is no page.
+/// Ends an element. `words` become data for the page's tooltip, or a title in a standalone figure.
 fn close(words: &str, element: &str, alone: bool, out: &mut String) {
     match (words.is_empty(), alone) {
         (true, _) => out.push_str("/>"),
@@ -194,7 +194,7 @@ fn paint(ink: Ink, class: &str, attribute: &str) -> String {
     }
 }
 
-/// Writing to a text cannot fail.
+/// Writes to a string, which never fails.
 fn push(out: &mut String, words: std::fmt::Arguments<'_>) {
     out.write_fmt(words)
         .expect("a text takes whatever is written to it");

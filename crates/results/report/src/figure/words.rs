@@ -1,9 +1,9 @@
-//! Names as figures print them.
+//! Names as printed in figures.
 
 use taceva_core::Unit;
 use taceva_metrics::Better;
 
-/// `indentation depth (mm)`; a ratio has no unit to name.
+/// Axis label: `indentation depth (mm)`; a ratio has no unit.
 pub(crate) fn axis_label(name: &str, unit: Unit) -> String {
     match unit {
         Unit::One => name.to_owned(),
@@ -11,12 +11,12 @@ pub(crate) fn axis_label(name: &str, unit: Unit) -> String {
     }
 }
 
-/// A label of an axis with the direction in which the values of `metric` are better: `MAE (mm) ↓`.
+/// Axis label with the better direction of `metric`: `MAE (mm) ↓`.
 pub(crate) fn directed(label: &str, metric: &str) -> String {
     Better::of(metric).map_or_else(|| label.to_owned(), |better| better.beside(label))
 }
 
-/// `name`, cut to `most` letters: what is longer would leave its place. Control characters have no place in a picture.
+/// `name` cut to `most` letters, without control characters.
 pub(crate) fn short(name: &str, most: usize) -> String {
     let plain = || name.chars().filter(|letter| !letter.is_control());
     if plain().count() <= most {
@@ -26,7 +26,7 @@ pub(crate) fn short(name: &str, most: usize) -> String {
     format!("{start}…")
 }
 
-/// `name`, cut in its middle to `most` letters: ids often begin alike and differ at their end.
+/// `name` cut in its middle to `most` letters, as ids often differ at their end.
 pub(crate) fn middle_cut(name: &str, most: usize) -> String {
     let letters: Vec<char> = name.chars().filter(|letter| !letter.is_control()).collect();
     if letters.len() <= most {

@@ -1,4 +1,4 @@
-//! What leaks from one channel into another, as a matrix of colours.
+//! Crosstalk between channels, as a matrix of colours.
 
 use taceva_metrics::Matrix;
 
@@ -7,7 +7,7 @@ use crate::number::{fixed, minus, numeral};
 use crate::results::Study;
 use taceva_results::Value;
 
-/// Names a matrix may have and still be read.
+/// Limit of names in a readable matrix.
 const MOST: usize = 16;
 
 pub(super) fn draw(studies: &[Study]) -> Option<Figure> {

@@ -1,4 +1,4 @@
-//! How far the surfaces of two units of a sensor lie apart, by place.
+//! Distance between the surfaces of two sensor units, by position.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::number::{numeral, with_interval};
 use crate::results::Study;
 use taceva_results::Samples;
 
-/// A point that was felt on two units.
+/// Point touched on two units.
 struct Gap {
     at: [f64; 2],
     height: f64,
@@ -83,7 +83,7 @@ fn panel(gaps: &[Gap], title: String, area: Area, canvas: &mut Canvas) {
                 numeral(gap.height)
             )],
         };
-        // A rim keeps dots near zero from being lost on the paper.
+        // A rim keeps dots near zero visible on the paper.
         let rim = Points {
             words: Vec::new(),
             ..points.clone()
@@ -110,7 +110,7 @@ fn panel(gaps: &[Gap], title: String, area: Area, canvas: &mut Canvas) {
     canvas.label(Label::new([left + 5.0, top - 9.0], "mm", Anchor::Middle));
 }
 
-/// Points that two units have in common: the first two by name.
+/// Points common to two units, the first two by name.
 fn gaps(samples: &Samples) -> Option<(Vec<Gap>, [String; 2])> {
     let channels = ["Px", "Py", "surface_z"].map(|name| samples.channel(name));
     let [Some(x), Some(y), Some(height)] = channels else {

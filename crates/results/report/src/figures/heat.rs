@@ -1,4 +1,4 @@
-//! Numbers by place as colours, with the scale that they are read by.
+//! Heat map: numbers by position as colours, with their scale.
 
 use taceva_core::Unit;
 use taceva_metrics::Map;
@@ -6,14 +6,14 @@ use taceva_metrics::Map;
 use crate::figure::{Anchor, Area, Axes, Canvas, Ink, Label, Panel, Scale, axis_label, sequential};
 use crate::number::numeral;
 
-/// Cells that a map may have and still be drawn: more are no picture but a file.
+/// Limit of cells in a drawn map.
 const MOST_CELLS: usize = 10_000;
 
-/// What a map shows, and by which colours.
+/// Content of a map.
 pub(super) struct Heat<'a> {
     pub(super) map: &'a Map,
     pub(super) title: String,
-    /// What the numbers are: `sensitivity`.
+    /// Quantity shown: `sensitivity`.
     pub(super) what: &'a str,
     pub(super) unit: Unit,
 }
@@ -70,7 +70,7 @@ pub(super) fn draw(heat: &Heat<'_>, area: Area, canvas: &mut Canvas) {
                 numeral(f64::midpoint(y_mm[row], y_mm[row + 1])),
                 numeral(*value)
             );
-            // A little wider, so that no seam is seen between neighbours.
+            // Slightly wider, which hides the seam between neighbours.
             let place = [left, top, right - left + 0.3, bottom - top + 0.3];
             canvas.fill(place, Ink::Rgb(sequential(share)), words);
         }
@@ -79,7 +79,7 @@ pub(super) fn draw(heat: &Heat<'_>, area: Area, canvas: &mut Canvas) {
     colour_bar(bar, [low, high], &axis_label(heat.what, heat.unit), canvas);
 }
 
-/// A bar from the colour of the least to that of the greatest number.
+/// Draws a bar from the colour of the least to that of the greatest number.
 pub(super) fn colour_bar(
     [left, top, width, height]: [f64; 4],
     ends: [f64; 2],
@@ -106,7 +106,7 @@ pub(super) fn colour_bar(
     canvas.label(Label::new(at, label, Anchor::Middle));
 }
 
-/// From the 2nd to the 98th part of a hundred of the numbers: a single cell at an edge must not take all colours for itself.
+/// Range from the 2nd to the 98th percentile, so that single edge cells do not dominate the colours.
 pub(super) fn inner_range(values: &[Vec<Option<f64>>]) -> Option<[f64; 2]> {
     let mut known: Vec<f64> = values.iter().flatten().flatten().copied().collect();
     known.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! How the truth is spread: what a sensor was asked, channel by channel.
+//! Distribution of the truth, channel by channel.
 
 use crate::figure::{
     Area, Axes, Canvas, Figure, Grid, Panel, Points, Scale, Stroke, axis_label, extent,
@@ -10,7 +10,7 @@ use taceva_results::SampleChannel;
 
 use super::SIX;
 
-/// Bars of a histogram.
+/// Number of bins of a histogram.
 const BINS: usize = 24;
 
 pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
@@ -116,7 +116,7 @@ fn panel(
     Some(())
 }
 
-/// The labels of a channel that models are fitted and tested on.
+/// Labels of a channel used for fitting and testing models.
 fn truths<'a>(study: &'a Study, name: &str) -> Option<(Vec<f64>, SampleChannel<'a>)> {
     let samples = study.samples.as_ref()?;
     let channel = samples.channel(name)?;
@@ -125,7 +125,7 @@ fn truths<'a>(study: &'a Study, name: &str) -> Option<(Vec<f64>, SampleChannel<'
     (!values.is_empty()).then_some((values, channel))
 }
 
-/// The share of values in each bin.
+/// Share of values in each bin.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -1,4 +1,4 @@
-//! Curves of scores that are one value a level already: bias by level, and shares within a tolerance.
+//! Curves of scores with one value per level: bias by level, and shares within a tolerance.
 
 use taceva_core::Unit;
 use taceva_metrics::Curve;
@@ -10,10 +10,10 @@ use taceva_results::Value;
 use super::SIX;
 use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 
-/// Samples that a bin must have for its bias to be drawn: the mean of fewer is chance.
+/// Least number of samples in a bin with a drawn bias; the mean of fewer is noise.
 const FEWEST: u64 = 5;
 
-/// The levels of a curve, as they are.
+/// Levels of a curve, unchanged.
 pub(super) fn levels(curve: &Curve) -> Vec<Level> {
     let band = |at: usize| {
         let band = curve.band.as_ref()?;
@@ -28,9 +28,9 @@ pub(super) fn levels(curve: &Curve) -> Vec<Level> {
     (0..curve.x.len()).map(level).collect()
 }
 
-/// A sheet a channel of the curve called `variant` of `metric`, with the name of its y axis.
+/// One sheet per channel for the curve `variant` of `metric`, with the name of its y axis.
 pub(super) fn sheets(studies: &[Study], metric: &str, x: &str, y: &str, ways: Ways) -> Vec<Sheet> {
-    // A level has the bias itself, which is good near zero; the metric has the greatest of them.
+    // A level shows the bias itself, which is good near zero; the metric is the greatest of them.
     let directed_by = match metric {
         "bias_level" => "bias",
         other => other,

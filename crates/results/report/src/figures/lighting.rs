@@ -1,4 +1,4 @@
-//! Error by scene of light: a column a scene, a dot a sensor, each error as a ratio to that of the untouched light.
+//! Error by light scene: a column per scene and a dot per sensor, as a ratio to the error in reference light.
 
 use taceva_metrics::SensorFacts;
 
@@ -11,13 +11,13 @@ use crate::results::Study;
 
 use super::SIX;
 
-/// The scene that models learn in.
+/// Scene in which models are trained.
 const LEARNT_IN: &str = SensorFacts::REFERENCE_SCENE;
 
-/// A channel of every sensor that light reaches.
+/// Channel of all sensors that light reaches.
 struct Sheet {
     channel: &'static str,
-    /// By the position of the study.
+    /// Lighting scores by the position of the study.
     sensors: Vec<(usize, Light)>,
 }
 
@@ -79,7 +79,7 @@ fn caption(studies: &[Study], names: &[String], others: &[usize]) -> String {
     )
 }
 
-/// By name, each once.
+/// Names of scenes, sorted, each once.
 fn in_order<'a>(scenes: impl Iterator<Item = &'a Scene>) -> Vec<String> {
     let mut all: Vec<&str> = scenes.map(|scene| scene.name.as_str()).collect();
     all.sort_unstable();
@@ -87,7 +87,7 @@ fn in_order<'a>(scenes: impl Iterator<Item = &'a Scene>) -> Vec<String> {
     all.into_iter().map(str::to_owned).collect()
 }
 
-/// The error ratios of a scene that a logarithmic axis has room for.
+/// Error ratio of a scene; `None` if a logarithmic axis cannot show it.
 fn drawn(scene: &Scene) -> Option<f64> {
     scene.error.filter(|ratio| *ratio > 0.0)
 }

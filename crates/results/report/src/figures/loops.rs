@@ -1,4 +1,4 @@
-//! Into the gel and out again: force over depth.
+//! Loading and unloading curves: force over depth.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,10 @@ use crate::number::{numeral, with_interval};
 use crate::results::Study;
 use taceva_results::Samples;
 
-/// Points whose loops are drawn.
+/// Limit of points with a drawn loop.
 const MOST: usize = 12;
 
-/// Depth and force on the way in and on the way out.
+/// Depth and force during loading and unloading.
 #[derive(Default)]
 struct Loop {
     load: Vec<[f64; 2]>,
@@ -109,7 +109,7 @@ fn panel(loops: &BTreeMap<String, Loop>, at: usize, name: &str, area: Area, canv
     }
 }
 
-/// Both branches of each point that has them, by depth.
+/// Both branches of each point that has them, sorted by depth.
 fn loops(samples: &Samples) -> BTreeMap<String, Loop> {
     let mut loops: BTreeMap<String, Loop> = BTreeMap::new();
     let (Some(depth), Some(force)) = (samples.channel("Pz"), samples.channel("Fz")) else {

@@ -1,4 +1,4 @@
-//! Run time against error of models: a panel a channel, the Pareto front through it.
+//! Run time against error of models: one panel per channel, with its Pareto front.
 
 use crate::figure::{
     Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, Stroke, axis_label, beside,
@@ -7,18 +7,18 @@ use crate::figure::{
 use crate::number::numeral;
 use crate::results::{BenchRecording, ChannelError, ModelBench, ModelRow};
 
-/// Errors that differ by a greater factor are drawn on a logarithmic axis.
+/// Ratio of errors above which the axis is logarithmic.
 const FAR: f64 = 8.0;
 const MILLI: f64 = 1e3;
 
-/// A model in a panel.
+/// Model in a panel.
 struct Dot<'a> {
     row: &'a ModelRow,
     error: &'a ChannelError,
     is_on_front: bool,
 }
 
-/// The time from a frame to its prediction against the mean absolute error of each model; `None` if no model has an error.
+/// Figure of prediction time against mean absolute error of each model; `None` if no model has an error.
 pub fn model_bench(bench: &ModelBench) -> Option<Figure> {
     let time = "time from frame to prediction (ms)";
     let (canvas, fronts) = draw(bench, time)?;
@@ -31,7 +31,7 @@ pub fn model_bench(bench: &ModelBench) -> Option<Figure> {
     })
 }
 
-/// A panel a channel, and who is on the fronts.
+/// Draws one panel per channel. Also returns a sentence on the Pareto fronts.
 fn draw(bench: &ModelBench, time: &str) -> Option<(Canvas, String)> {
     let channels = bench.channels();
     if channels.is_empty() {
@@ -59,7 +59,7 @@ fn draw(bench: &ModelBench, time: &str) -> Option<(Canvas, String)> {
     Some((canvas, fronts.join("; ")))
 }
 
-/// The remark of a caption on simulated samples.
+/// Caption remark on simulated samples.
 fn simulated(is_simulated: bool, recording: &BenchRecording) -> String {
     match is_simulated {
         true => format!(
@@ -89,7 +89,7 @@ fn caption(bench: &ModelBench) -> String {
     )
 }
 
-/// The models that have an error of `channel`, and a time to draw.
+/// Models with an error of `channel` and a positive time.
 fn dots<'a>(bench: &'a ModelBench, channel: &str) -> Vec<Dot<'a>> {
     let found = bench.rows.iter().filter(|row| row.latency_s > 0.0);
     let found: Vec<(&ModelRow, &ChannelError)> = found
@@ -145,7 +145,7 @@ fn panel(dots: &[Dot<'_>], [channel, time]: [&str; 2], area: Area, canvas: &mut 
     }
 }
 
-/// A dot with the interval of its error.
+/// Draws a dot with the interval of its error.
 fn mark(dot: &Dot<'_>, at: [f64; 2], panel: &Panel, canvas: &mut Canvas) {
     if let Some(ends) = dot.error.ci95 {
         let [top, bottom] = [panel.area.top, panel.area.bottom()];
@@ -172,7 +172,7 @@ fn words(dot: &Dot<'_>) -> String {
         let [low, high] = ends.map(numeral);
         format!(" ({low} … {high})")
     });
-    // A scale of decoding is fitted in no time of its own.
+    // A decoded scale needs no time to fit.
     let fitted = match dot.row.fit_s > 0.0 {
         true => format!(", fitted in {} s", numeral(dot.row.fit_s)),
         false => String::new(),
@@ -185,7 +185,7 @@ fn words(dot: &Dot<'_>) -> String {
     )
 }
 
-/// The line through the models on the front, from the fastest to the least far off.
+/// Draws the line through the models on the front, from the fastest to the most accurate.
 fn front(dots: &[Dot<'_>], panel: &Panel, canvas: &mut Canvas) {
     let mut corners: Vec<[f64; 2]> = dots
         .iter()
@@ -195,7 +195,7 @@ fn front(dots: &[Dot<'_>], panel: &Panel, canvas: &mut Canvas) {
     corners.sort_by(|left, right| left[0].total_cmp(&right[0]));
     let mut steps: Vec<[f64; 2]> = Vec::new();
     for corner in corners {
-        // Between two models the slower one is not there yet.
+        // Step line: between two models, only the faster one is available.
         if let Some([_, y]) = steps.last().copied() {
             steps.push([corner[0], y]);
         }

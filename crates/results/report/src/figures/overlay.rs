@@ -1,4 +1,4 @@
-//! Curves of several sensors in one panel, a panel a channel.
+//! Curves of several sensors in one panel per channel.
 
 use taceva_core::Unit;
 
@@ -6,14 +6,14 @@ use crate::figure::{Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale,
 use crate::number::numeral;
 use crate::results::Study;
 
-/// A curve of one sensor.
+/// Curve of one sensor.
 pub(super) struct Line {
-    /// The position of its study.
+    /// Position of its study.
     pub(super) study: usize,
     pub(super) levels: Vec<Level>,
 }
 
-/// A level of a curve.
+/// Level of a curve.
 #[derive(Clone)]
 pub(super) struct Level {
     pub(super) x: f64,
@@ -22,28 +22,28 @@ pub(super) struct Level {
     pub(super) band: Option<[f64; 2]>,
 }
 
-/// A panel of curves.
+/// Panel of curves.
 pub(super) struct Sheet {
     pub(super) title: String,
     pub(super) x: String,
     pub(super) y: String,
     pub(super) y_unit: Unit,
-    /// The least range of y; wider where the curves are.
+    /// Least range of y, widened to the curves.
     pub(super) least: Option<[f64; 2]>,
     pub(super) ways: Ways,
     pub(super) lines: Vec<Line>,
 }
 
-/// How values become places.
+/// Scales of the axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ways {
-    /// Straight both ways.
+    /// Linear axes.
     Straight,
-    /// By logarithm of x.
+    /// Logarithmic x axis.
     LogarithmicX,
 }
 
-/// The words of a figure.
+/// Texts of a figure.
 pub(super) struct Words<'a> {
     pub(super) id: &'a str,
     pub(super) title: &'a str,
@@ -51,7 +51,7 @@ pub(super) struct Words<'a> {
     pub(super) description: String,
 }
 
-/// Panels `columns` in a row below one legend.
+/// Draws panels, `columns` per row, below one legend.
 pub(super) fn draw(
     sheets: &[Sheet],
     studies: &[Study],
@@ -88,7 +88,7 @@ pub(super) fn draw(
     })
 }
 
-/// The first panel of a row of `columns`, so that a row fills the width of a page.
+/// First panel of a row of `columns`, sized to fill the page width.
 fn panel_size(columns: usize) -> Area {
     let (width, height) = match columns {
         1 => (620.0, 260.0),
@@ -143,7 +143,7 @@ impl Sheet {
         }
         for line in &self.lines {
             let hovers = self.hovers(line, names, &panel);
-            // Many dots on a line hide it.
+            // Small dots keep the line visible.
             let radius = if hovers.at.len() > 30 { 1.3 } else { 2.2 };
             canvas.points(hovers, Ink::Series(line.study), radius, 1.0);
         }

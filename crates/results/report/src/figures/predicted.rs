@@ -1,4 +1,4 @@
-//! Predicted against true, a panel a channel and a figure a sensor.
+//! Predicted against true values: one panel per channel, one figure per sensor.
 
 use crate::figure::{
     Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, Stroke, axis_label, extent, short,
@@ -10,7 +10,7 @@ use taceva_results::{SampleChannel, Samples};
 use super::SIX;
 use super::thin::{rule, thin};
 
-/// Dots a panel: more would hide each other, and make the page heavy.
+/// Limit of dots in a panel: more would overlap and enlarge the page.
 const MOST: usize = 400;
 
 pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
@@ -66,7 +66,7 @@ fn one(study: &Study, at: usize, name: &str) -> Option<Figure> {
     })
 }
 
-/// The six channels where they are there, else the first nine of any name.
+/// The six channels, if present; otherwise the first nine of any name.
 fn channels(samples: &Samples) -> Vec<SampleChannel<'_>> {
     let six: Vec<SampleChannel<'_>> = SIX
         .into_iter()

@@ -1,4 +1,4 @@
-//! Cost against gain: points to the right and low are accurate and fast.
+//! Cost against gain: points at the lower right are accurate and fast.
 
 use crate::figure::{
     Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Points, Scale, Stroke, beside, extent,
@@ -9,34 +9,34 @@ use crate::number::numeral;
 /// Points with their costs and gains.
 #[derive(Clone, Debug)]
 pub struct Race {
-    /// The title: `Summation kernels`.
+    /// Title: `Summation kernels`.
     pub title: String,
-    /// The conditions that a reader must know, such as machine, sizes and rounds.
+    /// Conditions for the caption, such as machine, sizes and rounds.
     pub caption: String,
-    /// The name of the horizontal axis, on which more is better: `right digits`.
+    /// Name of the horizontal axis, on which more is better: `right digits`.
     pub gain: String,
-    /// The name of the vertical axis, logarithmic, on which less is better: `ns a pair`.
+    /// Name of the vertical axis, logarithmic, on which less is better: `ns a pair`.
     pub cost: String,
-    /// A lower bound of the cost, and its name.
+    /// Lower bound of the cost, with its name.
     pub floor: Option<(f64, String)>,
-    /// The points.
+    /// Points.
     pub points: Vec<RacePoint>,
 }
 
 /// One point.
 #[derive(Clone, Debug)]
 pub struct RacePoint {
-    /// What it is called.
+    /// Name of the point.
     pub name: String,
-    /// What is gained.
+    /// Gain.
     pub gain: f64,
-    /// What it costs; above 0.
+    /// Cost; above 0.
     pub cost: f64,
-    /// Whether no other point is better in both.
+    /// True if no other point is better in both.
     pub is_on_front: bool,
 }
 
-/// Draws the points: filled dots are on the Pareto front.
+/// Draws the points, filled on the Pareto front.
 pub fn race(race: &Race) -> Figure {
     let mut canvas = Canvas::new(760.0, 470.0);
     let area = Area {

@@ -1,4 +1,4 @@
-//! Several sensors at a glance: each axis as a share of the best of them, never joined where there is no value.
+//! Radar charts of several sensors: each axis as a share of the best, with gaps at missing values.
 
 use std::f64::consts::TAU;
 
@@ -9,17 +9,17 @@ use crate::number::numeral;
 use crate::results::{PUBLISHED, Study};
 use taceva_results::Score;
 
-/// An axis of a radar.
+/// Axis of a radar.
 struct Axis {
     metric: &'static str,
     channel: &'static str,
-    /// The variant that is shown, if it is not the score itself.
+    /// Variant shown; empty for the score itself.
     variant: &'static str,
     name: &'static str,
     better: Better,
 }
 
-/// The axis of a score of which small values are good.
+/// Axis of a score with better low values.
 const fn low(metric: &'static str, channel: &'static str, name: &'static str) -> Axis {
     Axis {
         metric,
@@ -30,7 +30,7 @@ const fn low(metric: &'static str, channel: &'static str, name: &'static str) ->
     }
 }
 
-/// The axis of a score of which large values are good.
+/// Axis of a score with better high values.
 const fn high(metric: &'static str, channel: &'static str, name: &'static str) -> Axis {
     Axis {
         better: Better::Higher,
@@ -46,7 +46,7 @@ const ACCURACY: [Axis; 6] = [
     low("mae", "Fz", "MAE Fz"),
     low("mae", "Fxy", "MAE Fxy"),
 ];
-/// Without what only describes a sensor, as frame rate and field of view do: there the rim would not be the best.
+/// Excludes descriptive scores, such as frame rate and field of view, whose rim would not mean "best".
 const SENSOR: [Axis; 4] = [
     high("uniformity", "Fz", "uniformity U"),
     Axis {
@@ -69,11 +69,11 @@ const ROBUSTNESS: [Axis; 7] = [
     },
 ];
 
-/// Narrow enough for a telephone, with names of axes in two lines.
+/// Width that fits a phone, with axis names in two lines.
 const WIDTH: f64 = 440.0;
 const RADIUS: f64 = 130.0;
 
-/// The radars of accuracy, of the sensor itself and of robustness; none of a single sensor.
+/// Radars of accuracy, sensor and robustness; empty for a single study.
 pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
     if studies.len() < 2 {
         return Vec::new();
@@ -159,14 +159,14 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
     })
 }
 
-/// A value that is not drawn because it takes no part in verdicts.
+/// Value that is not drawn because it takes no part in verdicts.
 struct Barred {
     axis: &'static str,
     study: usize,
     reason: &'static str,
 }
 
-/// How many studies have a value on no axis, and are therefore not named.
+/// Sentence with the number of studies without a value on any axis; empty if there are none.
 fn without_value(studies: &[Study], axes: &[Axis]) -> String {
     let has_none = |study: &&Study| {
         let mut scores = axes
@@ -181,7 +181,7 @@ fn without_value(studies: &[Study], axes: &[Axis]) -> String {
     }
 }
 
-/// What is said where a place rests on published values.
+/// Caption remarks on published values and unknown skill.
 fn unproven(studies: &[Study], axes: &[Axis]) -> String {
     let drawn = |study| axes.iter().filter_map(move |axis| axis.drawn(study));
     let any = |of: fn(&Score) -> bool| studies.iter().flat_map(drawn).any(of);
@@ -196,7 +196,7 @@ fn unproven(studies: &[Study], axes: &[Axis]) -> String {
 }
 
 impl Axis {
-    /// The score of `study` that has a place here.
+    /// Score of `study` that is drawn on the axis.
     fn drawn<'a>(&self, study: &'a Study) -> Option<&'a Score> {
         let score = study.score(self.metric, self.channel)?;
         (score.value.number().is_some() && self.without_place(score).is_none()).then_some(score)
@@ -216,7 +216,8 @@ impl Axis {
         studies.iter().enumerate().filter_map(of_one).collect()
     }
 
-    /// Why `score` has no place on the axis, which is a verdict: it takes no part in any, or nobody knows how sure it is. Published values have no interval and a place.
+    /// Reason that `score` is not drawn, as a position on the axis is a verdict: its standing, or an absent interval. Published values are
+    /// drawn without one.
     fn without_place(&self, score: &Score) -> Option<&'static str> {
         score.value.number()?;
         let interval = match self.variant {
@@ -233,7 +234,7 @@ impl Axis {
         barred.or_else(|| is_unsure().then_some("no interval"))
     }
 
-    /// For each study the share of the best and the value itself.
+    /// Share of the best and value of each study.
     fn shares(&self, studies: &[Study]) -> Vec<Option<(f64, f64)>> {
         let value = |score: &Score| {
             if self.variant.is_empty() {
@@ -249,7 +250,7 @@ impl Axis {
                 let found = found
                     .filter(|score| self.without_place(score).is_none())
                     .and_then(value);
-                // A share of a negative number says nothing.
+                // Shares of negative numbers are meaningless.
                 found.filter(|value| *value >= 0.0)
             })
             .collect();
@@ -301,7 +302,7 @@ fn web(axes: &[Axis], centre: [f64; 2], canvas: &mut Canvas) {
         };
         let name = format!("{} {arrow}", axis.name);
         let (first, second) = name.split_once(' ').unwrap_or((&name, ""));
-        // Above the upper half and below the lower one, so that no name lies on the web.
+        // Names are above the upper half and below the lower half, clear of the web.
         let aside = (y - centre[1]) / RADIUS * 8.0;
         for (line, down) in [(first, -2.0), (second, 11.0)] {
             let mut label = Label::new([x, y + down + aside], line, anchor);

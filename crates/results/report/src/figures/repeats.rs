@@ -1,4 +1,4 @@
-//! How predictions of the same press are spread: over depth, and about their places.
+//! Spread of predictions of the same press: over depth, and around their positions.
 
 use crate::figure::{
     Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, Stroke, extent, short,
@@ -10,7 +10,7 @@ use taceva_results::Samples;
 use super::levels::sheets;
 use super::overlay::{Ways, Words, draw as overlay};
 
-/// How many times a spread is drawn larger than it is.
+/// Magnification of a drawn spread.
 const LARGER: f64 = 3.0;
 
 pub(super) fn curves(studies: &[Study]) -> Option<Figure> {
@@ -33,7 +33,7 @@ pub(super) fn curves(studies: &[Study]) -> Option<Figure> {
     overlay(&sheets, studies, 3, words)
 }
 
-/// The predictions of one point at its greatest common depth.
+/// Predictions of one point at its greatest common depth.
 struct Cloud {
     point: String,
     mean: [f64; 3],
@@ -133,7 +133,7 @@ fn panel(clouds: &[Cloud], at: usize, name: &str, area: Area, canvas: &mut Canva
     canvas.points(centres, Ink::Series(at), 2.6, 1.0);
 }
 
-/// The cloud of each point that was pressed at least twice.
+/// Cloud of each point that was pressed at least twice.
 fn clouds(samples: &Samples) -> Vec<Cloud> {
     let Some(channels) = ["Px", "Py", "Pz"]
         .into_iter()
@@ -145,7 +145,7 @@ fn clouds(samples: &Samples) -> Vec<Cloud> {
     if !samples.has("protocol") {
         return Vec::new();
     }
-    // By point and step of depth; later steps lie deeper.
+    // By point and depth step; later steps are deeper.
     let mut cells: std::collections::BTreeMap<(&str, u64), Vec<[f64; 3]>> = Default::default();
     for row in samples.of_protocol("repeatability") {
         let step = samples.number("depth_step", row);

@@ -1,4 +1,4 @@
-//! How far the gel yields, by place.
+//! Sensitivity of the gel, by position.
 
 use crate::figure::{Figure, Grid, short};
 use crate::number::with_interval;

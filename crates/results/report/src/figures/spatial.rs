@@ -1,4 +1,4 @@
-//! How errors depend on the distance from the centre and on depth.
+//! Errors over the distance from the centre and over depth.
 
 use taceva_core::Unit;
 use taceva_metrics::Curve;
@@ -10,10 +10,10 @@ use taceva_results::Value;
 use super::SIX;
 use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 
-/// Bins that a rolling mean takes together: an odd number.
+/// Number of bins in a rolling mean, odd.
 const WINDOW: usize = 5;
 
-/// The error over distance, and over depth.
+/// Error over distance, and over depth.
 pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
     vec![one(studies, "distance"), one(studies, "depth")]
 }
@@ -63,7 +63,7 @@ fn one(studies: &[Study], over: &str) -> Option<Figure> {
     overlay(&sheets, studies, 3, words)
 }
 
-/// The rolling mean over non-empty bins, weighted by their samples, and how far these bins lie from it.
+/// Rolling mean over non-empty bins, weighted by samples, with the spread of these bins around it.
 fn rolling(curve: &Curve) -> Vec<Level> {
     let bins: Vec<(f64, f64, u64)> = curve
         .x
@@ -74,7 +74,7 @@ fn rolling(curve: &Curve) -> Vec<Level> {
         .collect();
     let half = WINDOW / 2;
     let level = |at: usize| {
-        // Shrinking at the ends, and even to both sides.
+        // The window shrinks at the ends and stays symmetric.
         let reach = half.min(at).min(bins.len() - 1 - at);
         let window = &bins[at - reach..=at + reach];
         let count = window.iter().fold(0.0, |count, _| count + 1.0);

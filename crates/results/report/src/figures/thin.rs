@@ -1,7 +1,7 @@
-//! Which of many samples are drawn.
+//! Selects the samples to draw.
 
-/// Positions of the samples that are drawn of `errors`, ascending: all of at most `most`; of more, evenly spaced ones in the order of the
-/// table, and the tenth of `most` that are furthest off, so that no outlier is hidden.
+/// Positions of the samples to draw, ascending: all of up to `most`. Of more, evenly spaced rows, and the largest errors as a tenth of
+/// `most`, so that outliers stay visible.
 pub(crate) fn thin(errors: &[f64], most: usize) -> Vec<usize> {
     if errors.len() <= most {
         return (0..errors.len()).collect();

@@ -1,4 +1,4 @@
-//! Comparisons as a page.
+//! Comparison as an HTML page.
 
 use maud::{Markup, html};
 
@@ -11,7 +11,7 @@ use crate::number::{numeral, spaced};
 use crate::results::Study;
 
 impl Comparison {
-    /// As a page: what is shown, every answer, and the sensors side by side.
+    /// HTML page with decisions, all answers, and the sensors side by side.
     pub fn page(&self, studies: &[Study]) -> String {
         let mut document = Document::new("Comparison", lead(studies));
         document.section("summary", "Decisions", self.decided());
@@ -24,7 +24,7 @@ impl Comparison {
         document.finish()
     }
 
-    /// The questions that are asked first, with their answers.
+    /// First questions with their answers.
     fn decided(&self) -> Markup {
         html! {
             p { (self.summary()) "." } "\n"
@@ -40,7 +40,7 @@ impl Comparison {
         }
     }
 
-    /// What is shown, score by score, and every answer, both folded.
+    /// Significant differences by score, and all answers, both folded.
     fn pairs(&self) -> Markup {
         let (won, table) = (self.won(), self.table().html_with_links());
         let shown = html! { ul.verdicts { @for won in &won { (won.html(&self.names)) } } };
@@ -54,7 +54,7 @@ impl Comparison {
         }
     }
 
-    /// What is shown, score by score: who is better, and than whom.
+    /// Significant differences by score, each with the better study and the worse ones.
     fn won(&self) -> Vec<Won<'_>> {
         let mut all: Vec<Won<'_>> = Vec::new();
         for answer in &self.answers {
@@ -77,7 +77,7 @@ impl Comparison {
     }
 }
 
-/// The answers by which one study is better than others, all of one metric and channel.
+/// Answers in which one study is better than others, of one metric and channel.
 struct Won<'a> {
     winner: usize,
     /// At least one.

@@ -1,4 +1,4 @@
-//! The frame of every page: style, script, policy, navigation, sections.
+//! Frame of all pages: style, script, policy, navigation, sections.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -11,7 +11,7 @@ use crate::figure::{DARK, LIGHT, STYLE};
 const PAGE_STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
-/// A page that is being put together.
+/// Page under construction.
 pub(crate) struct Document {
     title: String,
     lead: Markup,
@@ -25,7 +25,7 @@ struct Section {
 }
 
 impl Document {
-    /// A page without a section; `lead` stands below the title.
+    /// Page without sections; `lead` is below the title.
     pub(crate) fn new(title: &str, lead: Markup) -> Document {
         Document {
             title: title.to_owned(),
@@ -39,8 +39,8 @@ impl Document {
         self.sections.push(Section { id, title, body });
     }
 
-    /// The page as a file. Letters of foreign text that nobody sees, or that turn the direction of what follows, are replaced here, so that no
-    /// piece of a page can leave it out.
+    /// Returns the page as a file. Invisible and direction-changing letters of foreign text are replaced here, which covers all parts of a
+    /// page.
     pub(crate) fn finish(self) -> String {
         let style = style();
         let policy = format!(
@@ -59,7 +59,7 @@ impl Document {
                     meta name="referrer" content="no-referrer";
                     link rel="icon" href="data:,"; "\n"
                     title { (self.title) " · TacEva" } "\n"
-                    // Browsers read style and script as they stand, and the policy names their digests: both are constants, which nothing foreign enters.
+                    // Style and script are constants without foreign text, and the policy names their digests.
                     style { (PreEscaped(style)) } "\n"
                 }
                 body {
@@ -85,7 +85,7 @@ impl Document {
     }
 }
 
-/// The style of a page: colours in the light and in the dark, the page, and figures.
+/// Style of a page: light and dark colours, layout, and figures.
 fn style() -> String {
     let series = |colours: &[&str]| {
         let colours = colours.iter().enumerate();

@@ -1,4 +1,4 @@
-//! The sensors side by side: the scores that a paper shows first, and radars.
+//! Overview of the sensors: main scores and radars.
 
 use maud::{Markup, html};
 
@@ -9,7 +9,7 @@ use crate::figure::Figure;
 use crate::results::Study;
 use crate::scores::{ScoreRow, ScoreTable};
 
-/// The main table and the radars; nothing where there is neither.
+/// Main table and radars; `None` if both are absent.
 pub(super) fn section(studies: &[Study], table: &ScoreTable, figures: &[Figure]) -> Option<Markup> {
     let main = table.main();
     let rows: Vec<&ScoreRow> = main.rows.iter().collect();

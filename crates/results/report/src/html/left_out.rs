@@ -6,7 +6,7 @@ use crate::markup::{heads, scroll};
 use crate::names::names;
 use crate::results::Study;
 
-/// The rows of what was left out, and how many there are.
+/// Number and rows of skipped scores and remarks.
 pub(super) fn section(studies: &[Study]) -> (usize, Markup) {
     let mut rows: Vec<Markup> = Vec::new();
     for (study, name) in studies.iter().zip(names(studies)) {

@@ -1,4 +1,4 @@
-//! How it was done, as a paragraph for a paper; and what to cite.
+//! Methods paragraph for a paper, and citations.
 
 mod statistics;
 
@@ -17,7 +17,7 @@ use crate::short_digests::short_digests;
 /// The study whose metrics these are, as its publisher names it.
 const STUDY: &str = "@article{taceva-study,\n  author  = {Cong, Qingzheng and Oh, Steven and Fan, Wen and Luo, Shan and Althoefer, Kaspar and Zhang, Dandan},\n  title   = {{TacEva}: A Performance Evaluation Framework for Vision-Based Tactile Sensors},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
 
-/// The paragraph and the entries, each with a button that copies it, and the sensors in a table.
+/// Paragraph and BibTeX entries, each with a copy button, and a table of the sensors.
 pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     let paragraph = html! { p id="methods-text" { (paragraph(studies, table)) } };
     let entries = html! { pre id="bibtex-text" tabindex="0" { (bibtex(studies)) } };
@@ -28,14 +28,14 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     }
 }
 
-/// A text with a button that copies it; the page's script shows the button.
+/// Text with a copy button, which the page's script reveals.
 fn copied(id: &str, what: &str, body: &Markup) -> Markup {
     html! {
         div.copied { button.act type="button" data-copy=(id) hidden { "Copy " (what) } "\n" (body) } "\n"
     }
 }
 
-/// What was done, in sentences that a paper can take over; plain text.
+/// Methods in plain sentences for a paper.
 fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     let mut out = format!(
         "We evaluated {} ({}) with TacEva {}.",
@@ -70,7 +70,7 @@ fn evaluated(studies: &[Study]) -> String {
     }
 }
 
-/// Where samples come from.
+/// Sentence on the origin of the samples.
 fn origin(studies: &[Study]) -> String {
     let simulated = studies.iter().filter(|study| study.is_simulated()).count();
     let published = studies
@@ -106,7 +106,7 @@ fn pressed(studies: &[Study]) -> String {
     presses.into_iter().chain(points).collect()
 }
 
-/// How samples were divided, with their numbers.
+/// Sentence on the split of the samples, with the sizes of its parts.
 fn divided(studies: &[Study]) -> String {
     let Some(splits) = values(studies, "split") else {
         return String::new();
@@ -117,7 +117,7 @@ fn divided(studies: &[Study]) -> String {
     }
     let mut names: Vec<&str> = Vec::new();
     let all = studies.iter().flat_map(|study| &study.made.samples);
-    // Samples of other parts of the protocol, which other metrics are formed from.
+    // Left-out samples belong to other parts of the protocol and supply other metrics.
     for (name, _) in all.filter(|(name, _)| name != "left_out") {
         if !names.contains(&name.as_str()) {
             names.push(name);
@@ -137,7 +137,7 @@ fn divided(studies: &[Study]) -> String {
     out + "."
 }
 
-/// The models, with the settings that all of one name share.
+/// Sentence on the models, with the settings common to each name.
 fn model(studies: &[Study]) -> String {
     let mut models: BTreeMap<&str, Vec<&Study>> = BTreeMap::new();
     for study in studies {
@@ -203,7 +203,7 @@ fn unseen(studies: &[Study]) -> String {
         + " scores that use no predictions, such as sensitivity, uniformity and hysteresis, are of all samples that they apply to."
 }
 
-/// What intervals and p values do not contain.
+/// Sentence on the scope of intervals and p values.
 fn scope(studies: &[Study]) -> String {
     let is_own = |study: &Study| study.source != "published" && !study.scores.is_empty();
     match studies.iter().any(is_own) {
@@ -212,7 +212,7 @@ fn scope(studies: &[Study]) -> String {
     }
 }
 
-/// How the spacings of gratings were predicted, as the results say in their notes.
+/// Sentence on the prediction of grating spacings, from the notes of the results.
 fn gratings(studies: &[Study]) -> String {
     let notes = studies.iter().flat_map(|study| &study.notes);
     let ways: BTreeSet<&str> = notes.filter_map(|note| note.strip_prefix("sr: ")).collect();
@@ -224,7 +224,7 @@ fn gratings(studies: &[Study]) -> String {
     ways.into_iter().map(sentence).collect()
 }
 
-/// The different values of an entry of provenance, in the order of the studies.
+/// Distinct values of a provenance entry, in the order of the studies.
 fn values(studies: &[Study], name: &str) -> Option<Vec<String>> {
     let mut values: Vec<String> = Vec::new();
     for (_, value) in studies
@@ -239,7 +239,7 @@ fn values(studies: &[Study], name: &str) -> Option<Vec<String>> {
     (!values.is_empty()).then_some(values)
 }
 
-/// The program, the study, and the sources of published numbers.
+/// BibTeX entries of the program, the study, and the sources of published numbers.
 fn bibtex(studies: &[Study]) -> String {
     let versions = values(studies, "taceva");
     let version = versions.map_or_else(
@@ -262,13 +262,13 @@ fn bibtex(studies: &[Study]) -> String {
     entries.join("\n\n")
 }
 
-/// A text without what BibTeX reads specially.
+/// Replaces the special characters of BibTeX.
 fn plain(text: &str) -> String {
     text.replace(['{', '}', '\\', '"', '%', '#', '$', '~', '^'], " ")
         .replace('&', "and")
 }
 
-/// The sensors in a table.
+/// Table of the sensors.
 fn sensors(studies: &[Study]) -> Markup {
     let split = |study: &Study| {
         let mut known = study.provenance.iter();

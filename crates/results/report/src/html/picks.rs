@@ -1,28 +1,28 @@
-//! Which samples are worth a look.
+//! Selects the best and worst predicted samples.
 
 use std::collections::BTreeSet;
 
 use crate::results::Study;
 use taceva_results::{SampleChannel, Samples};
 
-/// Samples of each kind a study.
+/// Number of samples of each kind per study.
 const EACH: usize = 4;
 
-/// A sample that is worth a look.
+/// Selected sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pick {
-    /// Its id.
+    /// Sample id.
     pub id: String,
-    /// Its row among the samples.
+    /// Row among the samples.
     pub row: usize,
-    /// Whether it is one of the worst, else one of the best.
+    /// True for one of the worst samples, false for one of the best.
     pub is_worst: bool,
-    /// Its error: the mean over channels of the error as a part of the range of the true values.
+    /// Mean error over channels, as a share of the range of the true values.
     pub error: f64,
 }
 
-/// The samples of a study that are predicted worst and those that are predicted best, four each, every one of another contact point: the
-/// frames of one press, and presses at one place, fail alike. Fewer where there are few points, none without samples.
+/// The worst and the best predicted samples of a study, four each. Each is from another contact point, as frames of one press, and presses
+/// at one place, fail alike. Fewer if there are few points; empty without samples.
 pub fn picks(study: &Study) -> Vec<Pick> {
     let Some(samples) = &study.samples else {
         return Vec::new();
@@ -67,14 +67,14 @@ pub fn picks(study: &Study) -> Vec<Pick> {
     worst.chain(best.into_iter().map(pick(false))).collect()
 }
 
-/// Where a sample was pressed; where no point is known, each sample is its own.
+/// Contact point of a sample; without one, each sample is its own point.
 fn place(samples: &Samples, row: usize) -> Option<&str> {
     samples
         .word("point_id", row)
         .or_else(|| samples.word(Samples::KEY, row))
 }
 
-/// The first of `rows` of each contact point that nothing was taken of, `most` of them.
+/// First of `rows` for each unused contact point, up to `most`.
 fn apart<'a>(
     samples: &'a Samples,
     rows: impl Iterator<Item = &'a (usize, f64)>,
@@ -91,7 +91,7 @@ fn apart<'a>(
     found
 }
 
-/// From the least to the greatest truth of those that are predicted.
+/// Range of the true values of predicted samples.
 fn range(channel: SampleChannel<'_>) -> Option<f64> {
     let pairs = (0..channel.rows()).filter_map(|row| channel.pair(row));
     let [low, high] = crate::figure::extent(pairs.map(|[truth, _]| truth))?;

@@ -1,4 +1,4 @@
-//! The samples that are predicted worst and best, with their pictures, truth and prediction.
+//! Worst and best predicted samples, with pictures, truth and prediction.
 
 use std::collections::BTreeMap;
 
@@ -14,20 +14,20 @@ use crate::names::names;
 use crate::number::{numeral, spaced};
 use taceva_results::Samples;
 
-/// The picture of a sample.
+/// Picture of a sample.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// The position of its study.
+    /// Position of its study.
     pub study: usize,
-    /// The id of the sample.
+    /// Sample id.
     pub id: String,
-    /// What the bytes are: `image/png` or `image/jpeg`.
+    /// Media type: `image/png` or `image/jpeg`.
     pub media_type: &'static str,
-    /// The encoded picture.
+    /// Encoded picture.
     pub bytes: Vec<u8>,
 }
 
-/// A card a sample, and how many there are.
+/// Number of samples, with a card for each.
 pub(super) fn section(report: &Report<'_>) -> Option<(usize, Markup)> {
     let pictures: BTreeMap<(usize, &str), &Picture> = report
         .pictures

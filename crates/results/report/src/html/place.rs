@@ -1,4 +1,4 @@
-//! Truth and prediction of a sample seen from above, in one circle a sensor.
+//! Truth and prediction of a sample seen from above, in a circle per sensor.
 
 use maud::Markup;
 
@@ -9,12 +9,12 @@ use crate::figures::SIX;
 use crate::number::numeral;
 use taceva_results::Samples;
 
-/// The side of the picture, in its own units.
+/// Side of the picture, in its own units.
 const SIZE: f64 = 160.0;
-/// The length of the greatest shear force.
+/// Length of the greatest shear force.
 const LONGEST: f64 = 34.0;
 
-/// The scale of the places of one sensor.
+/// Scale of the positions of one sensor.
 pub(super) struct Place {
     study: usize,
     reach_mm: f64,
@@ -22,7 +22,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// A scale that holds every true place and the predicted ones of `picks`; none where a channel of the plane is missing.
+    /// Scale that contains all true positions, and the predicted ones of `picks`; `None` if a channel of the plane is missing.
     pub(super) fn of(samples: &Samples, picks: &[Pick], study: usize) -> Option<Place> {
         let greatest = |names: [&str; 2]| {
             let channels = names.into_iter().filter_map(|name| samples.channel(name));
@@ -46,7 +46,7 @@ impl Place {
         })
     }
 
-    /// The circle with both places; nothing where one is not known.
+    /// Circle with both positions; empty if one is unknown.
     pub(super) fn draw(&self, samples: &Samples, pick: &Pick) -> Markup {
         let pair = |name: &str| samples.channel(name)?.pair(pick.row);
         let (Some([true_x, predicted_x]), Some([true_y, predicted_y])) =

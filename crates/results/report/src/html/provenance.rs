@@ -1,4 +1,4 @@
-//! From what, and how.
+//! Provenance section.
 
 use std::collections::BTreeSet;
 
@@ -30,7 +30,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     }
 }
 
-/// Of a run's recording other metrics are formed from the presses of the other parts.
+/// Renames left-out samples, which belong to other parts of the protocol and supply other metrics.
 fn of_parts(term: &str, text: &str) -> String {
     match term {
         "samples" => text.replace("left_out ", "of other parts of the protocol "),

@@ -1,4 +1,4 @@
-//! Scores beside what was published of the same sensor, where both are defined alike.
+//! Scores beside published numbers of the same sensor and definition.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -11,8 +11,8 @@ use crate::markup::{heads, right_heads, scroll};
 use crate::number::{minus, spaced, with_interval};
 use crate::results::Study;
 
-/// How far the order of the sensors here agrees with the published one, in a sentence; `None` where no score of two sensors was published under
-/// the same definition.
+/// Sentence on the agreement of the sensors' order with the published one; `None` without published scores of two sensors under the same
+/// definition.
 pub(super) fn order(studies: &[Study]) -> Option<String> {
     let mut values: BTreeMap<(&str, &str), Vec<[f64; 2]>> = BTreeMap::new();
     for study in studies.iter().filter(|study| study.source != "published") {
@@ -53,7 +53,7 @@ pub(super) fn order(studies: &[Study]) -> Option<String> {
     })
 }
 
-/// The number of published values, and their table; `None` where no value of these sensors was published under the same definition.
+/// Number of published values, with their table; `None` without published values under the same definition.
 pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
     let mut rows: Vec<Markup> = Vec::new();
     for study in studies.iter().filter(|study| study.source != "published") {
@@ -117,7 +117,7 @@ mod tests {
         let reversed = order_of([("GelSightWM", 0.3), ("GelSight", 0.2), ("ViTacTip", 0.1)]);
         let words = reversed.expect("three are published");
         assert!(words.contains("in 0 of 3 pairs") && words.contains("τ −1.00"));
-        // One sensor has no order, and what was never published is in none.
+        // One sensor has no order, and an unpublished sensor takes no part in one.
         assert_eq!(order(&[study("GelSight", 0.1)]), None);
         assert_eq!(order(&[study("GelSight", 0.1), study("mine", 0.2)]), None);
     }

@@ -1,4 +1,4 @@
-//! What was studied, in a sentence or two.
+//! Summary of the studied sensors in a sentence or two.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +6,7 @@ use crate::markup::counted;
 use crate::names::{listed, names};
 use crate::results::Study;
 
-/// How many sensors, presses and points, which channels, and by which model; plain text.
+/// Plain sentence on the number of sensors, presses and points, the channels, and the model.
 pub(super) fn studied(studies: &[Study]) -> String {
     let mut out = format!(
         "{}: {}.",
@@ -51,7 +51,7 @@ pub(super) fn studied(studies: &[Study]) -> String {
     out
 }
 
-/// `400`, or `380 to 400` where studies differ; `None` where it is not known.
+/// `400`, or `380 to 400` if studies differ; `None` if unknown.
 pub(super) fn span(studies: &[Study], of: impl Fn(&Study) -> Option<usize>) -> Option<String> {
     let known: Vec<usize> = studies.iter().filter_map(of).collect();
     let (least, most) = (known.iter().min()?, known.iter().max()?);
@@ -61,7 +61,7 @@ pub(super) fn span(studies: &[Study], of: impl Fn(&Study) -> Option<usize>) -> O
     })
 }
 
-/// The contact points of a study, where its samples are at hand.
+/// Number of contact points of a study; `None` without samples.
 pub(super) fn points(study: &Study) -> Option<usize> {
     let samples = study.samples.as_ref()?;
     let rows = 0..samples.rows();
@@ -71,7 +71,7 @@ pub(super) fn points(study: &Study) -> Option<usize> {
     (!points.is_empty()).then_some(points.len())
 }
 
-/// A count above zero.
+/// A count above zero; `None` for zero.
 pub(super) fn whole(count: u64) -> Option<usize> {
     usize::try_from(count).ok().filter(|count| *count > 0)
 }

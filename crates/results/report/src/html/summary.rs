@@ -1,4 +1,4 @@
-//! The results in words.
+//! Summary of the results in words.
 
 use maud::{Markup, html};
 
@@ -14,12 +14,12 @@ use crate::spread;
 use crate::tie::{best, tie};
 use taceva_results::Score;
 
-/// The subtitle.
+/// Subtitle.
 pub(crate) fn lead(studies: &[Study]) -> Markup {
     html! { p.lead { (listed(&names(studies))) } (badge(studies)) }
 }
 
-/// Whether anything was measured at all; nothing where everything was.
+/// Badge for simulated samples; empty if everything was measured.
 pub(crate) fn badge(studies: &[Study]) -> Markup {
     let simulated = studies.iter().filter(|study| study.is_simulated()).count();
     html! {
@@ -54,7 +54,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     html! { ul.verdicts { @for line in &lines { (line) } } "\n" }
 }
 
-/// The verdict, and the effect of light on scores of lighting.
+/// Verdict, followed by the effect of light for lighting scores.
 fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Markup> {
     let verdict = match studies {
         [_] => alone(row)?,
@@ -64,7 +64,7 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Marku
     Some(html! { (verdict) @if !light.is_empty() { " " (light) } })
 }
 
-/// The score of a single sensor.
+/// Score of a single sensor.
 fn alone(row: &ScoreRow) -> Option<Markup> {
     let cell = row.cells.first()?.as_ref()?;
     if cell.value.is_none() {
@@ -77,7 +77,7 @@ fn alone(row: &ScoreRow) -> Option<Markup> {
     })
 }
 
-/// Who is best of several sensors.
+/// Verdict on the best of several sensors.
 fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Markup> {
     let score = |at: usize| studies.get(at)?.score(&row.metric, &row.channel);
     let known = row.cells.iter().enumerate();
@@ -128,14 +128,14 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
     Some(html! { (name) " " (verdict) ", with " (value) (spread) "." (beside) })
 }
 
-/// A cell that has a value.
+/// Cell with a value.
 struct Known<'a> {
     at: usize,
     cell: &'a ScoreCell,
     value: f64,
 }
 
-/// Those that have no value: ` No value: GelSightWM.`
+/// Sensors without a value: ` No value: GelSightWM.`
 fn without(row: &ScoreRow, table: &ScoreTable) -> String {
     let missing = row.cells.iter().zip(&table.names);
     let missing = missing.filter(|(cell, _)| cell.as_ref().is_none_or(|cell| cell.value.is_none()));
@@ -146,7 +146,7 @@ fn without(row: &ScoreRow, table: &ScoreTable) -> String {
     }
 }
 
-/// Those whose value claims nothing, and why: ` Takes no part: GelSightWM (no skill).`
+/// Sensors without a part in verdicts, with the reason: ` No part in verdicts: GelSightWM (no skill).`
 fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
     let barred = known.iter().filter(|known| !known.cell.takes_part());
     let barred: Vec<String> = barred
@@ -161,7 +161,7 @@ fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
     }
 }
 
-/// Those that the best is not shown to be better than.
+/// Sensors that the best is not significantly better than.
 fn rivals(best: usize, known: &[Known<'_>], table: &ScoreTable, row: &ScoreRow) -> String {
     let loses = |at: usize| {
         table.answers.iter().any(|answer| {

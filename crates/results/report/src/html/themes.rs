@@ -1,4 +1,4 @@
-//! Scores and figures that are read together, theme by theme, each folded.
+//! Scores and figures by theme, each theme folded.
 
 use maud::{Markup, html};
 use taceva_metrics::{Theme, catalogue};
@@ -9,16 +9,16 @@ use crate::figure::Figure;
 use crate::markup::{counted, fold};
 use crate::scores::{ScoreRow, ScoreTable};
 
-/// Section of a page: a theme of the catalogue, or the labels alone.
+/// Section of a page: a theme of the catalogue, or the label distributions.
 struct Section {
     id: &'static str,
     title: &'static str,
     theme: Option<Theme>,
-    /// What the ids of its figures begin with.
+    /// Prefixes of the ids of its figures.
     figures: &'static [&'static str],
 }
 
-/// Every section, in the order of reports; what belongs to none of them comes last.
+/// Sections in report order; anything else follows them.
 const SECTIONS: [Section; 6] = [
     Section {
         id: "asked",
@@ -55,7 +55,7 @@ const fn of_theme(theme: Theme, figures: &'static [&'static str]) -> Section {
     }
 }
 
-/// Every score that is no variant and every figure but the radars, theme by theme, and all rows at the end.
+/// All headline scores and all figures except radars, by theme, followed by all rows.
 pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Markup {
     let headlines = table.headlines();
     let (mut rows_left, mut figures_left): (Vec<&ScoreRow>, Vec<&Figure>) = (
@@ -117,7 +117,7 @@ impl Section {
     }
 }
 
-/// The fold of a theme; `None` where it has neither rows nor figures.
+/// Fold of a theme; `None` without rows and figures.
 fn one(
     id: &str,
     title: &str,

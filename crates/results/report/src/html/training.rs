@@ -1,4 +1,4 @@
-//! Training behind the results of several sensors: places learnt, and unequal models.
+//! Training behind the results of several sensors: number of places, and unequal models.
 
 use std::collections::BTreeSet;
 
@@ -7,10 +7,10 @@ use taceva_metrics::catalogue;
 use crate::names::{listed, names};
 use crate::results::Study;
 
-/// Contact places below which twice as many still halve errors, so that a comparison shows the training and not the sensors.
+/// Number of contact places below which doubling them still halves errors. A comparison then reflects the training instead of the sensors.
 pub(super) const LEAST_PLACES: usize = 200;
 
-/// The contact places of a study that its model was fitted or chosen on here; `None` where that is not known.
+/// Number of contact places on which the model of a study was fitted or selected here; `None` if unknown.
 fn places(study: &Study) -> Option<usize> {
     let is_training = |(part, count): &(String, u64)| part == "train" && *count > 0;
     let samples = study.samples.as_ref()?;
@@ -30,19 +30,19 @@ fn places(study: &Study) -> Option<usize> {
     (!points.is_empty()).then_some(points.len())
 }
 
-/// The fewest places that a model of several sensors was fitted or chosen on, where they are too few for a verdict on sensors.
+/// Fewest such places among several sensors, if too few for a verdict on sensors.
 fn too_few(studies: &[Study]) -> Option<usize> {
     let fewest = studies.iter().filter_map(places).min()?;
     (studies.len() > 1 && fewest < LEAST_PLACES).then_some(fewest)
 }
 
-/// Whether `metric` gives no verdict on sensors, since it reads predictions of models that learnt too little.
+/// True if `metric` gives no verdict on sensors, since it uses predictions of insufficiently trained models.
 pub(super) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
     let reads = catalogue::find(metric).is_some_and(|metric| metric.reads_predictions());
     reads && too_few(studies).is_some()
 }
 
-/// A sentence for pages of models that learnt too little.
+/// Sentence for pages of insufficiently trained models.
 pub(super) fn demonstration(studies: &[Study]) -> Option<String> {
     let fewest = too_few(studies)?;
     Some(format!(
@@ -50,9 +50,9 @@ pub(super) fn demonstration(studies: &[Study]) -> Option<String> {
     ))
 }
 
-/// The models of the studies in a sentence, where they are unequal.
+/// Sentence on the models of the studies, if they differ.
 pub(super) fn unequal_models(studies: &[Study]) -> Option<String> {
-    // The best epoch is found by each training, and features are told by size and colour.
+    // The best epoch depends on each training; features are identified by size and colour.
     let is_set = |setting: &&(String, String)| setting.0 != "epoch" && setting.0 != "features";
     let settings = |study: &Study| -> Vec<(String, String)> {
         study.made.settings.iter().filter(is_set).cloned().collect()

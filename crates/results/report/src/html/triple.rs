@@ -1,4 +1,4 @@
-//! What a sensor sees: its gel untouched, pressed, and what is different.
+//! Pictures of a sensor: gel untouched, pressed, and their difference.
 
 use maud::{Markup, html};
 
@@ -6,26 +6,26 @@ use super::data_address::address;
 use crate::names::names;
 use crate::results::Study;
 
-/// Pictures of one sensor, encoded, all of the same size and in the same scale of brightness.
+/// Encoded pictures of one sensor, with equal size and brightness scale.
 #[derive(Clone, Debug)]
 pub struct Triple {
-    /// The position of its study.
+    /// Position of its study.
     pub study: usize,
-    /// What the bytes are: `image/png` or `image/jpeg`.
+    /// Media type: `image/png` or `image/jpeg`.
     pub media_type: &'static str,
-    /// The gel that nothing touches; absent where the recording has no picture of it.
+    /// Untouched gel; `None` if the recording has no such picture.
     pub untouched: Option<Vec<u8>>,
-    /// The gel under a press.
+    /// Gel under a press.
     pub pressed: Vec<u8>,
-    /// Pressed less untouched, enlarged, around mid-grey; absent where `untouched` is.
+    /// Amplified difference, pressed minus untouched, around mid-grey; `None` without `untouched`.
     pub difference: Option<Vec<u8>>,
-    /// How many times the difference is enlarged; 1 without one.
+    /// Amplification of the difference; 1 without one.
     pub gain: f64,
-    /// Which press it is: `Fz 1.8 N, Pz 0.98 mm`.
+    /// Description of the press: `Fz 1.8 N, Pz 0.98 mm`.
     pub words: String,
 }
 
-/// A card a sensor that has pictures; nothing without any.
+/// Card for each sensor with pictures; empty without any.
 pub(crate) fn cards(studies: &[Study], triples: &[Triple]) -> Markup {
     let names = names(studies);
     let known = triples

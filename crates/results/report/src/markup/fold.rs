@@ -1,8 +1,8 @@
-//! Passages that are folded on the screen until a reader opens them, and always open on paper.
+//! Sections that are folded on screen until opened, and always open in print.
 
 use maud::{Markup, html};
 
-/// `body` behind `title`, with what it holds in a few words; `id` is a word.
+/// `body` folded behind `title` and a short description of its content; `id` is a word.
 pub(crate) fn fold(id: &str, title: &str, holds: &str, body: &Markup) -> Markup {
     html! {
         details.fold #(id) {

@@ -1,4 +1,4 @@
-//! The meanings of metrics, from the catalogue of metrics, and links to them.
+//! Glossary of metrics from their catalogue, with links to it.
 
 use std::collections::BTreeSet;
 
@@ -7,8 +7,8 @@ use taceva_metrics::{Better, Metric, ScoreUnit, catalogue};
 
 use super::fold::fold;
 
-/// The metrics that are named in `ids`, in the order of the catalogue: title, meaning, unit, direction and where each is defined. Names of
-/// variants stand for their metric.
+/// Entries of the metrics in `ids`, in catalogue order: title, meaning, unit, direction and definition. Names of variants select their
+/// metric.
 pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     let named: BTreeSet<&str> = ids.map(base).collect();
     let metrics = catalogue::ALL.iter().copied();
@@ -22,24 +22,23 @@ pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     }
 }
 
-/// The same, folded; a link to a metric unfolds it.
+/// Folded glossary, which unfolds on a link to a metric.
 pub(crate) fn folded_glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     let holds = "what each metric means, its unit and its definition";
     fold("glossary", "Glossary", holds, &glossary(ids))
 }
 
-/// The name of a metric or variant as a link to what the metric means, with the sign of its direction; plain where the catalogue does not
-/// know it.
+/// Name of a metric or variant as a link to its glossary entry, with its direction sign; plain text if the catalogue lacks it.
 pub(crate) fn metric_link(id: &str) -> Markup {
     html! { (link(id)) (sign(id)) }
 }
 
-/// A score with its metric as a link: `mae Pz ↓`.
+/// Score with its metric as a link: `mae Pz ↓`.
 pub(crate) fn score_link(id: &str, channel: &str) -> Markup {
     html! { (link(id)) " " (channel) (sign(id)) }
 }
 
-/// ` ↓`, or nothing where the catalogue knows no direction.
+/// ` ↓`, or empty without a known direction.
 fn sign(id: &str) -> String {
     Better::of(id).map_or_else(String::new, |better| better.beside(""))
 }
@@ -54,7 +53,7 @@ fn link(id: &str) -> Markup {
     }
 }
 
-/// `hysteresis` of `hysteresis.ratio`.
+/// Metric of a variant: `hysteresis` of `hysteresis.ratio`.
 fn base(id: &str) -> &str {
     id.split('.').next().unwrap_or_default()
 }

@@ -1,28 +1,28 @@
-//! Parts that many pages have: boxes that scroll, heads of tables, lists of terms, and filters.
+//! Parts common to many pages: scrolling boxes, table heads, term lists, and filters.
 
 use maud::{Markup, Render, html};
 
-/// A table in a box that scrolls where the page is too narrow for it; `label` is its name for those who do not see it.
+/// Table in a box that scrolls on narrow pages. `label` is its accessible name.
 pub(crate) fn scroll(label: &str, table: &Markup) -> Markup {
     html! { div.scroll tabindex="0" role="group" aria-label=(label) { (table) } "\n" }
 }
 
-/// Heads of columns whose cells stand to the left.
+/// Heads of left-aligned columns.
 pub(crate) fn heads<T: Render>(names: impl IntoIterator<Item = T>) -> Markup {
     html! { @for name in names { th scope="col" { (name) } } }
 }
 
-/// Heads of columns whose cells stand to the right.
+/// Heads of right-aligned columns.
 pub(crate) fn right_heads<T: Render>(names: impl IntoIterator<Item = T>) -> Markup {
     html! { @for name in names { th.r scope="col" { (name) } } }
 }
 
-/// Terms with what is said of each, as they stand in a list of them.
+/// Terms with their descriptions, for a description list.
 pub(crate) fn terms<T: Render, U: Render>(entries: impl IntoIterator<Item = (T, U)>) -> Markup {
     html! { @for (term, words) in entries { dt { (term) } dd { (words) } } }
 }
 
-/// A choice of which rows or cards the page shows, those with the tag of the chosen option; `any` is the option of all.
+/// Filter for rows or cards by the tag of the chosen option; `any` is the option for all.
 pub(crate) fn filter<T: Render, U: Render>(
     label: &str,
     any: &str,

@@ -6,11 +6,11 @@ use taceva_core::shown;
 
 use taceva_results::ResultsError;
 
-/// The schema of every benchmark as JSON; of this one the subject is `models`.
+/// Schema of all benchmarks as JSON; the subject of this one is `models`.
 pub const BENCH_SCHEMA: &str = "taceva.bench/1";
 const SUBJECT: &str = "models";
 
-/// Models that were fitted on one training part and scored on one test part, each with the time it took.
+/// Models fitted on one training part and scored on one test part, with their times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelBench {
@@ -18,94 +18,94 @@ pub struct ModelBench {
     pub schema: String,
     /// `models`.
     pub subject: String,
-    /// Where it ran.
+    /// Machine of the benchmark.
     pub machine: BenchMachine,
-    /// What the models learned from.
+    /// Recording for training and test.
     pub recording: BenchRecording,
-    /// One row for each model, in the order of the benchmark.
+    /// One row per model, in benchmark order.
     pub rows: Vec<ModelRow>,
 }
 
-/// The machine that models ran on: times without it mean nothing.
+/// Machine on which models ran, without which times are meaningless.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BenchMachine {
-    /// The name of the processor, or `unknown`.
+    /// Name of the processor, or `unknown`.
     pub cpu: String,
-    /// Cores that the process may use.
+    /// Number of cores available to the process.
     pub cores: usize,
-    /// Threads that the benchmark used.
+    /// Number of threads used.
     pub threads: usize,
-    /// Instruction sets of the processor for which the program has code of its own, the widest first.
+    /// Processor instruction sets with dedicated code in the program, the widest first.
     pub isa: Vec<String>,
-    /// Programs that wanted a core in the minute before, per core; `None` where the system does not say.
+    /// Load per core over the preceding minute; `None` if the system does not report it.
     pub load: Option<f64>,
 }
 
-/// The recording that models learned from, and how it was divided.
+/// Recording from which models learned, with its split.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BenchRecording {
-    /// Its name.
+    /// Name of the recording.
     pub name: String,
-    /// The sensor model.
+    /// Sensor model.
     pub sensor: String,
-    /// Where the samples come from: `recorded`, `simulated`, `synthetic` or `unknown`.
+    /// Origin of the samples: `recorded`, `simulated`, `synthetic` or `unknown`.
     pub source: String,
-    /// How it was divided: `by-point 70/20/10, seed 0`.
+    /// Split: `by-point 70/20/10, seed 0`.
     pub split: String,
-    /// Samples of the training part.
+    /// Number of training samples.
     pub train: u64,
-    /// Samples of the part that is scored.
+    /// Number of scored samples.
     pub test: u64,
 }
 
-/// One model: its times and its errors.
+/// One model with its times and errors.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelRow {
-    /// Its name in the registry: `ridge`.
+    /// Name in the registry: `ridge`.
     pub model: String,
-    /// Its settings in words; empty for its defaults.
+    /// Settings in words; empty for the defaults.
     #[serde(default)]
     pub settings: String,
-    /// Seconds to fit it, features included.
+    /// Time to fit, features included, s.
     pub fit_s: f64,
-    /// Processor seconds to fit it, features included; `None` where the system does not say, or an older program wrote it.
+    /// Processor time to fit, features included, s; `None` if the system does not report it, or in older files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fit_cpu_s: Option<f64>,
-    /// Seconds to predict the whole test part, features included.
+    /// Time to predict the whole test part, features included, s.
     pub predict_s: f64,
-    /// Seconds from one frame to its prediction, the median over frames taken one by one.
+    /// Median time from one frame to its prediction, for single frames, s.
     pub latency_s: f64,
-    /// The error of each channel on the test part; empty if the model could not be fitted.
+    /// Error of each channel on the test part; empty if the model could not be fitted.
     pub errors: Vec<ChannelError>,
-    /// Why the model could not be fitted or scored.
+    /// Reason that the model could not be fitted or scored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
 }
 
-/// The mean absolute error of one channel.
+/// Mean absolute error of one channel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ChannelError {
-    /// The channel.
+    /// Channel.
     pub channel: String,
-    /// The unit of error and interval.
+    /// Unit of error and interval.
     pub unit: Unit,
-    /// The mean absolute error.
+    /// Mean absolute error.
     pub mae: f64,
-    /// Its 95 % interval by contact point; `None` if there are too few points.
+    /// Interval of 95 % by contact point; `None` with too few points.
     pub ci95: Option<[f64; 2]>,
-    /// How many samples it is computed from.
+    /// Number of samples.
     pub n: u64,
-    /// Models that take less processor time to fit, and than whose errors that of this one is not shown to be smaller.
+    /// Models that need less processor time to fit, and whose error is not shown to be larger.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub beaten_by: Vec<String>,
 }
 
 impl ModelBench {
-    /// A benchmark without a model.
+    /// Benchmark without models.
     pub fn new(machine: BenchMachine, recording: BenchRecording) -> ModelBench {
         ModelBench {
             schema: BENCH_SCHEMA.to_owned(),
@@ -116,10 +116,10 @@ impl ModelBench {
         }
     }
 
-    /// The benchmark in `text`.
+    /// Parses the benchmark in `text`.
     ///
     /// # Errors
-    /// [`ResultsError`] if it is no JSON, of another schema or subject, or holds a time or an error below 0.
+    /// [`ResultsError`] for invalid JSON, another schema or subject, or a negative time or error.
     pub fn read(text: &str) -> Result<ModelBench, ResultsError> {
         let bench: ModelBench = serde_json::from_str(text)?;
         if (bench.schema.as_str(), bench.subject.as_str()) != (BENCH_SCHEMA, SUBJECT) {
@@ -138,18 +138,18 @@ impl ModelBench {
         Ok(bench)
     }
 
-    /// As JSON that [`ModelBench::read`] reads.
+    /// JSON for [`ModelBench::read`].
     pub fn json(&self) -> String {
         let text = serde_json::to_string_pretty(self).expect("names are texts and numbers finite");
         text + "\n"
     }
 
-    /// Whether its samples are simulated or synthetic, so that no real sensor was pressed.
+    /// True if its samples are simulated or synthetic, without a real sensor.
     pub fn is_simulated(&self) -> bool {
         is_simulated(&self.recording.source)
     }
 
-    /// The channels, each once, in the order of the first model that has them.
+    /// Channels in order of first appearance.
     pub fn channels(&self) -> Vec<&str> {
         let mut channels: Vec<&str> = Vec::new();
         for error in self.rows.iter().flat_map(|row| &row.errors) {
@@ -161,19 +161,19 @@ impl ModelBench {
     }
 }
 
-/// Whether no sensor was pressed for samples of this `source`.
+/// True if samples of this `source` involve no real sensor.
 pub(super) fn is_simulated(source: &str) -> bool {
     matches!(source, "simulated" | "synthetic")
 }
 
 impl ModelRow {
-    /// The error of one channel.
+    /// Error of one channel.
     pub fn error(&self, channel: &str) -> Option<&ChannelError> {
         self.errors.iter().find(|error| error.channel == channel)
     }
 
-    /// The channels on whose Pareto front it is: nobody takes less processor time to fit and is, as far as intervals say, as near. `None`
-    /// where no time is known.
+    /// Channels on whose Pareto front the model is: no other needs less processor time to fit and is as accurate within intervals. `None`
+    /// if no time is known.
     pub fn front_of(&self) -> Option<Vec<&str>> {
         self.fit_cpu_s?;
         let errors = self.errors.iter();

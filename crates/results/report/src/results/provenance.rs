@@ -1,10 +1,10 @@
-//! Provenance as lines of a page: a name and a text each.
+//! Provenance as lines of a page, each a name and a text.
 
 use std::fmt::Display;
 
 use taceva_results::{ModelProvenance, Provenance};
 
-/// Every entry of `provenance` but the notes, in the order of the file; empty ones are skipped.
+/// Entries of `provenance` except the notes, in file order. Empty ones are skipped.
 pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
     let text = |text: &Option<String>| text.clone().unwrap_or_default();
     let recordings = provenance.recordings.iter().map(|own| {

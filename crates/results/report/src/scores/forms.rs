@@ -1,4 +1,4 @@
-//! The tables of scores: every number for programs, and those that fit a page for pages and papers.
+//! Forms of score tables: every number for programs, and page-sized tables for pages and papers.
 
 use std::collections::BTreeSet;
 
@@ -11,27 +11,27 @@ use crate::escape::latex as escape;
 use crate::number::numeral;
 use crate::table::{Align, Cell, Column, Direction, Estimate, Row, Table, Words, latex_symbol};
 
-/// The meaning of bold numbers, plain and in LaTeX.
+/// Legend of bold numbers, plain and in LaTeX.
 const BOLD: [&str; 2] = [
     "Bold: better than every other sensor that takes part in verdicts, at a level of 5 % after Holm's adjustment.",
     "Bold: better than every other sensor that takes part in verdicts, at a level of 5\\,\\% after Holm's adjustment.",
 ];
-/// The same where a column has no room for more.
+/// The same, shortened for a column.
 const SHORT_BOLD: [&str; 2] = [
     "Bold: better than every other sensor at a level of 5 % after Holm's adjustment.",
     "Bold: better than every other sensor at a level of 5\\,\\% after Holm's adjustment.",
 ];
-/// The symbol that needs a legend, plain and in LaTeX.
+/// Legend of the repeatability symbol, plain and in LaTeX.
 const REPEATABILITY: [&str; 2] = [
     "σ rep: repeatability.",
     "$\\sigma_{\\mathrm{rep}}$: repeatability.",
 ];
 
-/// Beside a value that takes no part in verdicts, where there is no room for the reason.
+/// Mark of a value that takes no part in verdicts, where the reason does not fit.
 const BARRED: &str = "†";
 
 impl ScoreTable {
-    /// One row for each score and study, for programs: numbers in shortest round-trip form.
+    /// Table for programs with one row per score and study, and numbers in shortest round-trip form.
     pub fn every_number(&self) -> Table {
         let columns = [
             Column::new("sensor"),
@@ -62,7 +62,7 @@ impl ScoreTable {
         table
     }
 
-    /// One row for each score and one column for each study, for pages: values with intervals, bold where one is shown to be better than all others of its row.
+    /// Table for pages with one row per score and one column per study: values with intervals, and a bold significantly best value.
     pub fn for_pages(&self) -> Table {
         let columns = ["metric", "channel", "unit"].map(Column::new);
         let [metric, channel, unit] = columns;
@@ -86,7 +86,7 @@ impl ScoreTable {
         table
     }
 
-    /// The same for papers: in the symbols of the field, intervals below the values.
+    /// Table for papers: symbols of the field, and intervals below the values.
     pub fn for_papers(&self, caption: &str) -> Table {
         let [metric, channel, unit] = ["metric", "channel", "unit"].map(Column::new);
         let metric = metric.direction(Direction::OfRows);
@@ -122,7 +122,7 @@ impl ScoreTable {
         table
     }
 
-    /// The main rows for a column of a paper: one line a score, at most three digits, no intervals.
+    /// Main rows for a column of a paper: one line per score, at most three digits, no intervals.
     pub fn for_column(&self, caption: &str) -> Table {
         let main = self.main();
         let mut table = main.of_studies([Column::new("").direction(Direction::OfRows)]);
@@ -167,7 +167,7 @@ impl ScoreTable {
         table
     }
 
-    /// A table with these columns and one for each study.
+    /// Table with these columns and one for each study.
     fn of_studies<const N: usize>(&self, columns: [Column; N]) -> Table {
         let studies = self.names.iter();
         let studies = studies.map(|name| Column::new(name.as_str()).align(Align::Right));
@@ -177,7 +177,7 @@ impl ScoreTable {
 }
 
 impl ScoreRow {
-    /// The numbers of the study `name`, in the order of the columns for programs.
+    /// Numbers of the study `name`, in the column order for programs.
     fn numbers(&self, name: &str, source: &str, cell: &ScoreCell) -> [Cell; 15] {
         let number = |value: Option<f64>| {
             Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
@@ -202,7 +202,7 @@ impl ScoreRow {
     }
 }
 
-/// A value with its interval, or why there is none.
+/// Value with its interval, or the reason that it is absent.
 fn estimate(cell: Option<&ScoreCell>) -> Cell {
     Cell::Estimate(cell.map_or_else(Estimate::default, |cell| Estimate {
         formatted: cell.formatted.clone(),
@@ -212,7 +212,7 @@ fn estimate(cell: Option<&ScoreCell>) -> Cell {
     }))
 }
 
-/// The same without why: a paper has no room for it.
+/// Value with its interval, without a reason for its absence, for lack of room in a paper.
 fn without_reason(cell: Option<&ScoreCell>) -> Cell {
     match estimate(cell) {
         Cell::Estimate(mut estimate) => {
@@ -223,12 +223,12 @@ fn without_reason(cell: Option<&ScoreCell>) -> Cell {
     }
 }
 
-/// Whether a cell has a value that claims nothing.
+/// True for a value that takes no part in verdicts.
 fn is_barred(cell: &ScoreCell) -> bool {
     cell.value.is_some() && !cell.takes_part()
 }
 
-/// A value with at most three digits: a column has no room for more, and the long table has them.
+/// Value with at most three digits, to fit a column.
 fn short(cell: Option<&ScoreCell>) -> Cell {
     let value = cell.and_then(|cell| cell.value).map(numeral);
     let mut short = Estimate {

@@ -1,8 +1,8 @@
-//! The few scores that a paper shows first.
+//! Main scores of a paper.
 
 use super::{ScoreRow, ScoreTable};
 
-/// The metrics that are shown, in their order.
+/// Metrics shown, in order.
 const METRICS: [&str; 9] = [
     "mae",
     "r2",
@@ -14,12 +14,12 @@ const METRICS: [&str; 9] = [
     "repeatability",
     "hysteresis",
 ];
-/// Metrics that are shown of depth and normal force alone: rows of planes would repeat them.
+/// Metrics limited to depth and normal force, as rows of planes would repeat them.
 const OF_NORMAL: [&str; 3] = ["r_spatial", "r_light", "repeatability"];
 
 impl ScoreTable {
-    /// The rows that a paper shows first: accuracy by plane and normal, detail, sensitivity, and robustness of depth and normal force. Where
-    /// channels have other names, all of the same metrics.
+    /// Main rows of a paper: accuracy by plane and normal, detail, sensitivity, and robustness of depth and normal force. If channels have
+    /// other names, all rows of these metrics.
     #[must_use]
     pub fn main(&self) -> ScoreTable {
         let headlines = self.headlines();

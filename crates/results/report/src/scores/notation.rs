@@ -1,10 +1,10 @@
-//! Metrics as papers of the field write them.
+//! Metrics in the notation of papers.
 
 use taceva_metrics::catalogue;
 
 use crate::escape::latex as escape;
 
-/// A metric as LaTeX: `MAE`, `$R^2$`; a variant after it, and what has no symbol as it is.
+/// Metric in LaTeX: `MAE`, `$R^2$`, followed by its variant. A metric without symbol keeps its name.
 pub(super) fn metric(id: &str) -> String {
     let (base, variant) = match id.split_once('.') {
         Some((base, variant)) => (base, format!(", {}", escape(variant))),

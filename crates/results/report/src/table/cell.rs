@@ -1,43 +1,43 @@
-//! What stands in a cell of a table.
+//! Cells of a table.
 
 use super::Words;
 use super::latex::number;
 use crate::escape;
 use crate::number::FormattedValue;
 
-/// A cell of a table.
+/// Cell of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cell {
-    /// Words, however much they look like a number.
+    /// Words, even if they look like a number.
     Text(Words),
-    /// A number as it is printed.
+    /// Number as printed.
     Number(String),
-    /// A value with its interval.
+    /// Value with its interval.
     Estimate(Estimate),
-    /// Whether a limit is kept.
+    /// Result of a limit; true if it is met.
     Verdict(bool),
 }
 
-/// A value with its interval and what must be known of it.
+/// Value with its interval and a remark.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Estimate {
-    /// Value and interval, or why there is none.
+    /// Value and interval, or the reason that they are absent.
     pub formatted: FormattedValue,
-    /// The unit of this cell; empty where the table says it elsewhere or there is none.
+    /// Unit of this cell; empty if stated elsewhere, or for a ratio.
     pub unit: String,
-    /// What a reader must know of it.
+    /// Remark for readers.
     pub remark: Option<String>,
-    /// Whether it is shown to be better than all others of its row.
+    /// True if significantly better than all others of its row.
     pub is_best: bool,
 }
 
 impl Cell {
-    /// Words, even if they look like a number.
+    /// Cell of words, even if they look like a number.
     pub fn text(words: impl Into<Words>) -> Cell {
         Cell::Text(words.into())
     }
 
-    /// What it says, without markup.
+    /// Text without markup.
     pub fn plain(&self) -> String {
         match self {
             Cell::Text(words) => words.plain().to_owned(),
@@ -48,7 +48,7 @@ impl Cell {
         }
     }
 
-    /// The same, as each format writes it.
+    /// Words of the cell, as each format writes them.
     pub(super) fn words(&self) -> Words {
         match self {
             Cell::Text(words) => words.clone(),
@@ -59,7 +59,7 @@ impl Cell {
         }
     }
 
-    /// What LaTeX sets below it in small letters.
+    /// Second line in LaTeX, in small letters.
     pub(super) fn latex_below(&self) -> Option<String> {
         match self {
             Cell::Estimate(estimate) => Some(estimate.latex_below()),
@@ -71,7 +71,7 @@ impl Cell {
         matches!(self, Cell::Number(_))
     }
 
-    /// Whether it says nothing.
+    /// True for an empty cell.
     pub(super) fn is_blank(&self) -> bool {
         matches!(self.plain().as_str(), "" | "–")
     }
@@ -143,7 +143,7 @@ impl Estimate {
     }
 }
 
-/// A number where the text is one, else words.
+/// Converts a numeric text to a number, and any other text to words.
 impl From<String> for Cell {
     fn from(text: String) -> Cell {
         match text.replace('−', "-").parse::<f64>() {

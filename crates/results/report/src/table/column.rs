@@ -1,60 +1,60 @@
-//! What a column of a table holds.
+//! Columns of a table.
 
 use taceva_metrics::Better;
 
 use super::Words;
 
-/// A column: what its cells are, in which unit, and whether lower or higher ones are better.
+/// Column: name, unit, better direction and alignment.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Column {
-    /// Its name.
+    /// Name.
     pub name: Words,
-    /// Their unit, where all have the same.
+    /// Common unit of the cells.
     pub unit: Option<String>,
-    /// Whether lower or higher ones are better.
+    /// Better direction of the cells.
     pub direction: Direction,
-    /// On which side they stand.
+    /// Alignment of the cells.
     pub align: Align,
 }
 
-/// Whether lower or higher numbers are better; people read a sign, programs a word.
+/// Better direction of numbers; a sign for readers, a word for programs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
     /// The cells are no scores.
     #[default]
     None,
-    /// All of the column alike: people find the sign in the head; programs know the column by its name.
+    /// Same direction for the whole column: a sign in the head for readers; programs know the column by its name.
     Is(Better),
-    /// Row by row, as the metric or variant says that the cell of this column names: people find the sign behind it, programs the word in a
-    /// column `better` beside it.
+    /// Direction by the metric or variant named in this column: a sign behind the name for readers, a word in a further column `better` for
+    /// programs.
     OfMetrics,
-    /// The same, as [`Row::better`](super::Row::better) says.
+    /// Direction by [`Row::better`](super::Row::better), shown in the same way.
     OfRows,
 }
 
-/// On which side cells stand.
+/// Alignment of cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Align {
-    /// To the right where the column holds numbers only.
+    /// Right-aligned if the column holds only numbers.
     #[default]
     Auto,
-    /// To the left.
+    /// Left-aligned.
     Left,
-    /// To the right.
+    /// Right-aligned.
     Right,
-    /// In plain text each number to the right and other cells to the left; elsewhere as [`Align::Auto`].
+    /// In plain text, numbers right-aligned and other cells left-aligned; otherwise as [`Align::Auto`].
     ByCell,
 }
 
 impl Direction {
-    /// Whether each row has its own.
+    /// True if each row has its own direction.
     pub(super) fn is_by_row(self) -> bool {
         matches!(self, Direction::OfMetrics | Direction::OfRows)
     }
 }
 
 impl Column {
-    /// A column without unit and direction.
+    /// Column without unit and direction.
     pub fn new(name: impl Into<Words>) -> Column {
         Column {
             name: name.into(),
@@ -62,12 +62,12 @@ impl Column {
         }
     }
 
-    /// A column of names of metrics or variants.
+    /// Column for names of metrics or variants.
     pub fn of_metrics() -> Column {
         Column::new("metric").direction(Direction::OfMetrics)
     }
 
-    /// The same with a unit.
+    /// Sets the unit.
     #[must_use]
     pub fn unit(self, unit: impl Into<String>) -> Column {
         Column {
@@ -76,13 +76,13 @@ impl Column {
         }
     }
 
-    /// The same with a direction.
+    /// Sets the direction.
     #[must_use]
     pub fn direction(self, direction: Direction) -> Column {
         Column { direction, ..self }
     }
 
-    /// The same on another side.
+    /// Sets the alignment.
     #[must_use]
     pub fn align(self, align: Align) -> Column {
         Column { align, ..self }
@@ -96,7 +96,7 @@ impl Column {
         }
     }
 
-    /// The head as people read it, with the sign of its direction.
+    /// Head for readers, with its direction sign.
     pub(super) fn head(&self) -> Words {
         let words = match &self.unit {
             Some(_) => Words::new(self.title()),

@@ -1,4 +1,4 @@
-//! Tables of pages.
+//! Tables of HTML pages.
 
 use maud::{Markup, html};
 
@@ -6,13 +6,13 @@ use super::{Cell, Column, Direction, Row, Table};
 use crate::escape;
 use crate::markup::{metric_link, scroll};
 
-/// Letters of a cell that is broken into lines on a page.
+/// Length of a cell, in characters, above which a page wraps it.
 const LONG: usize = 28;
-/// Letters of a cell that is broken into long lines: short ones would make a tower of it.
+/// Length of a cell, in characters, above which it wraps into wide lines instead of a narrow tower.
 const VERY_LONG: usize = 70;
 
 impl Table {
-    /// As a piece of HTML for somebody else's page, such as a notebook: every text is escaped, and what a terminal or a page would obey is replaced.
+    /// HTML fragment for other pages, such as a notebook. Texts are escaped, and control characters are replaced.
     ///
     /// ```
     /// use taceva_report::{Cell, Table};
@@ -24,7 +24,7 @@ impl Table {
         escape::obeyed_replaced(&self.html().into_string())
     }
 
-    /// As a table of a page, that sorts.
+    /// Sortable table of a page.
     pub(crate) fn html(&self) -> Markup {
         self.html_with(|column, row, cell| {
             let better = row.better.filter(|_| column.direction.is_by_row());
@@ -32,7 +32,7 @@ impl Table {
         })
     }
 
-    /// As a table of a page with a glossary: names of metrics are links to what they mean.
+    /// Table of a page with a glossary, to which names of metrics link.
     pub(crate) fn html_with_links(&self) -> Markup {
         self.html_with(|column, _, cell| match (column.direction, cell) {
             (Direction::OfMetrics, cell) => metric_link(&cell.plain()),
@@ -42,9 +42,9 @@ impl Table {
         })
     }
 
-    /// A table whose cells are as `written` makes them.
+    /// Table with cells rendered by `written`.
     fn html_with(&self, written: impl Fn(&Column, &Row, &Cell) -> Markup) -> Markup {
-        // A column without any words takes room from the others.
+        // Columns without words are omitted to save room.
         let has_words = |at: &usize| {
             let mut rows = self.rows.iter();
             rows.any(|row| !row.cells[*at].plain().is_empty())
@@ -70,7 +70,7 @@ impl Table {
         }
     }
 
-    /// The class of the cells of a column: on which side they stand, and how they are broken.
+    /// Class of a column's cells, for alignment and wrapping.
     fn class(&self, column: usize) -> Option<&'static str> {
         let lengths = self.rows.iter().map(|row| &row.cells[column]);
         let lengths = lengths.map(|cell| cell.plain().chars().count());

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::Table;
 
 impl Table {
-    /// As JSON: the rows as objects by the names of the columns, under `schema`.
+    /// JSON with the schema `schema`: rows as objects by column name.
     pub fn json(&self, schema: &str) -> String {
         let (head, rows) = self.for_programs();
         let rows = rows.iter().map(|row| {

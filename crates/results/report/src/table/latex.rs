@@ -3,25 +3,25 @@
 use super::{Row, Table, Words};
 use crate::escape::latex as escape;
 
-/// Letters of all names that a column of a page has room for in the size of its numbers.
+/// Limit of the total letters of column names at the size of the numbers in a page column.
 const LETTERS: usize = 28;
-/// Columns beyond which numbers of a table as wide as a column of a page are set smaller.
+/// Number of columns above which numbers in a page column are set smaller.
 const COLUMNS: usize = 5;
 
-/// How a table is placed on a page of paper.
+/// Placement of a table on a page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Layout {
-    /// As a float with caption and notes.
+    /// Float with caption and notes.
     #[default]
     Float,
-    /// The same, as wide as a column of the page, in small letters.
+    /// Float of one page column's width, in small letters.
     Column,
-    /// The rows alone.
+    /// Rows only.
     Rows,
 }
 
 impl Table {
-    /// As LaTeX with booktabs, placed as `layout` says.
+    /// LaTeX with booktabs, placed by `layout`.
     pub fn latex(&self, layout: Layout) -> String {
         let mut out = String::from("% needs \\usepackage{booktabs}\n");
         if layout == Layout::Rows {
@@ -55,7 +55,7 @@ impl Table {
         out + "\\end{table}\n"
     }
 
-    /// A letter for the side of each column.
+    /// Alignment letter of each column.
     fn sides(&self) -> String {
         let sides = (0..self.columns.len()).map(|column| match self.is_right(column) {
             true => 'r',
@@ -64,7 +64,7 @@ impl Table {
         sides.collect()
     }
 
-    /// The size of numbers in a column of a page.
+    /// Font size of numbers in a page column.
     fn size(&self) -> &'static str {
         match self.columns.len() {
             0..=COLUMNS => "\\footnotesize",
@@ -72,7 +72,7 @@ impl Table {
         }
     }
 
-    /// The size of the heads in a column of a page, where they have no room in that of the numbers.
+    /// Font size of the heads in a page column, reduced if they are too wide at that of the numbers.
     fn size_of_names(&self) -> &'static str {
         let names = self.columns.iter().map(|column| column.name.plain());
         match names.map(|name| name.chars().count()).sum() {
@@ -81,7 +81,7 @@ impl Table {
         }
     }
 
-    /// Heads and rows between the rules of booktabs, the heads in the size `small`.
+    /// Heads and rows between the booktabs rules, with heads in the size `small`.
     fn latex_rows(&self, indent: &str, small: &str) -> String {
         let heads = self.columns.iter().map(|column| {
             let head = column.head().in_latex();
@@ -110,7 +110,7 @@ fn line(indent: &str, cells: &[String]) -> String {
     format!("{indent}{} \\\\\n", cells.join(" & "))
 }
 
-/// The line below a row that has intervals.
+/// Line below a row with intervals.
 fn below(indent: &str, row: &Row) -> String {
     let cells: Vec<Option<String>> = row.cells.iter().map(|cell| cell.latex_below()).collect();
     if cells.iter().flatten().all(String::is_empty) {
@@ -125,7 +125,7 @@ fn below(indent: &str, row: &Row) -> String {
     format!("{indent}{} {} \\\\\n", " &".repeat(words), rest.join(" & "))
 }
 
-/// A printed number as papers set it: a minus as wide as a plus, and `2.3e-7` with its power of ten; what is no number is escaped.
+/// Number in LaTeX maths: with a proper minus, and `2.3e-7` as a power of ten. Other text is escaped.
 ///
 /// ```
 /// assert_eq!(taceva_report::latex_number("-0.5"), "$-0.5$");
@@ -143,7 +143,7 @@ pub fn number(text: &str) -> String {
     }
 }
 
-/// The symbol of a channel, `Fxy` as `$F_{xy}$`; other names as they are.
+/// Symbol of a channel, `Fxy` as `$F_{xy}$`; other names are escaped.
 ///
 /// ```
 /// assert_eq!(taceva_report::latex_symbol("Fxy"), "$F_{xy}$");

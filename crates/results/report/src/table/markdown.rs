@@ -3,7 +3,7 @@
 use super::{Row, Table, Words};
 
 impl Table {
-    /// As Markdown: the rows, then the notes as paragraphs; the caption is left to whoever places the table.
+    /// Markdown of the rows, followed by the notes as paragraphs. The caption is left to the caller.
     pub fn markdown(&self) -> String {
         let line = |cells: &[Words]| {
             let cells: Vec<String> = cells.iter().map(Words::in_markdown).collect();

@@ -1,4 +1,4 @@
-//! What the renderers share.
+//! Tests common to all renderers.
 
 use maud::Markup;
 

@@ -1,10 +1,10 @@
-//! Words, and how formats write them that do not print them as they stand.
+//! Words with optional spellings for formats.
 
 use taceva_metrics::Better;
 
 use crate::escape;
 
-/// Words of a table; each format escapes them, unless they say how it writes them.
+/// Words of a table. Formats escape them, unless they have their own spelling.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Words {
     plain: String,
@@ -22,7 +22,7 @@ impl Words {
         }
     }
 
-    /// A name in a table, such as `r_spatial`: Markdown prints letters, digits and what joins them as they stand.
+    /// Name in a table, such as `r_spatial`, that Markdown prints unescaped if it consists of letters, digits and joiners.
     pub fn name(plain: impl Into<String>) -> Words {
         let plain = plain.into();
         let is_name =
@@ -33,7 +33,7 @@ impl Words {
         }
     }
 
-    /// The same, set in LaTeX as `latex`.
+    /// Sets the LaTeX spelling.
     #[must_use]
     pub fn latex(self, latex: impl Into<String>) -> Words {
         Words {
@@ -42,7 +42,7 @@ impl Words {
         }
     }
 
-    /// The same, set in Markdown as `markdown`.
+    /// Sets the Markdown spelling.
     #[must_use]
     pub fn markdown(self, markdown: impl Into<String>) -> Words {
         Words {
@@ -51,12 +51,12 @@ impl Words {
         }
     }
 
-    /// The words as they were given.
+    /// Words as given.
     pub fn plain(&self) -> &str {
         &self.plain
     }
 
-    /// With the sign of a direction behind them, unless there are none.
+    /// Appends the sign of a direction, unless the words are empty.
     pub(super) fn directed(self, better: Option<Better>) -> Words {
         match better {
             Some(better) if !self.plain.is_empty() => Words {

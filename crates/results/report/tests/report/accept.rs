@@ -32,7 +32,7 @@ fn study() -> Study {
     support::study(&json)
 }
 
-/// What becomes of one limit of a metric and a channel.
+/// Finding for one limit of a metric and a channel.
 fn held(metric: &str, channel: &str, unit: &str, limit: &str) -> Finding {
     let text = format!(
         "limits_version = 1\n[[limit]]\nmetric = {metric:?}\nchannel = {channel:?}\nunit = {unit:?}\n{limit}\n"
@@ -41,7 +41,7 @@ fn held(metric: &str, channel: &str, unit: &str, limit: &str) -> Finding {
     accept(&study(), &limits).remove(0)
 }
 
-/// Beside a value that keeps to a limit which its interval does not.
+/// Remark for a value within the limit whose interval crosses it.
 const BY_VALUE: &str = "kept by the value alone: its interval reaches across the limit";
 
 fn is_kept(limit: &str) -> bool {

@@ -53,7 +53,7 @@ impl Opened {
     }
 }
 
-/// Whether an address is that of the page itself: it asks for nothing else.
+/// True if the URL belongs to the page itself, which makes no other requests.
 fn is_report(url: &str) -> bool {
     url.starts_with("data:") || (url.starts_with("file:") && url.ends_with("/report.html"))
 }

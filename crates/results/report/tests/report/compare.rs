@@ -1,11 +1,11 @@
-//! What a comparison says of drawn scores: who is better, than whom, in which words, and in lines and rows that a reader keeps up with.
+//! Comparisons of drawn scores: the better sensor, the words, and lines and rows of readable length.
 
 use crate::support;
 use serde_json::{Value, json};
 use taceva_report::{CompareRequest, Comparison, OVERVIEW_LINES, Study, compare, figures};
 use taceva_results::Samples;
 
-/// A score with the standard error `error` over twenty clusters.
+/// Score with the standard error `error` over twenty clusters.
 fn score(value: f64, error: f64, unit: &str) -> Value {
     json!({
         "value": value, "unit": unit, "n": 80, "ci95": [value - 2.0 * error, value + 2.0 * error],

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::support::drawn;
 use taceva_report::{Layout, ScoreTable, Study, figures};
 
-/// How far numbers may lie apart: other machines round the last place of a sine otherwise.
+/// Tolerance of numbers, as machines round the last place of a sine differently.
 const NEAR: f64 = 0.11;
 
 fn studies() -> [Study; 2] {

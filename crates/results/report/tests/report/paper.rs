@@ -5,15 +5,15 @@ use std::process::Command;
 
 use taceva_needs::{Need, skip};
 
-/// What a table needs around it; the paper is wide enough for every one.
+/// LaTeX preamble for a table, on paper wide enough for all tables.
 const HEAD: &str = "\\documentclass{article}\n\\usepackage{booktabs}\n\
                     \\pdfpagewidth=60cm\n\\textwidth=55cm\n\\begin{document}\n";
 
-/// As papers of two columns are set: a column is 252 pt wide.
+/// Preamble of a two-column paper, with columns 252 pt wide.
 const COLUMNS: &str = "\\documentclass[10pt,twocolumn]{article}\n\\usepackage{booktabs}\n\
                        \\textwidth=516pt\n\\columnsep=12pt\n\\oddsidemargin=-20pt\n\\begin{document}\n";
 
-/// Fails unless `pdflatex` makes a page of `table` without an error; says so and goes on where there is none.
+/// Fails unless `pdflatex` compiles `table` without an error. Skips the check without `pdflatex`.
 pub(crate) fn assert_compiles(name: &str, table: &str) {
     compile(name, HEAD, table);
 }
@@ -26,7 +26,7 @@ pub(crate) fn assert_fits_a_column(name: &str, table: &str) {
     }
 }
 
-/// What `pdflatex` says of `table` behind `head`; `None` where there is none.
+/// Log of `pdflatex` for `table` behind `head`; `None` if it is not installed.
 fn compile(name: &str, head: &str, table: &str) -> Option<String> {
     let folder = tempfile::tempdir().expect("a folder");
     let text = format!("{head}{table}\\end{{document}}\n");

@@ -1,10 +1,10 @@
-//! What a PDF holds, read without a library that could be as wrong as the one that wrote it.
+//! Reads PDF files without a library, which might share errors with the writer.
 
-/// The objects of a file, in order, each from its number to `endobj`.
+/// Objects of a file, in order, each from its number to `endobj`.
 pub(crate) struct Pdf(Vec<Vec<u8>>);
 
 impl Pdf {
-    /// Reads `file`, and fails if its table does not say where its objects are.
+    /// Reads `file`. Fails if its cross-reference table does not match its objects.
     pub(crate) fn read(file: &[u8]) -> Pdf {
         assert!(file.starts_with(b"%PDF-1.5"), "the version");
         let end = String::from_utf8_lossy(&file[file.len() - 40..]).into_owned();
@@ -25,7 +25,7 @@ impl Pdf {
         Pdf(objects.collect())
     }
 
-    /// What an object says beside its stream.
+    /// Object dictionaries, without their streams.
     pub(crate) fn dictionaries(&self) -> Vec<String> {
         let heads = self.0.iter().map(|object| {
             let end = position(object, b"stream\n").unwrap_or(object.len());
@@ -34,7 +34,7 @@ impl Pdf {
         heads.collect()
     }
 
-    /// What the streams hold; fails if one is not compressed.
+    /// Decompressed streams. Fails if one is not compressed.
     pub(crate) fn streams(&self) -> Vec<Vec<u8>> {
         let mut streams = Vec::new();
         for object in &self.0 {
@@ -45,7 +45,7 @@ impl Pdf {
             assert!(head.contains("/Filter /FlateDecode"), "{head}");
             let stream = &object[begin + b"stream\n".len()..];
             let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(stream);
-            // Behind the stream stands its end, which is no part of it.
+            // The decoder ignores `endstream` behind the compressed data.
             streams.push(bytes.expect("a whole stream"));
         }
         streams
@@ -77,7 +77,7 @@ impl Pdf {
     }
 }
 
-/// Where `needle` begins first.
+/// Offset of the first occurrence of `needle`.
 fn position(bytes: &[u8], needle: &[u8]) -> Option<usize> {
     bytes
         .windows(needle.len())

@@ -24,7 +24,7 @@ fn compared(studies: &[Study]) -> Comparison {
     compare(studies, &CompareRequest::default())
 }
 
-/// What the page says first, without markup.
+/// First verdicts of the page, without markup.
 fn summary(studies: &[Study]) -> String {
     let page = report(&Report {
         title: "drawn",

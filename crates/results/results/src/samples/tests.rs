@@ -1,4 +1,4 @@
-//! What tables of samples hold, and refuse.
+//! Tests of accepted and rejected tables of samples.
 
 use super::*;
 

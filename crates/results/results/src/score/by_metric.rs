@@ -1,4 +1,4 @@
-//! Scores as `{"mae": {"Fz": …}}`: those of a metric side by side.
+//! Scores as `{"mae": {"Fz": …}}`, grouped by metric.
 
 use serde::de::{Deserialize, Deserializer};
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -9,7 +9,7 @@ use crate::ordered::Ordered;
 /// Writes scores as objects by metric and channel, for `#[serde(with = "…")]`.
 ///
 /// # Errors
-/// Those of the serializer.
+/// Errors of the serializer.
 pub fn serialize<S: Serializer>(scores: &[Score], serializer: S) -> Result<S::Ok, S::Error> {
     let mut metrics = serializer.serialize_map(None)?;
     for of_one in scores.chunk_by(|left, right| left.metric == right.metric) {
@@ -26,10 +26,10 @@ impl Serialize for ByChannel<'_> {
     }
 }
 
-/// Reads what [`serialize`] writes.
+/// Reads the output of [`serialize`].
 ///
 /// # Errors
-/// Those of the deserializer.
+/// Errors of the deserializer.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Score>, D::Error> {
     let metrics: Ordered<Ordered<Score>> = Ordered::deserialize(deserializer)?;
     let mut scores = Vec::new();

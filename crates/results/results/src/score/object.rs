@@ -1,4 +1,4 @@
-//! Keys of a score and of a variant in JSON.
+//! JSON keys of scores and variants.
 
 use std::fmt;
 
@@ -166,7 +166,7 @@ impl<'de> Visitor<'de> for ScoreVisitor {
     }
 }
 
-/// Keys of a score or variant, each absent where the object lacks it.
+/// Keys of a score or variant; `None` if the object lacks one.
 #[derive(Default)]
 struct Keys {
     value: Option<f64>,
@@ -216,7 +216,7 @@ enum Counts {
     Named(Ordered<u64>),
 }
 
-/// Ends of an interval, or the reason why there are none.
+/// Ends of an interval, or the reason for their absence.
 #[derive(serde::Deserialize)]
 #[serde(untagged, expecting = "two ends or a reason")]
 enum Ends {
@@ -254,7 +254,7 @@ impl Keys {
             "flags" => self.flags = map.next_value()?,
             "standing" => self.standing = map.next_value::<Words>()?.0,
             "bounded_share" => self.bounded_share = Some(map.next_value()?),
-            // The catalogue states the direction.
+            // The direction comes from the catalogue instead.
             "better" => drop(map.next_value::<String>()?),
             _ => {
                 let Score {
@@ -274,7 +274,7 @@ impl Keys {
         Ok(())
     }
 
-    /// The score, of no metric and channel yet.
+    /// Score, with metric and channel left empty.
     fn score<E: Error>(mut self) -> Result<Score, E> {
         let interval = self.interval();
         let counts = match self.counts.take() {
@@ -363,7 +363,7 @@ impl Keys {
             let columns = std::mem::take(&mut self.columns);
             let values = match values {
                 Some(Values::Grid(values)) => values,
-                // A list without an item is either.
+                // An empty list fits both.
                 Some(Values::Levels(values)) if values.is_empty() => Vec::new(),
                 _ => return Err(shape()),
             };
@@ -380,7 +380,7 @@ impl Keys {
     }
 }
 
-/// Whether `grid` has one cell between each two edges of `x` and of `y`.
+/// True if `grid` has one cell between each two edges of `x` and of `y`.
 fn fills<T>(grid: &[Vec<T>], x: &[f64], y: &[f64]) -> bool {
     grid.len() + 1 == y.len() && grid.iter().all(|row| row.len() + 1 == x.len())
 }
@@ -389,7 +389,7 @@ fn shape<E: Error>() -> E {
     E::custom("expected as many values as there are places for them, found another number")
 }
 
-/// Standing by its words.
+/// Standing, parsed from its words.
 struct Words(Standing);
 
 impl<'de> Deserialize<'de> for Words {

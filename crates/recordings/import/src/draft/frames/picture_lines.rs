@@ -1,9 +1,9 @@
-//! The lines of pictures in cells, arrays and clips of a table.
+//! Frame lines for pictures in cells, arrays and clips of a table.
 
 use super::{Beside, FrameLines};
 use crate::foreign::{PictureColumn, PictureKind};
 
-/// The lines of `picture`, and of the `others` in the same table.
+/// Frame lines of `picture`, with a comment on the `others` in the same table.
 pub(super) fn in_array(
     picture: &PictureColumn,
     beside: Option<Beside>,
@@ -62,7 +62,7 @@ pub(super) fn in_array(
     }
 }
 
-/// The range that pictures of such numbers mostly have: 0 to 1, −1 to 1 or 0 to 255.
+/// Usual range of pictures with such numbers: 0 to 1, −1 to 1 or 0 to 255.
 fn guessed_range(least: f64, greatest: f64) -> (f64, f64) {
     match (least, greatest) {
         (least, greatest) if least >= 0.0 && greatest <= 1.0 => (0.0, 1.0),

@@ -40,7 +40,7 @@ fn each_of_several_tables_has_the_array_beside_it_and_of_one_array_the_index_is_
         of(&one, &["frames_00.npy", "frames_01.npy"]),
         ("frames_*.npy".to_owned(), true, false)
     );
-    // Sorted, 10 stands before 2.
+    // Sorted by name, 10 precedes 2.
     assert_eq!(
         of(&one, &["frames_10.npy", "frames_2.npy"]),
         ("?".to_owned(), true, false)

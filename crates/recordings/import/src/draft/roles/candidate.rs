@@ -1,4 +1,4 @@
-//! Channels that columns may be, ranked by how sure their names say so.
+//! Candidate columns for a channel, ranked by the certainty of their names.
 
 use std::fmt;
 
@@ -12,33 +12,33 @@ use crate::unit_suffix::UnitSuffix;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Candidate {
     pub(crate) channel: &'static str,
-    /// Position in the cell: empty, or `[2]`.
+    /// Position in the cell: empty, or such as `[2]`.
     pub(crate) index: String,
     pub(crate) reason: Reason,
-    /// The unit that its name or its file says.
+    /// Unit stated by its name or its file.
     pub(crate) unit: Option<(&'static str, UnitSource)>,
-    /// Reason to leave the line open: only the lab knows that it was measured.
+    /// Reason to leave the line open: only the lab knows whether it was measured.
     pub(crate) open: Option<String>,
 }
 
-/// Reason to take a column for a channel, the surest first.
+/// Reason to take a column for a channel, the most certain first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Reason {
     /// The name of the channel itself.
     Name,
     /// The name of the channel with a unit.
     NameWithUnit,
-    /// The words of its own name say quantity and axis.
+    /// The words of its own name give quantity and axis.
     Words,
-    /// These and other words do: `left_force_z`.
+    /// Quantity and axis among other words: `left_force_z`.
     MoreWords,
-    /// The quantity stands in the name of what it is part of.
+    /// The parent's name gives the quantity.
     Parent,
-    /// A force without an axis, which is mostly what presses.
+    /// Force without an axis, usually the normal force.
     NoAxis,
-    /// Position among the numbers of a wrench or a place.
+    /// Position among the numbers of a wrench or a pose.
     Position,
-    /// An axis alone, or the number of columns.
+    /// Axis alone, or a guess from the number of columns.
     Guess,
 }
 
@@ -73,7 +73,7 @@ impl fmt::Display for UnitSource {
     }
 }
 
-/// The unit that a channel is kept in.
+/// Unit in which a channel is stored.
 pub(crate) fn kept_unit(channel: &str) -> Option<Unit> {
     match channel.as_bytes().first()? {
         b'F' => Some(Unit::Newton),
@@ -103,7 +103,7 @@ impl Quantity {
         }
     }
 
-    /// Words of which one says it.
+    /// Words for the quantity.
     fn words(self) -> &'static [&'static str] {
         match self {
             Quantity::Force => &["force", "forces", "f", "load", "loadcell"],
@@ -135,7 +135,7 @@ impl Quantity {
     }
 
     fn of(words: &[String]) -> Option<Quantity> {
-        // A torque may be called a force's: `ft_torque`, `force_torque`.
+        // The name of a torque may contain `force`: `ft_torque`, `force_torque`.
         let has = |quantity: &Quantity| {
             let known = quantity.words();
             words.iter().any(|word| known.contains(&word.as_str()))
@@ -146,7 +146,7 @@ impl Quantity {
     }
 }
 
-/// Words that say nothing of which of several numbers is meant.
+/// Words that do not distinguish one number from another.
 const NEUTRAL: [&str; 22] = [
     "sensor",
     "meas",
@@ -172,18 +172,18 @@ const NEUTRAL: [&str; 22] = [
     "applied",
 ];
 
-/// Reading of the name of a number.
+/// Parsed name of a number.
 pub(crate) struct Named {
     /// Words of the last part of the name, without its unit.
     own: Vec<String>,
-    /// Words of the parts before it, the nearest last.
+    /// Words of the parent names, the nearest last.
     parents: Vec<String>,
-    /// True of a name with digits: `force2`.
+    /// True for a name with digits: `force2`.
     has_digits: bool,
     suffix: Option<UnitSuffix>,
 }
 
-/// An axis, and the quantity that is written with it: `fz`, `posx`.
+/// Axis, with the quantity that is written with it: `fz`, `posx`.
 fn axis_of(word: &str) -> Option<(Option<Quantity>, usize)> {
     let (before, axis) = word.split_at_checked(word.len().checked_sub(1)?)?;
     let axis = ["x", "y", "z"].iter().position(|known| *known == axis)?;
@@ -206,7 +206,7 @@ impl Named {
             .split(['.', '/', ':'])
             .filter(|part| !part.trim().is_empty())
             .collect();
-        // A position alone is no name: `/ft/0`.
+        // A bare position is no name: `/ft/0`.
         while let [.., _, last] = parts.as_slice()
             && last.bytes().all(|byte| byte.is_ascii_digit())
         {
@@ -221,7 +221,7 @@ impl Named {
         }
     }
 
-    /// A number that is called `element` within the column `column`.
+    /// Name of the number `element` in the column `column`.
     pub(super) fn within(column: &str, element: &str) -> Named {
         let mut named = Named::new(element);
         let of_column = Named::new(column);
@@ -243,13 +243,13 @@ impl Named {
         of_words(&self.own, has_axis).or_else(|| of_words(&parents, true))
     }
 
-    /// The words of a column whose cells hold several numbers: its own, or those before it where they say nothing.
+    /// Words of a column of several numbers: its own and those of its parents.
     pub(super) fn quantity_of_several(&self) -> Vec<&str> {
         let own = self.own.iter().chain(&self.parents);
         own.map(String::as_str).collect()
     }
 
-    /// The channel that the number is by its name, whatever its name forbids.
+    /// Channel that the name gives, ignoring exclusions.
     pub(super) fn channel(&self) -> Option<(&'static str, Reason)> {
         let own = Quantity::of(&self.own);
         let parent = || {
@@ -290,7 +290,7 @@ impl Named {
         Some((quantity.channels()[axis], reason))
     }
 
-    /// Channel of a name without an axis: the force that presses, or the depth.
+    /// Channel of a name without an axis: the normal force or the indentation.
     fn without_axis(&self, own: Option<Quantity>) -> Option<(&'static str, Reason)> {
         let is_letter = |word: &&String| word.len() == 1;
         let is_whole = self.own.len() == 1 && !self.has_digits && self.parents.is_empty();
@@ -324,7 +324,7 @@ impl Named {
         suffix.is_some_and(|suffix| suffix.of_quantity(quantity).is_some())
     }
 
-    /// The candidate that the number is at `index` of its cell; `Err` says why it is none although its name begins like one.
+    /// Candidate for the number at `index` of its cell; `Err` with the reason if an exclusion applies.
     pub(crate) fn candidate(&self, index: String) -> Option<Result<Candidate, Exclusion>> {
         let (channel, reason) = self.channel()?;
         if let Some(exclusion) = self.exclusion() {
@@ -333,7 +333,7 @@ impl Named {
         Some(self.as_channel(channel, index, reason))
     }
 
-    /// The candidate for `channel`, in the unit that the name says.
+    /// Candidate for `channel`, in the unit that the name gives.
     pub(super) fn as_channel(
         &self,
         channel: &'static str,
@@ -343,9 +343,9 @@ impl Named {
         let unit = match (&self.suffix, kept_unit(channel)) {
             (Some(suffix), Some(kept)) => match suffix.of_quantity(kept) {
                 Some(unit) => Some((unit.symbol(), UnitSource::Name)),
-                // Counts and volts are made forces by a scale.
+                // A scale converts counts and volts to forces.
                 None if suffix.is_unscaled() => None,
-                // A wrench in N holds torques too.
+                // A wrench in N also holds torques.
                 None if index.is_empty() => {
                     return Err(Exclusion::Unit(suffix.written().to_owned()));
                 }

@@ -1,4 +1,4 @@
-//! Columns that are no channel whatever else their names say: counters, magnitudes, other quantities, commands.
+//! Columns that are no channel: counters, magnitudes, other quantities, commands.
 
 use std::fmt;
 
@@ -7,9 +7,9 @@ use std::fmt;
 pub(crate) enum Exclusion {
     /// Whole numbers that count up by one.
     Counting,
-    /// A word of the name says another quantity.
+    /// The name has a word for another quantity.
     Word { word: String, said: &'static str },
-    /// The name says a unit of another quantity.
+    /// The name has a unit of another quantity.
     Unit(String),
 }
 
@@ -23,7 +23,7 @@ impl fmt::Display for Exclusion {
     }
 }
 
-/// Words, wherever in a name, of quantities that are no label.
+/// Words for quantities that are no label, anywhere in a name.
 const QUANTITIES: &[(&[&str], &str)] = &[
     (
         &[
@@ -164,7 +164,7 @@ const QUANTITIES: &[(&[&str], &str)] = &[
     (&["temp", "temperature", "voltage"], "another quantity"),
 ];
 
-/// Words of numbers that belong to no axis.
+/// Words for numbers without an axis.
 const WITHOUT_AXIS: &[(&[&str], &str)] = &[
     (
         &["total", "resultant", "sum", "rms"],
@@ -197,7 +197,7 @@ const WITHOUT_AXIS: &[(&[&str], &str)] = &[
     ),
 ];
 
-/// Finds the word that makes a name no channel.
+/// Finds the word that excludes a name from every channel.
 pub(super) fn of_words(words: &[String], has_axis: bool) -> Option<Exclusion> {
     let tables = match has_axis {
         true => [QUANTITIES, &[]],
@@ -213,7 +213,7 @@ pub(super) fn of_words(words: &[String], has_axis: bool) -> Option<Exclusion> {
     })
 }
 
-/// True of at least `least` whole numbers, each one above the number before.
+/// True for at least `least` whole numbers, each one above the previous.
 pub(super) fn is_counting(numbers: &[f64], least: usize) -> bool {
     numbers.len() >= least
         && numbers[0].fract() == 0.0

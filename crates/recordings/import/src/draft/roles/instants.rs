@@ -3,7 +3,7 @@
 use super::Role;
 use crate::instant::TextInstant;
 
-/// The role of cells that are all dates or all times of day; `None` of other texts.
+/// Role of cells that are all dates or all times of day; `None` for other texts.
 pub(super) fn of_texts(cells: &[&str]) -> Option<Role> {
     let instants: Option<Vec<TextInstant>> =
         cells.iter().map(|cell| TextInstant::parse(cell)).collect();

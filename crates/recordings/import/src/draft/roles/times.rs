@@ -1,18 +1,18 @@
-//! The unit of a time that stands nowhere.
+//! Guesses the unit of a time.
 
 use super::{Role, are_counts};
 
-/// Times above this, in seconds, count from 1970: it is a day in 2001.
+/// Lower limit of times since 1970, s; a day in 2001.
 const UNIX_S: f64 = 1e9;
-/// Times of now lie below this, in seconds from 1970: it is a day in 2039.
+/// Upper limit of present times since 1970, s; a day in 2039.
 const UNIX_END_S: f64 = 2.2e9;
-/// From one row to the next, seconds from 1970 differ by less.
+/// Limit of the step between rows with times since 1970, s.
 const UNIX_STEP_S: f64 = 3_600.0;
 
-/// The units of times and how many of each are a second.
+/// Units of times, with the number of each in a second.
 const UNITS: [(&str, f64); 4] = [("ns", 1e9), ("us", 1e6), ("ms", 1e3), ("s", 1.0)];
 
-/// The unit of a time by the last word of its name, by its size where that is of now, or by the time from one row to the next.
+/// Unit of a time by the last word of its name, by its size if it is a present time, or by the step between rows.
 pub(super) fn time(words: &[String], numbers: &[f64]) -> Role {
     let greatest = numbers.iter().copied().fold(0.0_f64, f64::max);
     let named = match words.last().map(String::as_str) {
@@ -35,7 +35,7 @@ pub(super) fn time(words: &[String], numbers: &[f64]) -> Role {
     }
 }
 
-/// The unit of times whose name says none, and why it may be another.
+/// Guessed unit for unlabelled times, with the reason that it may be another.
 fn guessed_unit(numbers: &[f64], greatest: f64) -> (&'static str, Option<&'static str>) {
     let step = median_step(numbers);
     let of_now = UNITS.iter().find(|(_, second)| {
@@ -63,7 +63,7 @@ fn guessed_unit(numbers: &[f64], greatest: f64) -> (&'static str, Option<&'stati
     }
 }
 
-/// The median of what lies between each number and the next greater one.
+/// Median positive step between sorted numbers.
 fn median_step(numbers: &[f64]) -> Option<f64> {
     let mut sorted = numbers.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! How a table is written, by its name and what it holds.
+//! Detects the form of a table from its name and content.
 
 use std::fs::File;
 use std::io::Read;
@@ -11,10 +11,10 @@ use crate::csv_table::text_form::TextForm;
 use crate::draft::survey::FileGroup;
 use crate::foreign::{ForeignTable, TableForm, cell_list};
 
-/// What a map says of a table whose header is numbers.
+/// Key in a map for a table whose header is numbers.
 pub(super) const NUMBERED_HEADER: &str = "header = true";
 
-/// The form of a table, and what a map has to say of it beside its path.
+/// Form of a table, with the keys that a map needs besides its path.
 pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, String)> {
     let plain = |form| Some((form, String::new()));
     match group.ending.as_str() {
@@ -44,7 +44,7 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
             let is_list = table.rows() != 1;
             let are_rows = !is_list
                 && ForeignTable::read(path, &members).is_ok_and(|table| {
-                    // Members that are numbers or texts themselves are the cells of one row.
+                    // If the members are numbers or texts, they are the cells of one row.
                     let mut names = table.names().into_iter();
                     table.rows() > 1 && names.any(|name| name.starts_with('/'))
                 });
@@ -82,17 +82,17 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
     }
 }
 
-/// Bytes of a table of text that show its form.
+/// Leading bytes of a text table from which its form is guessed.
 const BEGINNING: u64 = 1 << 16;
 
-/// The first lines of a table of text.
+/// First lines of a text table.
 fn beginning(path: &Path) -> Option<String> {
     let file = File::open(path).ok()?;
     let mut bytes = Vec::new();
     file.take(BEGINNING).read_to_end(&mut bytes).ok()?;
     let text = String::from_utf8_lossy(&bytes);
     let text = text.trim_start_matches('\u{feff}');
-    // The last line may be cut.
+    // The last line may be incomplete.
     let end = match bytes.len() as u64 == BEGINNING {
         true => text.rfind('\n').unwrap_or(text.len()),
         false => text.len(),
@@ -100,14 +100,14 @@ fn beginning(path: &Path) -> Option<String> {
     Some(text[..end].to_owned())
 }
 
-/// Whether what would be names of columns are numbers: the file has no header.
+/// True if most column names are numbers: the file has no header.
 fn is_of_numbers(names: &[String]) -> bool {
     let is_number =
         |name: &&String| number::number(cell_list::plain(name)).is_ok_and(|found| found.is_some());
     names.iter().filter(is_number).count() * 2 > names.len()
 }
 
-/// Whether the names are the positions of the columns, as pandas writes them of an array without names; its index stands before them without one.
+/// True if the names are column positions, as pandas writes an array without names. The pandas index before them has no name.
 fn is_numbered(names: &[String]) -> bool {
     let names = match names {
         [index, rest @ ..] if index.is_empty() => rest,
@@ -117,7 +117,7 @@ fn is_numbered(names: &[String]) -> bool {
     !names.is_empty() && numbered.all(|(position, name)| *name == position.to_string())
 }
 
-/// Where the rows of dictionaries within dictionaries are: `trajectories.*`, or in the fields of one record.
+/// Path to the rows of nested dictionaries: `trajectories.*`, or the fields of one record.
 fn rows_of_dictionaries(names: &[String]) -> Option<String> {
     let first = |name: &String| name.split_once('.').map(|(first, _)| first.to_owned());
     if let Some(deep) = names.iter().find(|name| name.matches('.').count() > 1) {
@@ -128,7 +128,7 @@ fn rows_of_dictionaries(names: &[String]) -> Option<String> {
     is_one.then(|| format!("/{own}"))
 }
 
-/// Where the rows of a file of arrays are: in a table with fields, or in groups that are called alike.
+/// Path to the rows of a file of arrays: a table with fields, or groups of similar names.
 fn rows_within(names: &[String]) -> Option<String> {
     let mut fields = names
         .iter()

@@ -1,32 +1,32 @@
-//! Taxels in the columns of a table: cells of many numbers, or runs of columns that are counted through.
+//! Taxels in the columns of a table: cells of many numbers, or runs of numbered columns.
 
 use super::{SeenColumn, SeenTable};
 use crate::csv_table::number;
 use crate::draft::roles::{Role, words};
 use crate::unit_suffix::UnitSuffix;
 
-/// The fewest and the most numbers of a row that are taken for taxels.
+/// Least and most numbers of a row that are taken for taxels.
 const LEAST: usize = 8;
 const MOST: usize = 4_096;
-/// Columns that are counted through are taxels from so many on, whatever their number.
+/// Least number of numbered columns that are taken for taxels.
 const LEAST_RUN: usize = 8;
 
-/// Numbers of taxels as a map writes them.
+/// Taxels as a map writes them.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Taxels {
     /// Value of `from`, as TOML.
     pub(crate) from: String,
-    /// The lengths of the lists in a cell, or how many columns there are.
+    /// Shape of the lists in a cell, or number of columns.
     pub(crate) shape: Vec<usize>,
-    /// The unit that the name says.
+    /// Unit stated by the name.
     pub(crate) unit: Option<&'static str>,
-    /// Numbers that seem to stand for "nothing measured", and why.
+    /// Numbers that probably mean "nothing measured", each with the reason.
     pub(crate) placeholders: Vec<(f64, String)>,
-    /// Words of its name, by which one of several is preferred.
+    /// True if its name has a word for taxels, which makes it preferred.
     pub(crate) is_named: bool,
 }
 
-/// Words of columns of taxels.
+/// Words in the names of taxel columns.
 const WORDS: [&str; 14] = [
     "taxel",
     "taxels",
@@ -44,7 +44,7 @@ const WORDS: [&str; 14] = [
     "array",
 ];
 
-/// The lengths of the lists in the cells of a column, if they hold many numbers in each row alike.
+/// Shape of the lists in the cells of a column, if every row holds equally many numbers.
 pub(super) fn taxels_of(role: &Role, cells: &[String]) -> Option<Vec<usize>> {
     let is_open = matches!(role, Role::Numbers(_) | Role::Other | Role::Channels(_));
     let first = cells.iter().find(|cell| !cell.is_empty())?;
@@ -58,7 +58,7 @@ pub(super) fn taxels_of(role: &Role, cells: &[String]) -> Option<Vec<usize>> {
     (is_many && filled.all(|cell| shape_of(cell).as_ref() == Some(&shape))).then_some(shape)
 }
 
-/// The lengths of the lists in a cell of numbers, from the outermost one.
+/// Shape of the lists in a cell of numbers, from the outermost one.
 fn shape_of(cell: &str) -> Option<Vec<usize>> {
     let separators = |letter: char| letter.is_whitespace() || "[](),;".contains(letter);
     let mut count = 0;
@@ -72,7 +72,7 @@ fn shape_of(cell: &str) -> Option<Vec<usize>> {
         .take_while(|byte| matches!(byte, b'[' | b'(' | b' '))
         .filter(|byte| *byte != b' ')
         .count();
-    // Lists at the second level are as many as brackets that open there.
+    // Each opening bracket at the second level begins a list.
     let mut opened = vec![0_usize; depth.max(1) + 1];
     let mut level = 0_usize;
     for byte in cell.bytes() {
@@ -96,7 +96,7 @@ fn shape_of(cell: &str) -> Option<Vec<usize>> {
 }
 
 impl SeenTable<'_> {
-    /// Taxels of an array of nothing else, with many numbers a row.
+    /// Taxels of a single array with many numbers a row.
     pub(crate) fn taxels(&self) -> Option<Taxels> {
         let [column] = self.columns.as_slice() else {
             return None;
@@ -105,7 +105,7 @@ impl SeenTable<'_> {
         (self.is_single_array && self.pictures.is_empty()).then(|| of_column(column, shape))
     }
 
-    /// The taxels that its columns are, the likeliest first.
+    /// Taxels among its columns, the most likely first.
     pub(crate) fn own_taxels(&self) -> Vec<Taxels> {
         let of_cells = self.columns.iter().filter_map(|column| {
             let shape = column.taxels.clone()?;
@@ -116,7 +116,7 @@ impl SeenTable<'_> {
         found
     }
 
-    /// Runs of columns of numbers that are counted through: `c0`, `c1`, …
+    /// Runs of numbered columns of numbers: `c0`, `c1`, …
     fn runs(&self) -> Vec<Taxels> {
         let is_number = |column: &&SeenColumn| column.role == Role::Number;
         let counted = |column: &SeenColumn| -> Option<(String, u32)> {
@@ -159,7 +159,7 @@ impl SeenTable<'_> {
             is_taxels.then(|| of_columns(run, from))
         };
         let mut found: Vec<Taxels> = runs.iter().filter_map(of_run).collect();
-        // Columns of names that say nothing, and of nothing else.
+        // Columns with uninformative names, and no other columns.
         let is_one = self
             .columns
             .iter()
@@ -180,7 +180,7 @@ impl SeenTable<'_> {
 }
 
 impl Taxels {
-    /// Numbers a row.
+    /// Number of values per row.
     pub(crate) fn count(&self) -> usize {
         self.shape.iter().product()
     }
@@ -245,7 +245,7 @@ fn of_columns(columns: &[&SeenColumn], from: String) -> Taxels {
     }
 }
 
-/// Numbers far from all others that come often in a column: codes for "nothing measured".
+/// Frequent outliers of a column: codes for "nothing measured".
 fn placeholders(columns: &[&SeenColumn]) -> Vec<(f64, String)> {
     let mut found: Vec<(f64, String)> = Vec::new();
     for column in columns {

@@ -1,13 +1,13 @@
-//! What a file says of its arrays beside their numbers.
+//! Attributes of arrays in a file.
 
 use taceva_arrays::{ArrayError, ArrayFile};
 
 use crate::foreign::columns::Stated;
 
-/// What packed numbers are multiplied by and what is added, where they are not packed.
+/// Scale factor and offset of unpacked numbers.
 const UNPACKED: [f64; 2] = [1.0, 0.0];
 
-/// What a file says of the numbers in an array.
+/// Attributes of the numbers in an array.
 pub(crate) fn stated(file: &ArrayFile, array: &str) -> Stated {
     let said = |attribute: &str| file.attribute(array, attribute);
     let number = |attribute: &str| said(attribute)?.trim_matches(['[', ']']).parse().ok();
@@ -20,7 +20,7 @@ pub(crate) fn stated(file: &ArrayFile, array: &str) -> Stated {
     }
 }
 
-/// The arrays of which some chunks were never written, and how many these are.
+/// Arrays with unwritten chunks, with the number of these chunks.
 pub(super) fn absent_chunks<'n>(
     file: &ArrayFile,
     names: impl Iterator<Item = &'n str>,
@@ -35,12 +35,12 @@ pub(super) fn absent_chunks<'n>(
     Ok(counted)
 }
 
-/// True if `name` is a data frame of pandas.
+/// True if `name` is a pandas data frame.
 pub(super) fn is_data_frame(file: &ArrayFile, name: &str) -> bool {
     file.attribute(name, "pandas_type").is_some()
 }
 
-/// The unit of the times of NumPy that an array of integers holds, where the file says that it holds some.
+/// Unit of NumPy times stored as integers; `None` if the file does not mark the array as times.
 pub(super) fn unit_of_times(file: &ArrayFile, array: &str) -> Option<&'static str> {
     let mut said = ["value_type", "kind"].iter();
     said.find_map(|name| {
@@ -51,7 +51,7 @@ pub(super) fn unit_of_times(file: &ArrayFile, array: &str) -> Option<&'static st
     })
 }
 
-/// What is wrong, without the path of the file: the error around it names that.
+/// Problem without the path of the file, which the outer error names.
 pub(super) fn problem(error: ArrayError) -> String {
     match error.array {
         Some(array) => format!("`{array}`: {}", error.problem),

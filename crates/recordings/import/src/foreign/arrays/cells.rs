@@ -1,14 +1,14 @@
-//! Values of arrays as the cells of a table.
+//! Array values as the cells of a table.
 
 use taceva_arrays::ArrayValues;
 
 use crate::foreign::cell_list;
 
-/// Values of an array as the cells of a table.
+/// Array values as the cells of a table.
 pub(super) struct Texts<'a>(pub(super) &'a ArrayValues);
 
 impl Texts<'_> {
-    /// The values from `first` on that have this shape, as lists in lists; texts in lists stand in quotes where they could be taken for several.
+    /// Values of this shape from `first` on, as nested lists. Texts in lists are quoted if they could be taken for several values.
     pub(super) fn packed(&self, first: usize, shape: &[usize]) -> String {
         match shape {
             [] => self.one(first),
@@ -50,7 +50,7 @@ impl Texts<'_> {
     }
 }
 
-/// A number as a cell; one that is none is an empty cell.
+/// Number as a cell; NaN becomes an empty cell.
 fn number(value: f64) -> String {
     match value.is_nan() {
         true => String::new(),

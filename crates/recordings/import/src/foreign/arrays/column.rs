@@ -1,4 +1,4 @@
-//! Columns of arrays, cell by cell.
+//! Columns of arrays as texts.
 
 use taceva_arrays::{ArrayInfo, ArrayValues};
 use taceva_tables::Cell;
@@ -8,13 +8,13 @@ use super::attributes::{self, problem};
 use super::cells::Texts;
 use super::group::{Group, candidates};
 
-/// The most bytes that a column may take in memory as text.
+/// Limit of a column's text in memory, bytes.
 const COLUMN_BYTES: u64 = 1 << 30;
-/// The most values of a cell that holds a whole array.
+/// Limit of the values of a cell that holds a whole array.
 const CELL_VALUES: u64 = 1 << 16;
 
 impl ArrayRows {
-    /// A whole array as one cell.
+    /// Reads a whole array as one cell.
     fn whole_cell(&self, path: &str, info: &ArrayInfo) -> Result<String, String> {
         let elements = info
             .shape
@@ -33,7 +33,7 @@ impl ArrayRows {
         Ok(Texts(&read.values).packed(0, &shape))
     }
 
-    /// The array of a group that the map calls `name`.
+    /// Array of a group that the map calls `name`.
     pub(super) fn info(&self, group: &Group, name: &str) -> Option<(String, &ArrayInfo)> {
         candidates(&group.path, name)
             .into_iter()
@@ -51,7 +51,7 @@ impl ArrayRows {
         self.file.attribute(owner, attribute)
     }
 
-    /// The unit in which the file counts the times in a column, where it says that they are times.
+    /// Unit of a time column as stated by the file; `None` for other columns.
     pub(super) fn unit_of_times(&self, group: &Group, name: &str) -> Option<&'static str> {
         let (path, _) = self.info(group, name)?;
         attributes::unit_of_times(&self.file, &path)
@@ -108,7 +108,7 @@ impl ArrayRows {
     }
 }
 
-/// A time of NumPy in seconds, all its digits kept; "not a time" is an empty cell.
+/// Converts a NumPy time to seconds without loss of digits; "not a time" is an empty cell.
 fn seconds(time: i64, unit: &str) -> String {
     let nanoseconds = match unit {
         "s" => 1_000_000_000,

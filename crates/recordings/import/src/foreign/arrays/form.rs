@@ -1,4 +1,4 @@
-//! How the rows of an array are pictures: their axes, their numbers, or bytes of a file.
+//! Rows of an array as pictures: axes, number types, or encoded bytes.
 
 use std::ops::Range;
 
@@ -10,13 +10,13 @@ use crate::foreign::pictures::Picture;
 use crate::frame_names::{ArrayLayout, FrameNames, PixelRange};
 use taceva_dataset::internal::{ImageKind, limits};
 
-/// How many bytes of an array are read at once.
+/// Read size of an array, bytes.
 pub(super) const READ_BYTES: u64 = 8 << 20;
 
-/// How the rows of an array are frames.
+/// Form of frames in the rows of an array.
 #[derive(Debug)]
 pub(super) enum Form {
-    /// Bytes of a file of a picture.
+    /// Bytes of a picture file.
     Encoded,
     Pixels {
         info: FrameInfo,
@@ -25,10 +25,10 @@ pub(super) enum Form {
     },
 }
 
-/// The shortest side, in pixels, of an array that a draft takes for pictures.
+/// Least side, in pixels, of an array that a draft takes for pictures.
 const LEAST_SIDE: u64 = 8;
 
-/// How an array holds pictures, if it seems to.
+/// Kind of pictures in an array; `None` if it seems to hold none.
 pub(super) fn kind_of(file: &ArrayFile, name: &str, info: &ArrayInfo) -> Option<PictureKind> {
     if matches!(info.element, Element::Bytes | Element::Text) && info.shape.len() == 1 {
         let first = file.read(name, 0..1).ok()?;
@@ -61,7 +61,7 @@ pub(super) fn kind_of(file: &ArrayFile, name: &str, info: &ArrayInfo) -> Option<
     })
 }
 
-/// How the rows of an array are frames, and the bytes of each in the file.
+/// Form of the frames in an array, with the bytes per row (an estimate for encoded pictures).
 pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64), String> {
     let is_encoded = match names {
         FrameNames::Bytes(_) => true,
@@ -70,7 +70,7 @@ pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64
     };
     if is_encoded && info.shape.len() == 1 {
         return match info.element {
-            // Fields of one length that hold no text are read as bytes.
+            // Fixed-length fields other than text are read as bytes.
             Element::Bytes | Element::Text => Ok((Form::Encoded, READ_BYTES / 16)),
             other => Err(format!(
                 "{other}, where `bytes` are encoded pictures of any length"
@@ -135,7 +135,7 @@ pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64
     Ok((form, row_bytes.ok_or("larger than any memory")?))
 }
 
-/// Height, width and colours of the frames of an array, and whether each colour is a plane of its own.
+/// Height, width and colours of the frames of an array. The last value is true for planar colours.
 fn sides(shape: &[u64], layout: Option<ArrayLayout>) -> Result<(u32, u32, u64, bool), String> {
     let said = || {
         let sides: Vec<String> = shape.iter().map(u64::to_string).collect();
@@ -168,7 +168,7 @@ fn sides(shape: &[u64], layout: Option<ArrayLayout>) -> Result<(u32, u32, u64, b
 }
 
 impl Form {
-    /// The picture at `at` among the rows that `values` are of.
+    /// Decodes the picture of row `at` among the rows in `values`.
     pub(super) fn picture(&self, values: &ArrayValues, at: usize) -> Result<Picture, String> {
         let (info, is_planar, range) = match (self, values) {
             (Form::Encoded, ArrayValues::Bytes(all)) => {
@@ -189,7 +189,7 @@ impl Form {
         let colours = info.format.samples();
         let area = info.width as usize * info.height as usize;
         let own = at * area * colours..(at + 1) * area * colours;
-        // The place in the row of a colour of a pixel.
+        // Index in the row of a colour of a pixel.
         let place = |sample: usize| match is_planar {
             true => sample % colours * area + sample / colours,
             false => sample,
@@ -231,7 +231,7 @@ impl Form {
     }
 }
 
-/// The values in the range `own` as 64-bit floating point.
+/// Values in the range `own` as `f64`.
 fn numbers(values: &ArrayValues, own: Range<usize>) -> Result<Vec<f64>, String> {
     fn of<T: Copy + Into<f64>>(all: &[T], own: Range<usize>) -> Option<Vec<f64>> {
         Some(all.get(own)?.iter().map(|value| (*value).into()).collect())

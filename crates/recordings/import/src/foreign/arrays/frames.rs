@@ -13,7 +13,7 @@ use crate::frame_names::{ArrayFrames, FrameNames};
 use taceva_dataset::internal::{guarded, listed};
 use taceva_dataset::{ChannelOrder, DatasetError};
 
-/// The frames of one array, or of several one after the other.
+/// Frames of one array, or of several arrays in sequence.
 #[derive(Debug)]
 pub(crate) struct ArrayPictures {
     path: PathBuf,
@@ -24,7 +24,7 @@ pub(crate) struct ArrayPictures {
 #[derive(Debug)]
 struct FrameArray {
     name: String,
-    /// The number of its first frame among those of all.
+    /// Number of its first frame among all frames.
     first: u64,
     rows: u64,
     row_bytes: u64,
@@ -32,7 +32,7 @@ struct FrameArray {
 }
 
 impl ArrayPictures {
-    /// The frames in the file at `path`, of the array that `frames` names or of the only one.
+    /// Opens the frames in the file at `path`, from the array that `frames` names or the only one.
     pub(crate) fn open(
         path: &Path,
         names: &FrameNames,
@@ -95,7 +95,7 @@ impl ArrayPictures {
         })
     }
 
-    /// Reads those of the rows of one array that follow one another, a few megabytes at a time.
+    /// Reads consecutive rows of one array, a few megabytes at a time.
     fn visit_run(
         &self,
         array: &FrameArray,
@@ -159,7 +159,7 @@ impl Pictures for ArrayPictures {
     }
 }
 
-/// A length within one reading, which is of few megabytes.
+/// Length within one read of a few megabytes.
 fn as_size(length: u64) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
 }

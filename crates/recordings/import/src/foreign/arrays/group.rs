@@ -1,4 +1,4 @@
-//! Groups of arrays: how many rows each has, and what a name means in it.
+//! Groups of arrays: row counts and name lookup.
 
 use std::collections::BTreeMap;
 
@@ -6,14 +6,14 @@ use taceva_arrays::ArrayFile;
 
 use taceva_dataset::internal::{limits, listed};
 
-/// The arrays of one group, or of the whole file.
+/// Arrays of one group, or of the whole file.
 #[derive(Debug)]
 pub(super) struct Group {
     pub(super) path: String,
     pub(super) rows: usize,
 }
 
-/// The arrays that `name` may mean in a group: one of the group, a field of the table, one named from the root.
+/// Arrays that `name` may mean in a group: one of the group, a field of the table, one named from the root.
 pub(super) fn candidates(group: &str, name: &str) -> Vec<String> {
     let bare = name.trim_start_matches('/');
     let mut paths = Vec::new();
@@ -28,7 +28,7 @@ pub(super) fn candidates(group: &str, name: &str) -> Vec<String> {
     paths
 }
 
-/// The rows of a group: the length of the first axis that most of its arrays have, the longest of several.
+/// Number of rows of a group: the most frequent length of the first axis of its arrays, the largest of equally frequent ones.
 pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     let mut lengths: BTreeMap<u64, usize> = BTreeMap::new();
     let names = file.names();
@@ -53,7 +53,7 @@ pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
             limits::ROWS
         )),
         Some((length, _)) => usize::try_from(*length).map_err(|error| error.to_string()),
-        // What is there and is not read says why.
+        // An unread item explains the missing arrays.
         None if unread(file, group).is_some() => Err(unread(file, group).unwrap_or_default()),
         None => Err(format!(
             "no array with rows {}; there are {}",
@@ -69,7 +69,7 @@ pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     }
 }
 
-/// The reason of what is not read in a group, or above it.
+/// Reason that an item in a group, or above it, is unread.
 fn unread(file: &ArrayFile, group: &str) -> Option<String> {
     let mut unread = file.unread_arrays().into_iter();
     let is_of = |array: &str| {

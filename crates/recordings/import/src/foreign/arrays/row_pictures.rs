@@ -1,4 +1,4 @@
-//! The pictures of rows, in an array of each group.
+//! Pictures of rows, in one array per group.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::frame_names::{FrameNames, OWN_ROW};
 use taceva_dataset::internal::listed;
 
 impl ArrayRows {
-    /// The pictures that `names` says, one behind the other.
+    /// Opens the pictures that `names` states, group after group.
     pub(super) fn pictures_of_rows(&self, names: &FrameNames) -> Result<ArrayPictures, String> {
         if let FrameNames::Array(array) = names
             && self.groups.len() > 1
@@ -32,7 +32,7 @@ impl ArrayRows {
             .map(|group| {
                 let found = self.info(group, name);
                 let pictures = found.as_ref().map_or(0, |(_, info)| info.rows());
-                // Otherwise the pictures of the groups behind it would be those of other rows.
+                // Otherwise the pictures of later groups would be assigned to wrong rows.
                 if self.groups.len() > 1 && found.is_some() && pictures != group.rows as u64 {
                     return Err(format!(
                         "`{name}` of {} has {pictures} pictures for {} rows",

@@ -1,4 +1,4 @@
-//! All frames: files by many threads at once, pictures in other files in the order in which they lie there.
+//! Copies all frames: files on many threads, pictures inside other files in the order of those files.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -12,24 +12,23 @@ use crate::import::frame_plan::{FrameSource, PlannedFrames, within};
 use taceva_dataset::internal::{ImageKind, layout, ordered_map, staging::StagedFolder};
 use taceva_dataset::{DatasetError, FrameCodec, FramesInfo, ReferenceInfo, Table, ViewInfo};
 
-/// Frames copied at a time by each job: most of the time is spent waiting until they are on the disk, and disks write
-/// several files at once faster.
+/// Frames that each job copies at a time. Most of the time is spent waiting for the disk, and disks write several files at once faster.
 const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
-/// Pictures of other files that are held in memory while they are written, bytes.
+/// Limit of pictures from other files held in memory while they are written, bytes.
 const HELD_BYTES: usize = 16 << 20;
 
-/// Copied frames.
+/// Result of copying frames.
 #[derive(Debug, Default)]
 pub(in crate::import) struct CopiedFrames {
-    /// Frames of rows that have one picture.
+    /// Frames of rows with one picture.
     pub(in crate::import) frames: Option<FramesInfo>,
-    /// Frames of each view, where rows have several.
+    /// Frames of each view, if rows have several.
     pub(in crate::import) views: Vec<ViewInfo>,
-    /// Folders that they lie in.
+    /// Folders of the frames.
     pub(in crate::import) folders: Vec<String>,
 }
 
-/// Copies the frames of every view, that of the first row as frame number `first`.
+/// Copies the frames of every view; that of the first row becomes frame number `first`.
 pub(in crate::import) fn copy_frames(
     staged: &StagedFolder,
     planned: &[PlannedFrames],
@@ -57,7 +56,7 @@ pub(in crate::import) fn copy_frames(
     Ok(copied)
 }
 
-/// Copies the frames of one view; returns what they share and the folders they lie in, which are made where they are not there.
+/// Copies the frames of one view. Returns their common format and their folders, which are created where missing.
 fn copy_view(
     staged: &StagedFolder,
     frames: &PlannedFrames,
@@ -113,7 +112,7 @@ fn copy_view(
     Ok((Some(shared), folders))
 }
 
-/// How the frames of clips were coded, each way once, in the order of the rows.
+/// Distinct codecs of the clips, in row order.
 fn codecs(frames: &PlannedFrames) -> Vec<FrameCodec> {
     let mut found: Vec<FrameCodec> = Vec::new();
     for (pictures, _) in within(frames) {
@@ -129,11 +128,11 @@ struct Copying<'a> {
     table: &'a mut Table,
     jobs: NonZeroUsize,
     progress: &'a dyn Progress,
-    /// The number of the frame of the first row.
+    /// Number of the first row's frame.
     number: usize,
-    /// The position of the view in the table, where rows have several pictures.
+    /// Position of the view in the table, if rows have several pictures.
     view: Option<usize>,
-    /// What every frame is like.
+    /// Common kind and format of all frames.
     alike: Option<(ImageKind, FrameInfo)>,
 }
 
@@ -165,7 +164,7 @@ impl Copying<'_> {
         Ok(())
     }
 
-    /// Copies the pictures of one file; `rows` are their numbers, ascending, and the rows that they belong to.
+    /// Copies the pictures of one file. `rows` holds their numbers, ascending, each with its row.
     fn within(
         &mut self,
         pictures: &dyn Pictures,
@@ -189,7 +188,7 @@ impl Copying<'_> {
             bytes = 0;
             self.write(pictures.path(), std::mem::take(&mut held))
         });
-        // What was handed over before a damaged one is written first, so that the error names the row of the damaged one.
+        // Pictures before a damaged one are written first, so that the error names the row of the damaged one.
         self.write(pictures.path(), held)?;
         let next = rows.get(taken).map(|(_, row)| *row);
         outcome.map_err(|error| match next {

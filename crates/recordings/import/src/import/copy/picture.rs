@@ -1,4 +1,4 @@
-//! One frame: verified, written, described.
+//! Verifies, writes and describes one frame.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use taceva_dataset::internal::{
 };
 use taceva_dataset::{ChannelOrder, DatasetError, Digest, FrameEntry};
 
-/// A frame that was verified and written.
+/// Verified and written frame.
 pub(super) struct Copied {
     pub(super) kind: ImageKind,
     pub(super) info: FrameInfo,
@@ -20,7 +20,7 @@ pub(super) struct Copied {
 }
 
 impl Copied {
-    /// Writes `bytes`, the file of `frame`, at `relative` of the staged folder.
+    /// Writes `bytes`, the file of `frame`, at `relative` in the staged folder.
     fn write(
         staged: &StagedFolder,
         relative: String,
@@ -37,7 +37,7 @@ impl Copied {
         })
     }
 
-    /// Verifies the image at `path` and writes the same bytes where `place` says.
+    /// Verifies the image at `path` and writes the same bytes at `place`.
     pub(super) fn of_file(
         staged: &StagedFolder,
         path: &Path,
@@ -54,7 +54,7 @@ impl Copied {
         Copied::write(staged, place(extension), &bytes, kind, &frame)
     }
 
-    /// Writes a picture found in the file at `path` where `place` says: its bytes where it was encoded, else as PNG.
+    /// Writes a picture from the file at `path` at `place`: encoded bytes unchanged, pixels as PNG.
     pub(super) fn of_picture(
         staged: &StagedFolder,
         path: &Path,
@@ -86,7 +86,7 @@ impl Copied {
     }
 }
 
-/// What `bytes` show, read to their end.
+/// Decodes `bytes` to their end.
 fn whole(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
     let (kind, frame) = decode(bytes, order)?;
     check_to_the_end(bytes, kind)?;

@@ -1,4 +1,4 @@
-//! Rows that are in the dataset already.
+//! Detects rows that the dataset already has.
 
 use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
@@ -7,13 +7,12 @@ use std::path::Path;
 use taceva_dataset::internal::{PartsDigest, SignalsReader, layout, shown};
 use taceva_dataset::{Dataset, DatasetError, Digest, FrameEntry, SignalsInfo, Table, ViewFrames};
 
-/// So many different pictures that come again are no chance: no camera takes a picture twice.
+/// Number of different repeated pictures that cannot be chance: no camera takes a picture twice.
 const SAME_PICTURES: usize = 3;
 
-/// Refuses rows of `table` behind those of `before` that are among these: by the name of the sample, or because labels, time, frame and signals
-/// are the same.
+/// Rejects new rows of `table` that duplicate those of `before`: by sample name, or by equal labels, time, frame and signals.
 ///
-/// Of rows without a frame, signals and a time all must be there to be refused: single ones may well have the same labels.
+/// Rows without frame, signals and time are rejected only if all of them are present already, as single ones may share labels by chance.
 pub(super) fn refuse_twice(
     before: &Dataset,
     table: &Table,
@@ -86,7 +85,7 @@ pub(super) fn refuse_twice(
     }
 }
 
-/// Refuses new rows with pictures of old ones under other labels or times, as a second import of the same recording has them.
+/// Rejects new rows with old pictures under other labels or times, as in a second import of the same recording.
 fn refuse_same_pictures(
     table: &Table,
     frames: &[Option<FrameEntry>],
@@ -120,7 +119,7 @@ fn refuse_same_pictures(
     )))
 }
 
-/// Where a new row comes from, as far as its table says.
+/// Origin of a new row, as far as its table states it.
 fn origin(table: &Table, row: usize, old: usize) -> String {
     match (&table.source_table()[row], table.source_row()[row]) {
         (Some(source), Some(number)) => format!("row {number} of {}", shown(source)),

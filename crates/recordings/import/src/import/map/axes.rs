@@ -1,13 +1,13 @@
-//! Axes of the numbers of a row of signals, held against what `[signals]` says of them.
+//! Checks the axes of signals against `[signals]`.
 
 use super::SignalsMap;
 
 impl SignalsMap {
-    /// Checks that the numbers of a row, which lie in an array or in lists of lists of this shape, are in the order that the map states: places (rows,
-    /// columns) and then channels, or the other way around. Places may stand on one axis, all numbers on one, and axes of length 1 anywhere.
+    /// Checks that a row of this shape is in the stated order: taxel positions (rows, columns) before channels, or the reverse. Positions
+    /// may share one axis, or all numbers one axis; axes of length 1 are ignored.
     ///
     /// # Errors
-    /// The shape, what was expected, and the words of the map that it would fit.
+    /// The shape found, the shape expected, and the key of the map that would accept it.
     pub(crate) fn check_axes(&self, shape: &[u64]) -> Result<(), String> {
         let info = self.spec.info;
         let [rows, columns, channels] = [info.rows, info.columns, info.channels].map(u64::from);
@@ -42,7 +42,7 @@ impl SignalsMap {
     }
 }
 
-/// How the numbers of a row may lie.
+/// Accepted shapes of a row.
 fn shapes([rows, columns, channels]: [u64; 3], is_channel_first: bool) -> [Vec<u64>; 3] {
     let places = rows.saturating_mul(columns);
     let all = vec![places.saturating_mul(channels)];
@@ -52,7 +52,7 @@ fn shapes([rows, columns, channels]: [u64; 3], is_channel_first: bool) -> [Vec<u
     }
 }
 
-/// Whether two shapes are one but for axes of length 1.
+/// True if two shapes are equal except for axes of length 1.
 fn is_alike(left: &[u64], right: &[u64]) -> bool {
     let sides = |shape: &[u64]| -> Vec<u64> {
         let long = shape.iter().copied().filter(|side| *side != 1);

@@ -1,4 +1,4 @@
-//! Checks that a parser of types cannot make, each with the line of the map.
+//! Checks beyond the types of the map, with the line of each problem.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use toml::Spanned;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{check_relative, line_of, toml_error};
 
-/// Checks what a parser of types cannot, and says where.
+/// Checker that reports the line of the map.
 pub(super) struct Check<'a> {
     pub(super) path: &'a Path,
     pub(super) text: &'a str,
@@ -38,7 +38,7 @@ impl Check<'_> {
     }
 }
 
-/// The name of a column, or its position where a table has no header.
+/// Name of a column, or its position in a table without header.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged, expecting = "the name of a column, or its position from 0")]
 pub(super) enum ColumnName {

@@ -1,11 +1,11 @@
-//! The columns of a table that an import reads.
+//! Columns of a table that an import reads.
 
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use taceva_core::SourceUnit;
 
-/// The column a channel comes from.
+/// Source column of a channel.
 ///
 /// ```
 /// use taceva_core::SourceUnit;
@@ -19,20 +19,20 @@ use taceva_core::SourceUnit;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ColumnMap {
-    /// The name of the column in the table, or the way to it: `ft[2]`, `/pose/0`, `JOIN.column`.
+    /// Name of the column, or path to the value: `ft[2]`, `/pose/0`, `JOIN.column`.
     pub from: String,
-    /// The unit of its numbers.
+    /// Unit of the cells.
     pub unit: SourceUnit,
-    /// Whether its sign is inverted.
+    /// True if the sign is inverted.
     pub is_negated: bool,
-    /// What is subtracted from each cell first, in the unit of the cells.
+    /// Offset subtracted from each cell first, in the unit of the cells.
     pub offset: Option<f64>,
-    /// What the difference is then multiplied by.
+    /// Factor applied after the offset.
     pub scale: Option<f64>,
 }
 
 impl ColumnMap {
-    /// The column `from`, in `unit`, with its sign as it is.
+    /// Column `from` in `unit`, without sign inversion, offset and scale.
     pub fn new(from: impl Into<String>, unit: SourceUnit) -> ColumnMap {
         ColumnMap {
             from: from.into(),
@@ -43,13 +43,13 @@ impl ColumnMap {
         }
     }
 
-    /// Whether a cell is more than its number in its unit.
+    /// True if an offset or a scale applies.
     pub(crate) fn is_moved(&self) -> bool {
         self.offset.is_some() || self.scale.is_some()
     }
 }
 
-/// The columns of the ids.
+/// Columns of the ids.
 ///
 /// ```
 /// use taceva_import::IdMap;
@@ -62,55 +62,55 @@ impl ColumnMap {
 #[non_exhaustive]
 #[serde(deny_unknown_fields, default)]
 pub struct IdMap {
-    /// The name of a sample; absent: the number of its row, from 0.
+    /// Name of a sample; `None` uses the row number, from 0.
     pub sample: Option<String>,
-    /// The contact point; several columns are joined with `:`, where a `:` or `\` within a cell stands behind a `\`.
+    /// Contact point. Several columns are joined with `:`; a `:` or `\` within a cell is escaped with `\`.
     #[serde(deserialize_with = "one_or_more")]
     pub point_id: Vec<String>,
-    /// Which unit of the sensor it is, of several of one model.
+    /// Sensor unit, among several of one model.
     pub unit_id: Option<String>,
-    /// The scene of the lighting, or whatever else of the surroundings was varied.
+    /// Scene of the lighting, or another varied condition.
     pub scene: Option<String>,
-    /// The level of depth within a press, a whole number from 0.
+    /// Depth level within a press, a whole number from 0.
     pub depth_step: Option<String>,
-    /// The number of the repeat of one contact, a whole number from 0.
+    /// Number of the repeat of a contact, a whole number from 0.
     pub repeat: Option<String>,
-    /// Whether the press deepens or lifts: cells are `load` or `unload`.
+    /// Phase of the press: cells are `load` or `unload`.
     pub phase: Option<String>,
-    /// The limit of the gel that ended a press: `normal-force` and the like.
+    /// Limit of the gel that ended a press, such as `normal-force`.
     pub limited_by: Option<String>,
-    /// The part of a declared split.
+    /// Part of a declared split.
     pub part: Option<String>,
-    /// The relief of a grating: `line` or `dot`.
+    /// Relief of a grating: `line` or `dot`.
     pub kind: Option<String>,
-    /// The spacing of a grating, in mm as decimal text.
+    /// Spacing of a grating, mm, as decimal text.
     pub spacing_mm: Option<String>,
 }
 
-/// The columns that say where rows first came from. A map that has them is of a table that was exported: what they say stands in the place of
-/// where the rows lie now, and what they do not say is not known.
+/// Columns with the origin of rows, in a table that was exported. They replace the current location of the rows. An empty cell means an
+/// unknown origin.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct OriginMap {
-    /// The table of the lab.
+    /// Table of the lab.
     pub(crate) table: Option<String>,
-    /// The row in it, from 0.
+    /// Row in it, from 0.
     pub(crate) row: Option<String>,
-    /// The picture.
+    /// Picture.
     pub(crate) frame: Option<String>,
-    /// The picture of each view, where rows have several.
+    /// Picture of each view, if rows have several.
     pub(crate) frames: BTreeMap<String, String>,
 }
 
 impl OriginMap {
-    /// The columns that it names.
+    /// Columns that the map names.
     pub(crate) fn columns(&self) -> impl Iterator<Item = &String> {
         let own = [&self.table, &self.row, &self.frame].into_iter().flatten();
         own.chain(self.frames.values())
     }
 }
 
-/// The column of the time.
+/// Column of the time.
 ///
 /// ```
 /// use taceva_core::SourceUnit;
@@ -123,16 +123,16 @@ impl OriginMap {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct TimeMap {
-    /// The name of the column in the table.
+    /// Name of the column in the table.
     pub column: String,
-    /// The unit of its numbers.
+    /// Unit of its numbers.
     pub unit: SourceUnit,
-    /// Seconds that the clock of times as text is before UTC, where they say no time zone.
+    /// UTC offset of text times without a time zone, s, positive ahead of UTC.
     pub zone_s: Option<i64>,
 }
 
 impl TimeMap {
-    /// The column `column`, in `unit`.
+    /// Time column `column` in `unit`.
     pub fn new(column: impl Into<String>, unit: SourceUnit) -> TimeMap {
         TimeMap {
             column: column.into(),

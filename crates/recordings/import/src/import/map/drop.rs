@@ -1,6 +1,6 @@
-//! Which rows of a table an import leaves out.
+//! Rules for rows of a table that an import leaves out.
 
-/// Which rows are left out; each is counted.
+/// Rules for rows that are left out; each rule counts its rows.
 ///
 /// ```
 /// use taceva_import::{DropRules, Placeholder};
@@ -12,17 +12,17 @@
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct DropRules {
-    /// The column of flags, separated by `;` or blanks.
+    /// Column of flags, separated by `;` or blanks.
     pub flag_column: String,
-    /// A row with one of these is left out.
+    /// Flags that exclude a row.
     pub quality_flags: Vec<String>,
-    /// A row whose frame is called one of these is left out.
+    /// Frame names that exclude a row.
     pub frames_named: Vec<String>,
-    /// A row in which all these columns hold these numbers is left out.
+    /// Placeholders that exclude a row if all of them match.
     pub placeholders: Vec<Placeholder>,
 }
 
-/// A number that stands for "not measured".
+/// Number that means "not measured".
 ///
 /// ```
 /// use taceva_import::Placeholder;
@@ -32,14 +32,14 @@ pub struct DropRules {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Placeholder {
-    /// The channel whose column holds it, such as `Fz`.
+    /// Channel whose column holds it, such as `Fz`.
     pub channel: String,
-    /// The number in the table, before it is converted.
+    /// Number in the table, before conversion.
     pub number: f64,
 }
 
 impl Placeholder {
-    /// The number `number` in the column of `channel`.
+    /// Placeholder `number` in the column of `channel`.
     pub fn new(channel: impl Into<String>, number: f64) -> Placeholder {
         Placeholder {
             channel: channel.into(),

@@ -1,4 +1,4 @@
-//! Sources of frames as a map writes them: one table, or a list of tables with a name each.
+//! Frame sources as written in a map: one table, or a list of named tables.
 
 use std::fmt;
 
@@ -15,7 +15,7 @@ use super::{
 use taceva_dataset::internal::is_attribute_name;
 use taceva_dataset::{ChannelOrder, DatasetError};
 
-/// The frames of a row: one, or one for each of several views.
+/// Frames of a row: one, or one for each of several views.
 pub(super) enum WrittenFrames {
     One(Box<WrittenFrame>),
     Views(Vec<Spanned<WrittenFrame>>),
@@ -39,7 +39,7 @@ pub(super) struct WrittenFrame {
     reference: WrittenReference,
 }
 
-/// A path, or the column that names one a row.
+/// Path, or the column that names one for each row.
 #[derive(Deserialize)]
 #[serde(
     untagged,
@@ -56,7 +56,7 @@ struct WrittenReferenceColumn {
     column: ColumnName,
 }
 
-/// An array: its name in the file of the table (of map version 1: its file), or the file too.
+/// Array: its name in the file of the table (in map version 1: its file), or with its own file.
 #[derive(Deserialize)]
 #[serde(
     untagged,
@@ -117,7 +117,7 @@ impl WrittenFrames {
         })
     }
 
-    /// The name of an array, where it is given as a text.
+    /// Name of an array that is given as a text.
     pub(super) fn array_name(&self) -> Option<&str> {
         self.each()
             .into_iter()
@@ -129,7 +129,7 @@ impl WrittenFrames {
 }
 
 impl Check<'_> {
-    /// The frames of each view.
+    /// Checks the frames of each view.
     pub(super) fn frames(
         &self,
         written: Spanned<WrittenFrames>,

@@ -1,83 +1,83 @@
-//! Other tables whose rows belong to those of the main one.
+//! Joined tables, whose rows belong to rows of the main table.
 
 use std::collections::BTreeMap;
 
 use super::TimeMap;
 use crate::foreign::TableForm;
 
-/// A table that is joined: its columns are called `NAME.column`.
+/// Joined table. Its columns are called `NAME.column`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct JoinMap {
     pub(crate) name: String,
-    /// Its file relative to the source folder, in which `{path.PART}` stands for a part of the path of the main table.
+    /// File relative to the source folder, in which `{path.PART}` is replaced by a part of the main table's path.
     pub(crate) file: String,
     pub(crate) form: TableForm,
     pub(crate) by: JoinBy,
     pub(crate) unmatched: Unmatched,
-    /// Rows that are no candidates: column, and the number that it has there.
+    /// Rows that are excluded from matching: column and number.
     pub(crate) skip: Vec<(String, f64)>,
-    /// The coordinate frame whose rows are candidates alone.
+    /// Coordinate frame to which candidate rows are restricted.
     pub(crate) frame_id: Option<String>,
 }
 
-/// Which row of a joined table belongs to a row.
+/// Rule that matches a row of the joined table to a main row.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum JoinBy {
-    /// The one row whose columns hold the same: column of the main table, column of the joined one.
+    /// Single row with equal cells: column of the main table, column of the joined one.
     Columns(Vec<(String, String)>),
-    /// That of the same number.
+    /// Row with the same number.
     Row,
-    /// Its only row.
+    /// The table's only row.
     All,
-    /// That of the same time.
+    /// Row at the same time.
     Time(TimeJoin),
-    /// The first whose number in this column is above that of the row: where episodes end, counted through.
+    /// First row whose number in this column exceeds the main row's number, as for the end index of episodes.
     Until(String),
 }
 
-/// How times are compared.
+/// Matching of rows by time.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TimeJoin {
-    /// The time of the joined table.
+    /// Time of the joined table.
     pub(crate) time: TimeMap,
     pub(crate) pick: Pick,
-    /// The greatest distance in time, ms.
+    /// Greatest time difference, ms.
     pub(crate) tolerance_ms: f64,
     pub(crate) lag: Lag,
 }
 
-/// Delay of the clock of the joined table at one instant, ms.
+/// Delay of the joined table's clock, ms.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Lag {
-    /// The same in every row.
+    /// Constant for all rows.
     Fixed(f64),
     /// By the path of the main table, or of the joined one.
     Files(BTreeMap<String, f64>),
-    /// The number in this column of the main table.
+    /// From this column of the main table.
     Column(String),
 }
 
 impl TimeJoin {
-    /// The greatest distance in time, s.
+    /// Greatest time difference, s.
     pub(crate) fn tolerance_s(&self) -> f64 {
         self.tolerance_ms / 1e3
     }
 }
 
-/// Which of the rows about a time it is.
+/// Choice among the rows near a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Pick {
-    /// The nearest; of two that are as near the earlier.
+    /// Nearest row; the earlier one of a tie.
     Nearest,
-    /// The last that is not later.
+    /// Last row that is not later.
     Before,
-    /// Between both neighbours, in proportion; both lie within the tolerance.
+    /// Linear interpolation between both neighbours, each within the tolerance.
     Linear,
 }
 
 impl Pick {
-    /// The word for it in a map.
+    /// Word for it in a map.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Pick::Nearest => "nearest",
@@ -87,18 +87,18 @@ impl Pick {
     }
 }
 
-/// What becomes of a row to which none belongs.
+/// Handling of a main row without a match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Unmatched {
-    /// It is left out, and counted.
+    /// Leaves the row out and counts it.
     Drop,
-    /// The import is refused.
+    /// Rejects the import.
     Refuse,
 }
 
 impl Unmatched {
-    /// The word for it in a map.
+    /// Word for it in a map.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Unmatched::Drop => "drop",

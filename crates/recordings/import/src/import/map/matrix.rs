@@ -1,39 +1,39 @@
-//! Channels that are a matrix times columns: a calibration, or the rotation of a sensor.
+//! Channels computed as a matrix times columns: a calibration, or the rotation of a sensor.
 
 use taceva_core::SourceUnit;
 
 /// `channels = matrix · (columns − offset)`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MatrixMap {
-    /// The columns, in order.
+    /// Columns, in order.
     pub(crate) from: Vec<String>,
-    /// What is taken from each first.
+    /// Offset subtracted from each column.
     pub(crate) offset: Vec<f64>,
     pub(crate) by: MatrixRows,
-    /// The channels, a row of the matrix each, and the unit that the product is in.
+    /// Channels, one per matrix row, with the unit of the product.
     pub(crate) gives: Vec<(String, SourceUnit)>,
-    /// Whether it has to be a rotation.
+    /// True if the matrix must be a rotation.
     pub(crate) is_rotation: bool,
 }
 
-/// Where the numbers of a matrix are.
+/// Source of a matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum MatrixRows {
     Written(Vec<Vec<f64>>),
-    /// A CSV file without a header, relative to the source folder.
+    /// Headerless CSV file, relative to the source folder.
     File(String),
 }
 
-/// How far a rotation may be from one: from orthonormal rows, and from a determinant of 1.
+/// Tolerance of a rotation: deviation from orthonormal rows and from a determinant of 1.
 const ROTATION: f64 = 1e-6;
 
 impl MatrixMap {
-    /// What the column of the channel at `position` is called among those of the table.
+    /// Column name of the channel at `position` in the resolved table.
     pub(crate) fn column(&self, position: usize) -> String {
         format!("[[matrix]] {}", self.gives[position].0)
     }
 
-    /// Why `rows` are not what this map needs.
+    /// Reason that `rows` are unusable for this map.
     pub(crate) fn problem(&self, rows: &[Vec<f64>]) -> Option<String> {
         let (height, width) = (self.gives.len(), self.from.len());
         if rows.len() != height || rows.iter().any(|row| row.len() != width) {

@@ -1,12 +1,12 @@
 //! Labels in the names of files and folders: `{object}/unit{unit:digits}/x{x:number}_{k:digits}.png`.
 
-/// The most names that a pattern captures.
+/// Limit of captured names in a pattern.
 const NAMES_MAX: usize = 16;
 
-/// A pattern of paths whose named parts are captured.
+/// Path pattern with named captures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct PathPattern {
-    /// The column that holds the path; `None`: the path of the table, or of the file that is the row, relative to the source folder.
+    /// Column with the path; `None` for the path of the table or of the row's file, relative to the source folder.
     pub(crate) of: Option<String>,
     pieces: Vec<Piece>,
 }
@@ -17,21 +17,21 @@ enum Piece {
     Named { name: String, kind: Kind },
 }
 
-/// What a named part may be.
+/// Kind of a named part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// The longest text without `/` that lets the rest match.
+    /// Longest text without `/` that lets the rest match.
     Free,
-    /// Folders in front, each with its `/`; none, or as many as let the rest match.
+    /// Leading folders, each with its `/`; as many as let the rest match, possibly none.
     Folders,
     /// Digits.
     Digits,
-    /// A decimal number, with a sign and an exponent where it has them.
+    /// Decimal number with optional sign and exponent.
     Number,
 }
 
 impl PathPattern {
-    /// The pattern that is written as `text`; what is wrong with it.
+    /// Parses a pattern. The error describes the problem.
     pub(super) fn parse(text: &str, of: Option<String>) -> Result<PathPattern, String> {
         let mut pieces = Vec::new();
         let mut rest = text;
@@ -79,7 +79,7 @@ impl PathPattern {
         }
     }
 
-    /// The names of its parts, in order.
+    /// Names of its parts, in order.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.pieces.iter().filter_map(|piece| match piece {
             Piece::Text(_) => None,
@@ -87,7 +87,7 @@ impl PathPattern {
         })
     }
 
-    /// The letters right behind the part called `name`, which are mostly its unit.
+    /// Letters directly behind the part called `name`, usually its unit.
     pub(crate) fn letters_behind(&self, name: &str) -> Option<&str> {
         let is_it =
             |piece: &Piece| matches!(piece, Piece::Named { name: known, .. } if known == name);
@@ -101,7 +101,7 @@ impl PathPattern {
         (end > 0).then(|| &text[..end])
     }
 
-    /// Whether the part called `name` is any text.
+    /// True if the part called `name` is free text or folders.
     pub(crate) fn is_text(&self, name: &str) -> bool {
         let is_so = |piece: &Piece| match piece {
             Piece::Named { name: known, kind } => {
@@ -112,10 +112,10 @@ impl PathPattern {
         self.pieces.iter().any(is_so)
     }
 
-    /// What the named parts of `path` are, in the order of [`names`](PathPattern::names); `None` if the path does not follow the pattern.
+    /// Values of the named parts of `path`, in the order of [`names`](PathPattern::names); `None` if the path does not match.
     pub(crate) fn captures<'p>(&self, path: &'p str) -> Option<Vec<&'p str>> {
         let mut found = Vec::new();
-        // A place that led nowhere once leads nowhere again, so that the time is bounded by length times parts.
+        // Failed positions are remembered, which bounds the time by length times parts.
         let mut failed = vec![vec![false; path.len() + 1]; self.pieces.len() + 1];
         self.follow(0, 0, path, &mut found, &mut failed)
             .then_some(found)
@@ -154,7 +154,7 @@ impl PathPattern {
 }
 
 impl Kind {
-    /// How long a part at the beginning of `text` may be, the longest first.
+    /// Possible lengths of a part at the beginning of `text`, longest first.
     fn lengths(self, text: &str) -> Vec<usize> {
         if self == Kind::Folders {
             let ends = text.match_indices('/').map(|(at, _)| at + 1);
@@ -179,7 +179,7 @@ impl Kind {
     }
 }
 
-/// Whether `text` is a decimal number; `inf` and `NaN` are none.
+/// True for a decimal number; false for `inf` and `NaN`.
 fn is_number(text: &str) -> bool {
     let is_plain = |letter: u8| letter.is_ascii_digit() || b"+-.eE".contains(&letter);
     text.bytes().all(is_plain)

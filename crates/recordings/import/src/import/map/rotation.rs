@@ -1,4 +1,4 @@
-//! Angles in a map: channels with a period, and channels that are the parts of one rotation.
+//! Angles in a map: channels with a period, and channels that are parts of one rotation.
 
 use serde::Deserialize;
 use taceva_core::{Channel, Channels, Orientation, SourceUnit, Unit};
@@ -9,19 +9,19 @@ use super::check::Check;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
-/// Channels that are the parts of one rotation.
+/// Channels that are parts of one rotation.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RotationMap {
-    /// The parts of a rotation vector x, y, z, or of a quaternion x, y, z, w.
+    /// Rotation vector x, y, z, or quaternion x, y, z, w.
     pub(crate) channels: Vec<String>,
-    /// The column of each channel.
+    /// Column of each channel.
     pub(crate) columns: Vec<String>,
-    /// The unit of the columns.
+    /// Unit of the columns.
     pub(crate) unit: SourceUnit,
 }
 
 impl RotationMap {
-    /// The orientation that the cells of a row say; `None` of a quaternion whose norm is not 1.
+    /// Orientation from the cells of a row; `None` for a quaternion whose norm is not 1.
     pub(crate) fn orientation(&self, cells: &[f64]) -> Option<Orientation> {
         match *cells {
             [x, y, z] => {
@@ -33,7 +33,7 @@ impl RotationMap {
         }
     }
 
-    /// The reason that `cells` are no quaternion.
+    /// Reason that `cells` are no quaternion.
     pub(crate) fn no_rotation(cells: &[f64]) -> String {
         let length = cells.iter().map(|cell| cell * cell).sum::<f64>().sqrt();
         format!(
@@ -41,7 +41,7 @@ impl RotationMap {
         )
     }
 
-    /// The numbers that say `orientation`, in the unit of the columns.
+    /// Components of `orientation`, in the unit of the columns.
     pub(crate) fn cells(&self, orientation: Orientation) -> Vec<f64> {
         match self.columns.len() {
             3 => {
@@ -53,7 +53,7 @@ impl RotationMap {
         }
     }
 
-    /// Other numbers that say the same: the turn the other way round, or the negative quaternion; `None` of a vector of no length.
+    /// Equivalent numbers: the reversed turn, or the negative quaternion; `None` for a zero vector.
     pub(crate) fn twin(&self, cells: &[f64]) -> Option<Vec<f64>> {
         let factor = match cells.len() {
             3 => {
@@ -78,7 +78,7 @@ pub(super) enum WrittenRotations {
 }
 
 impl Check<'_> {
-    /// `channel` with the period that the map states.
+    /// Adds the map's period to `channel`.
     pub(super) fn periodic(
         &self,
         channel: Channel,
@@ -102,7 +102,7 @@ impl Check<'_> {
         }
     }
 
-    /// The rotations, whose channels exist, are in one unit and stand in one table.
+    /// Checks the rotations: channels exist, share a unit and are in one table.
     pub(super) fn rotations(
         &self,
         written: Option<Spanned<WrittenRotations>>,

@@ -1,4 +1,4 @@
-//! The map as it is written, and the checks that a parser of types cannot make.
+//! Map as written, with checks beyond its types.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -90,7 +90,7 @@ fn positive() -> i64 {
     1
 }
 
-/// The first line, from 1, with a value that a draft left open.
+/// First line, from 1, with a value that a draft left open.
 fn first_open(text: &str) -> Option<u64> {
     let is_open = |line: &str| {
         let said = line.split('#').next().unwrap_or_default();
@@ -101,7 +101,7 @@ fn first_open(text: &str) -> Option<u64> {
         .find_map(|(number, line)| is_open(line).then_some(number))
 }
 
-/// The map that `text` says, checked.
+/// Parses and checks the map in `text`.
 pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError> {
     let written: WrittenMap = parse_toml(path, text)?;
     let check = Check { path, text };
@@ -187,7 +187,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
 }
 
 impl Check<'_> {
-    /// Refuses another version than 2, and says of version 1 what to change.
+    /// Rejects versions other than 2, with the changes that version 1 needs.
     fn version(&self, written: &WrittenMap) -> Result<(), DatasetError> {
         let array = written.frame.as_ref();
         let array = array.and_then(|frames| frames.get_ref().array_name());
@@ -285,7 +285,7 @@ impl Check<'_> {
             .map(Some)
     }
 
-    /// A column of times.
+    /// Checks a time column.
     pub(super) fn time_of(
         &self,
         column: ColumnName,

@@ -1,4 +1,4 @@
-//! Sections of a map beside columns and frames: labels in paths, joins, matrices, classes.
+//! Sections of a map besides columns and frames: labels in paths, joins, matrices, classes.
 
 use std::collections::BTreeMap;
 
@@ -211,7 +211,7 @@ impl Check<'_> {
             Some(kind) if kind.get_ref() == "rotation" => true,
             Some(kind) => return Err(self.at(kind.span().start, "the only kind is \"rotation\"")),
         };
-        // The order in which they are written is that of the rows.
+        // The order in the file is that of the matrix rows.
         let mut gives: Vec<_> = written.gives.iter().collect();
         gives.sort_by_key(|(_, unit)| unit.span().start);
         let gives: Result<Vec<_>, DatasetError> = gives

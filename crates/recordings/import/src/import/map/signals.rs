@@ -1,4 +1,4 @@
-//! Where the numbers of taxels are, as it is written and checked.
+//! Source of taxel values, as written and checked.
 
 use serde::Deserialize;
 use taceva_core::{SignalInfo, SourceUnit};
@@ -7,28 +7,28 @@ use toml::Spanned;
 use super::check::{Check, ColumnName};
 use taceva_dataset::{DatasetError, SignalsSpec};
 
-/// Where the numbers of taxels are.
+/// Source and layout of taxel values.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SignalsMap {
     pub(crate) from: SignalsFrom,
-    /// The unit that they are in.
+    /// Unit of the source.
     pub(crate) unit: SourceUnit,
-    /// The taxels, in the unit that they are kept in; no row without contact is in it.
+    /// Taxels in the unit they are kept in. Its rows without contact are not yet set.
     pub(crate) spec: SignalsSpec,
-    /// Numbers that stand for "nothing measured", before they are converted: a row that has one is left out.
+    /// Numbers that mean "nothing measured", before conversion. A row with one of them is left out.
     pub(crate) placeholders: Vec<f64>,
-    /// Whether all places of a channel stand together, and not all channels of a place.
+    /// True if values are grouped by channel; false if they are grouped by taxel position.
     pub(crate) is_channel_first: bool,
-    /// Runs of rows without contact, of the tables as they are read, each by its first and its last, from 0.
+    /// Ranges of rows without contact, in the order of reading, each by first and last row, from 0.
     pub(crate) rest: Vec<[u64; 2]>,
 }
 
-/// What holds the numbers.
+/// Source of the numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum SignalsFrom {
-    /// Columns, one a number, or one whose cells pack all of them.
+    /// Columns with one number each, or one column with all numbers in each cell.
     Columns(Vec<String>),
-    /// An array in another file, whose rows are those of the table.
+    /// Array in another file, with the rows of the table.
     Array { file: String, path: Option<String> },
 }
 
@@ -81,7 +81,7 @@ enum WrittenRest {
 }
 
 impl SignalsMap {
-    /// The columns that it names.
+    /// Columns that the map names.
     pub(crate) fn columns(&self) -> &[String] {
         match &self.from {
             SignalsFrom::Columns(columns) => columns,
@@ -89,7 +89,7 @@ impl SignalsMap {
         }
     }
 
-    /// True if `number`, before it is converted, stands for "nothing measured".
+    /// True if `number`, before conversion, means "nothing measured".
     pub(crate) fn is_placeholder(&self, number: f64) -> bool {
         let mut placeholders = self.placeholders.iter();
         placeholders.any(|known| {
@@ -99,7 +99,7 @@ impl SignalsMap {
         })
     }
 
-    /// Whether the row of that number, among those of all tables, is without contact.
+    /// True if `row`, counted over all tables, is without contact.
     pub(crate) fn is_rest(&self, row: u64) -> bool {
         let mut runs = self.rest.iter();
         runs.any(|[first, last]| (first..=last).contains(&&row))
@@ -204,7 +204,7 @@ impl Check<'_> {
     }
 }
 
-/// The columns that `text` means: `1..15` those of these numbers, behind any text, the last one included; one column else.
+/// Columns that `text` means: for `1..15` those with these numbers behind any prefix, inclusive; otherwise one column.
 fn columns_of(text: &str) -> Result<Vec<String>, String> {
     let Some((before, last)) = text.split_once("..") else {
         return Ok(vec![text.to_owned()]);

@@ -1,4 +1,4 @@
-//! The table of a map as it is written, and the form that its name or its `format` says.
+//! Table of a map as written, with the form given by its name or `format`.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::csv_table::text_form::TextForm;
 use crate::foreign::{TableForm, is_recording};
 use taceva_dataset::DatasetError;
 
-/// A table: its path, or what more there is to say of it.
+/// Table: its path, or a description.
 #[derive(Deserialize)]
 #[serde(
     untagged,
@@ -86,7 +86,7 @@ impl Format {
     }
 }
 
-/// The form of the table at `path`, by `format` or what its name ends with.
+/// Form of the table at `path`, from `format` or the filename extension.
 fn form_of(path: &str, format: Option<Format>) -> TableForm {
     let ending = path
         .rsplit_once('.')
@@ -115,9 +115,9 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
     }
 }
 
-/// The command that makes a table which is read of one that is not, by what its name ends with.
+/// Command that converts an unreadable table, by its filename extension.
 pub(crate) fn converter(path: &str) -> Option<String> {
-    // A table of Lance is a folder.
+    // A Lance table is a folder.
     if let Some((table, _)) = format!("{path}/").split_once(".lance/") {
         let (folder, name) = table.rsplit_once('/').unwrap_or((".", table));
         return Some(format!(
@@ -145,7 +145,7 @@ pub(crate) fn converter(path: &str) -> Option<String> {
 }
 
 impl Check<'_> {
-    /// The pattern of the files of a table, and their form.
+    /// Checks the file pattern and form of a table.
     pub(super) fn table(
         &self,
         written: &Spanned<WrittenTable>,
@@ -239,7 +239,7 @@ impl Check<'_> {
         Ok((file, form))
     }
 
-    /// The frames of a clip as a table.
+    /// Checks the form of a clip as a table.
     fn clip_form(&self, described: &WrittenForm, offset: usize) -> Result<TableForm, DatasetError> {
         let rate = described.rate;
         let start_s = described.start_s.unwrap_or(0.0);
@@ -266,7 +266,7 @@ impl Check<'_> {
 
     fn text_form(&self, described: &WrittenForm, offset: usize) -> Result<TextForm, DatasetError> {
         let decimal = match described.decimal.as_deref() {
-            // Points that group digits are no decimal points.
+            // With grouping points, the decimal mark is a comma.
             None if described.thousands.as_deref() == Some(".") => ',',
             None | Some(".") => '.',
             Some(",") => ',',

@@ -1,4 +1,4 @@
-//! Maps that are read, and maps that are refused with their line.
+//! Tests of accepted maps, and of rejected maps with their line.
 
 use super::*;
 

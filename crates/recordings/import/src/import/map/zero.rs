@@ -1,4 +1,4 @@
-//! What is taken from forces: their zero, and the weight of a tool.
+//! Corrections of forces: their zero, and the weight of a tool.
 
 use serde::Deserialize;
 use taceva_core::{Channels, SourceUnit, Unit};
@@ -13,18 +13,18 @@ use taceva_dataset::internal::shown;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ZeroMap {
     pub(crate) rows: ZeroRows,
-    /// Rows with equal cells in this column have a zero of their own; without it those of each table do.
+    /// Column whose equal cells form a block with its own zero; `None` for one block per table.
     pub(crate) block: Option<String>,
     /// Positions of the channels.
     pub(crate) channels: Vec<usize>,
 }
 
-/// Which rows of a block read zero.
+/// Rows of a block that read zero force.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ZeroRows {
-    /// So many from its first one on.
+    /// The first so many rows.
     First(usize),
-    /// Those whose number in a column lies on one side of a limit.
+    /// Rows with a number below or above a limit.
     Beside {
         column: String,
         limit: f64,
@@ -33,7 +33,7 @@ pub(crate) enum ZeroRows {
 }
 
 impl ZeroMap {
-    /// The rule in words.
+    /// Rule in words.
     pub(crate) fn rule(&self) -> String {
         let rows = match &self.rows {
             ZeroRows::First(count) => format!("first {count} rows"),
@@ -52,7 +52,7 @@ impl ZeroMap {
         }
     }
 
-    /// The columns that it reads.
+    /// Columns that the rule reads.
     pub(crate) fn columns(&self) -> impl Iterator<Item = &String> {
         let column = match &self.rows {
             ZeroRows::First(_) => None,
@@ -62,21 +62,21 @@ impl ZeroMap {
     }
 }
 
-/// Weight of what hangs on the transducer.
+/// Weight of a tool on the transducer.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct GravityMap {
-    /// kg.
+    /// Mass, kg.
     pub(crate) mass: f64,
     /// Centre of mass in the frame of the transducer, mm.
     pub(crate) centre: [f64; 3],
-    /// Orientation of the transducer in a frame whose z points up.
+    /// Orientation of the transducer in a frame whose z axis points up.
     pub(crate) orientation: RotationMap,
     /// Positions of Fx, Fy, Fz, Tx, Ty and Tz among the channels.
     pub(crate) channels: [Option<usize>; 6],
 }
 
 impl GravityMap {
-    /// The rule in words.
+    /// Rule in words.
     pub(crate) fn rule(&self) -> String {
         format!(
             "weight of {} kg at {:?} mm, turned by {}",

@@ -1,4 +1,4 @@
-//! How a map reads each label, as the header of the dataset keeps it.
+//! Summary of a map's labels for the header of the dataset.
 
 use super::short;
 use crate::import::map::{GravityMap, ImportMap, SignalsFrom, ZeroMap};
@@ -6,7 +6,7 @@ use crate::import::resolve::matrix_rows;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::{DatasetError, MappedColumn};
 
-/// How `map` reads the channels, the time and the numbers of taxels.
+/// Sources of the channels, the time and the taxel values of `map`.
 ///
 /// # Errors
 /// [`DatasetError`] if the file of a matrix cannot be read.

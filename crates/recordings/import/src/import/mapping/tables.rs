@@ -1,4 +1,4 @@
-//! How a map joins tables, finds pictures and names classes, as the header of the dataset keeps it.
+//! Summary of a map's joins, pictures and classes for the header of the dataset.
 
 use super::{short, short_name};
 use crate::import::map::{FrameMap, FrameNames, ImportMap, JoinBy, JoinMap, Lag, OWN_ROW};

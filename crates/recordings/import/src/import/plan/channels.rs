@@ -1,4 +1,4 @@
-//! What happens to each channel, in the summary of an import.
+//! Channels in the summary of an import.
 
 use super::reading::Reading;
 use crate::import::summary::Conversion;
@@ -28,7 +28,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Warns of channels that hold the same numbers because one column is named for both.
+    /// Warns of channels with equal numbers because both name the same column.
     fn warn_of_columns_read_twice(&mut self) {
         let columns = &self.map.columns;
         for (position, map) in columns.iter().enumerate() {

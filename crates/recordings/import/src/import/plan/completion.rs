@@ -1,4 +1,4 @@
-//! What the rows come to, once all were read.
+//! Completes the plan once all rows are read.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -16,11 +16,11 @@ use crate::import::summary::FrameSummary;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// How many images that no row names are listed.
+/// Limit of listed images that no row names.
 const LISTED_IMAGES: usize = 20;
 
 impl Reading<'_> {
-    /// The error that nothing is left to import, and why.
+    /// Error for an import without rows, with the reasons.
     pub(super) fn no_row(&self) -> DatasetError {
         let summary = &self.summary;
         let dropped = summary.dropped.iter();
@@ -45,7 +45,7 @@ impl Reading<'_> {
         }
     }
 
-    /// The plan of all that was read.
+    /// Plan from all that was read.
     pub(super) fn into_plan(mut self) -> Result<ImportPlan, DatasetError> {
         if let Some(unequal) = self.unequal.take() {
             return Err(unequal);
@@ -79,7 +79,7 @@ impl Reading<'_> {
         })
     }
 
-    /// The pictures of each view.
+    /// Frames of each view.
     fn planned_frames(&mut self) -> Result<Vec<PlannedFrames>, DatasetError> {
         let mut planned = Vec::new();
         for view in std::mem::take(&mut self.views) {
@@ -117,7 +117,7 @@ impl Reading<'_> {
         Ok(planned)
     }
 
-    /// Looks for images beside those that rows name.
+    /// Searches for images beside those that rows name.
     fn find_unnamed(&mut self) {
         let mut frames = self.map.frames.iter();
         let are_files = |frame: &FrameMap| {

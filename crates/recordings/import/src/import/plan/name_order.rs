@@ -1,16 +1,16 @@
-//! Files whose order by name is not that of the numbers in their names.
+//! Detects files whose name order differs from the order of the numbers in their names.
 
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
-/// The first two of `files`, which are in the order of their names, that stand otherwise in the order of the numbers in them: 10 before 2.
+/// First two neighbours of `files`, sorted by name, that are in the opposite order by number: 10 before 2.
 pub(super) fn counted_otherwise(files: &[PathBuf]) -> Option<[&Path; 2]> {
     let mut pairs = files.windows(2);
     let pair = pairs.find(|pair| by_numbers(&pair[0], &pair[1]).is_gt())?;
     Some([&pair[0], &pair[1]])
 }
 
-/// The order of two names letter by letter, but for digits in the same place, which are compared as numbers.
+/// Order of two names by letters, with digits at the same place compared as numbers.
 fn by_numbers(one: &Path, other: &Path) -> Ordering {
     let [one, other] = [one, other].map(|path| path.to_string_lossy());
     let (mut one, mut other) = (&*one, &*other);

@@ -1,4 +1,4 @@
-//! The files with pictures in them that rows name.
+//! Files with pictures that rows name.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,8 +13,8 @@ use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
 impl Reading<'_> {
-    /// Checks that no two tables have the pictures in `file` by the number of the row, where no column says which picture a row has: each table
-    /// would begin with the first one again.
+    /// Checks that no two tables use the pictures in `file` by row number without a column that selects them. Each table would begin with
+    /// the first picture again.
     pub(super) fn check_counted_once(
         &mut self,
         view: usize,
@@ -54,8 +54,8 @@ impl Reading<'_> {
         })
     }
 
-    /// Remembers that there are more or fewer pictures than rows where nothing in the map says which picture a row has. It is refused once all
-    /// tables were read, since what is wrong with one of them says more.
+    /// Records an error if pictures and rows differ in number and the map names no index. It is raised after all tables are read, since an
+    /// error in a table is more specific.
     pub(super) fn note_unequal(
         &mut self,
         view: usize,
@@ -68,7 +68,7 @@ impl Reading<'_> {
             _ => return,
         };
         let (count, rows) = (pictures.count(), rows.rows() as u64);
-        // A table of LeRobot says itself which frame of which clip a row has.
+        // A LeRobot table states the clip and frame of each row itself.
         if index != OWN_ROW
             || self.map.form == TableForm::LeRobot
             || count == rows
@@ -87,7 +87,7 @@ impl Reading<'_> {
         });
     }
 
-    /// Checks that no two tables name the picture at `path` by the number of their rows.
+    /// Checks that no two tables name the picture at `path` by row number.
     pub(super) fn check_named_once(
         &mut self,
         view: usize,
@@ -120,7 +120,7 @@ impl Reading<'_> {
         }
     }
 
-    /// The pictures in the file at `relative`, which is opened once; with `*` in it, those of all such files, counted through.
+    /// Pictures in the file at `relative`, which is opened once. With `*`, those of all matching files, numbered consecutively.
     pub(super) fn pictures(
         &mut self,
         view: usize,

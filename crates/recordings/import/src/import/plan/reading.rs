@@ -1,4 +1,4 @@
-//! The rows of all tables, one after the other: their labels, and where their frames lie.
+//! Reads the rows of all tables: labels and frame locations.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
@@ -16,30 +16,30 @@ use crate::import::summary::{ImportSummary, ZeroSummary};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::{DatasetError, Table};
 
-/// The rows of all tables as they are read.
+/// State of reading the rows of all tables.
 pub(super) struct Reading<'a> {
     pub(super) folder: &'a SourceFolder,
     pub(super) map: &'a ImportMap,
     pub(super) decoders: &'a Decoders,
-    /// How many tables there are.
+    /// Number of tables.
     pub(super) count: usize,
-    /// The table that is being read.
+    /// Table being read.
     pub(super) current: PathBuf,
     pub(super) table: Table,
-    /// The pictures of each view.
+    /// Pictures of each view.
     pub(super) views: Vec<ViewReading<'a>>,
     pub(super) signals: Option<FoundSignals<'a>>,
-    /// That there are more or fewer pictures than rows, and nothing says which is whose.
+    /// Error that pictures and rows differ in number without an index.
     pub(super) unequal: Option<DatasetError>,
     pub(super) joins: Vec<JoinMatches>,
-    /// The frames that labels of all tables are given in.
+    /// Coordinate frames of the labels of all tables.
     pub(super) coordinate_frames: CoordinateFrames,
-    /// Chunks that were never written, by file and array.
+    /// Unwritten chunks, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     pub(super) samples: HashSet<String>,
-    /// Every image that a row names, dropped ones too.
+    /// Images that rows name, including dropped rows.
     pub(super) named: BTreeSet<PathBuf>,
-    /// The folders that images are relative to.
+    /// Base folders of images.
     pub(super) bases: BTreeSet<PathBuf>,
     pub(super) summary: ImportSummary,
 }
@@ -117,7 +117,7 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    /// Notes what is taken from the forces of a table.
+    /// Records the zero and weight subtracted from the forces of a table.
     fn note_zeros(&mut self, rows: &MappedTable<'_>) {
         let gravity = self.map.gravity.as_ref();
         self.summary.gravity = gravity.map(GravityMap::rule);

@@ -1,4 +1,4 @@
-//! The pictures of one row, found by what its table says.
+//! Finds the pictures of one row.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use crate::import::rows::MappedTable;
 use taceva_dataset::{DatasetError, Row, RowFrame};
 
 impl Reading<'_> {
-    /// Finds the frame of a row in the view at position `view`, and that without contact.
+    /// Finds the frame of a row in the view at position `view`, and the frame without contact.
     pub(super) fn read_frame(
         &mut self,
         rows: &MappedTable<'_>,

@@ -1,4 +1,4 @@
-//! The pictures of one view as they are read.
+//! Pictures of one view during reading.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,16 +9,16 @@ use crate::import::frame_plan::PlannedFrame;
 use crate::import::map::FrameMap;
 use crate::import::references::References;
 
-/// The pictures of one view as they are read.
+/// Pictures of one view during reading.
 pub(super) struct ViewReading<'a> {
     pub(super) map: &'a FrameMap,
-    /// The folder that its pictures are relative to, of the table that is being read.
+    /// Base folder of pictures for the table being read.
     pub(super) base: PathBuf,
-    /// The pixels of a depth map that the clips of that table are.
+    /// Pixels of the depth map in that table's clips.
     pub(super) depth: Option<DepthPixels>,
-    /// The files with pictures in them that rows named.
+    /// Opened files with pictures.
     pub(super) opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
-    /// Pictures that rows have by their own number, as the map names them, each with the table of these rows.
+    /// Pictures used by row number, as the map names them, each with its table.
     pub(super) counted: BTreeMap<String, PathBuf>,
     pub(super) frames: Vec<PlannedFrame>,
     pub(super) references: References,
@@ -37,7 +37,7 @@ impl<'a> ViewReading<'a> {
         }
     }
 
-    /// The folder of what a table names: beside it, unless the map says a folder.
+    /// Base folder of named files: beside the table, unless the map states a folder.
     pub(super) fn beside(&self, named_by: Option<&Path>) -> PathBuf {
         match self.map.folder {
             None => named_by.unwrap_or(&self.base).to_owned(),

@@ -1,10 +1,10 @@
-//! One cell of a table of any form.
+//! Reads one cell of a table of any form.
 
 use super::columns::indexed;
 use crate::foreign::{ForeignTable, cell_list};
 use taceva_dataset::DatasetError;
 
-/// What a row of `table` has in the column `name`, or at its position in what the cell packs: `ft[2]`.
+/// Cell of a row in the column `name`, or one element of a list in the cell: `ft[2]`.
 pub(super) fn cell_of(
     table: &ForeignTable,
     row: usize,

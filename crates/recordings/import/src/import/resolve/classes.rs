@@ -1,4 +1,4 @@
-//! Whether the cells of a class are positions in its list, or names of it.
+//! Decides whether the cells of a class are positions in its list or names.
 
 use super::Sources;
 use super::columns::base_of;
@@ -7,21 +7,21 @@ use crate::import::map::ClassMap;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// What the cells of a class are.
+/// Interpretation of the cells of a class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::import) enum ClassCells {
-    /// Positions in the list, also where a name is the same number.
+    /// Positions in the list, even if a name is the same number.
     Positions,
-    /// Names of the list.
+    /// Names in the list.
     Names,
-    /// Either, of a list in which no name is the position of another.
+    /// Positions or names, in a list whose names are no positions of others.
     Either,
 }
 
-/// What the cells of each class of the map are, in its order.
+/// Interpretation of the cells of each class, in map order.
 ///
 /// # Errors
-/// [`DatasetError::Table`] if a name is also the position of another one, and nothing says which of both a cell is.
+/// [`DatasetError::Table`] if a name is also the position of another name and the file does not resolve it.
 pub(super) fn of(sources: &Sources<'_>) -> Result<Vec<ClassCells>, DatasetError> {
     let classes = sources.map.classes.iter();
     classes
@@ -56,7 +56,7 @@ impl Sources<'_> {
         })
     }
 
-    /// Whether the file says that a column holds integers.
+    /// True if the file states that a column holds integers.
     fn holds_integers(&self, name: &str) -> bool {
         match self.joined_column(name) {
             Some((joined, column)) => joined.holds_integers(column),
@@ -65,7 +65,7 @@ impl Sources<'_> {
     }
 }
 
-/// Whether the file of `table` says that the column `name`, or the one that it leads into, holds integers.
+/// True if the file of `table` states that the column `name`, or the column that it indexes, holds integers.
 pub(super) fn holds_integers(table: &ForeignTable, name: &str) -> bool {
     let column = match table.has(name) {
         true => name,

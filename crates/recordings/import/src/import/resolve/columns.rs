@@ -1,20 +1,20 @@
-//! The names of columns in a map.
+//! Column names in a map.
 
 use crate::import::map::{FrameNames, ImportMap};
 
-/// `ft[2,0]`: the column, and the position in what its cells pack; `None` of a name without one.
+/// Splits `ft[2,0]` into the column and the position in its cells; `None` for a name without position.
 pub(super) fn indexed(name: &str) -> Option<(&str, Vec<usize>)> {
     let (base, index) = name.strip_suffix(']')?.rsplit_once('[')?;
     let index: Result<Vec<usize>, _> = index.split(',').map(|part| part.trim().parse()).collect();
     Some((base, index.ok()?))
 }
 
-/// The column itself that a name leads into.
+/// Column that a name indexes.
 pub(super) fn base_of(name: &str) -> &str {
     indexed(name).map_or(name, |(base, _)| base)
 }
 
-/// Every column that the map names, each once; what a matrix gives is none.
+/// Distinct columns that the map names, without the results of matrices.
 pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
     let ids = &map.ids;
     let given = |name: &String| {

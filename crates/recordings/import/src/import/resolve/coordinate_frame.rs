@@ -1,4 +1,4 @@
-//! Coordinate frames that wrenches and poses are given in: one frame a column, whatever the rows.
+//! Coordinate frames of wrenches and poses: one frame per column, for all rows.
 
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +14,7 @@ use crate::import::map::{FrameNames, ImportMap};
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// Ends of the name of a column that names a coordinate frame: `header.frame_id`, `/header/frame_id`, `wrench_reference_frame`.
+/// Endings of columns that name a coordinate frame: `header.frame_id`, `/header/frame_id`, `wrench_reference_frame`.
 const ENDINGS: [&str; 5] = [
     "frame_id",
     "child_frame",
@@ -22,28 +22,28 @@ const ENDINGS: [&str; 5] = [
     "parent_frame",
     "reference_frame",
 ];
-/// Rows from which on a column with another text in each of them names pictures.
+/// Least number of rows from which a column of distinct texts is taken for picture names.
 const NAMES_OF_PICTURES: usize = 8;
-/// Number of frames that a message names.
+/// Number of frames listed in a message.
 const LISTED: usize = 8;
 
-/// The coordinate frames of a main table and of those that are joined to it.
+/// Coordinate frames of a main table and its joined tables.
 #[derive(Default)]
 pub(in crate::import) struct CoordinateFrames {
     stated: BTreeMap<FrameColumn, StatedFrame>,
-    /// Reasons why rows of the main table are left out: they are given in another frame than the map takes.
+    /// Rows of the main table that are left out because their frame differs from the map's, with the reason.
     pub(in crate::import) left_out: BTreeMap<usize, String>,
 }
 
-/// A frame and the first row that is given in it.
+/// Frame, with the first row given in it.
 struct StatedFrame {
     name: String,
     place: Place,
-    /// When, s, where the time of the row is known.
+    /// Time of the row, s, if known.
     time_s: Option<f64>,
 }
 
-/// A column that names frames: of a joined table, or of the main one.
+/// Column that names frames, in a joined table or the main one.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct FrameColumn {
     join: Option<String>,
@@ -51,7 +51,7 @@ struct FrameColumn {
 }
 
 impl CoordinateFrames {
-    /// Checks that another main table is given in the same frames as those before it.
+    /// Checks that another main table has the same frames as the previous ones.
     pub(in crate::import) fn add(&mut self, other: CoordinateFrames) -> Result<(), DatasetError> {
         for (column, stated) in other.stated {
             let name = stated.name.clone();
@@ -60,7 +60,7 @@ impl CoordinateFrames {
         Ok(())
     }
 
-    /// Takes the frame called `name` of a row; another one than that of the rows before it is refused.
+    /// Records the frame `name` of a row. Rejects a frame that differs from the previous rows.
     fn take(
         &mut self,
         column: FrameColumn,
@@ -103,7 +103,7 @@ fn changed(column: &FrameColumn, known: &StatedFrame, found: &StatedFrame) -> Da
     }
 }
 
-/// The columns of `table` that may name frames, by their names.
+/// Names of the columns of `table` that may name frames.
 pub(super) fn columns(table: &ForeignTable) -> Vec<String> {
     let mut names = table.columns();
     names.extend(table.names());
@@ -113,14 +113,14 @@ pub(super) fn columns(table: &ForeignTable) -> Vec<String> {
     names
 }
 
-/// The name of a column without the end that says that it names a coordinate frame.
+/// Column name without its frame ending.
 fn without_ending(column: &str) -> Option<&str> {
     let lower = column.to_ascii_lowercase();
     let ending = ENDINGS.into_iter().find(|ending| lower.ends_with(ending))?;
     Some(&column[..column.len() - ending.len()])
 }
 
-/// Begin of `column` before the name of a frame, and of the columns that are given in it: nothing, `wrench.`.
+/// Prefix of `column` before the frame ending, shared by the columns given in that frame: empty, `wrench.`.
 fn prefix(column: &str) -> &str {
     let mut prefix = without_ending(column).unwrap_or(column);
     for part in ["child_", "header.", "header/", "header_"] {
@@ -135,13 +135,13 @@ fn prefix(column: &str) -> &str {
     prefix
 }
 
-/// A name as frames are compared: ROS 1 writes `/tool0` for `tool0`.
+/// Normalised name for comparison: ROS 1 writes `/tool0` for `tool0`.
 fn comparable(cell: &str) -> &str {
     let cell = cell.trim();
     cell.strip_prefix('/').unwrap_or(cell)
 }
 
-/// The columns with labels of the table that `join` names, of the main one without; they are called as that table calls them.
+/// Label columns of the join `join`, or of the main table for `None`, as that table calls them.
 fn labels<'m>(map: &'m ImportMap, main: &ForeignTable, join: Option<&str>) -> Vec<&'m str> {
     let in_space = [
         Unit::Newton,
@@ -172,7 +172,7 @@ fn labels<'m>(map: &'m ImportMap, main: &ForeignTable, join: Option<&str>) -> Ve
     own.collect()
 }
 
-/// True if the map reads `column` as a name of pictures or of samples.
+/// True if the map reads `column` as names of pictures or samples.
 fn is_name(map: &ImportMap, column: &str) -> bool {
     let of_frames = map.frames.iter();
     let of_frames = of_frames.filter_map(|frame| match &frame.names {
@@ -185,7 +185,7 @@ fn is_name(map: &ImportMap, column: &str) -> bool {
     known.any(|known| known == column)
 }
 
-/// The columns of `table` that name the frames of the numbers in `labels`; counters and names of pictures are none.
+/// Columns of `table` that name the frames of `labels`, without counters and picture names.
 fn naming(table: &ForeignTable, labels: &[&str]) -> Result<Vec<String>, DatasetError> {
     let mut found = Vec::new();
     if labels.is_empty() {
@@ -219,7 +219,7 @@ fn naming(table: &ForeignTable, labels: &[&str]) -> Result<Vec<String>, DatasetE
     Ok(found)
 }
 
-/// The rows of `table` that are given in the frame called `frame`, which the map takes; all without one.
+/// Rows of `table` given in the frame `frame`. Fails if no column names frames, or if no row has that frame.
 pub(super) fn rows_in(
     table: &ForeignTable,
     labels: &[&str],
@@ -259,12 +259,12 @@ pub(super) fn rows_in(
 }
 
 impl Sources<'_> {
-    /// The columns of the table that `join` names, of the main one without, whose numbers are given in a frame.
+    /// Label columns of the join `join`, or of the main table for `None`, whose numbers have a frame.
     pub(super) fn labels(&self, join: Option<&str>) -> Vec<&str> {
         labels(self.map, &self.main, join)
     }
 
-    /// The frame of every column of labels, each the same in all rows that have a number.
+    /// Frame of every label column. It must be constant over all rows with a number.
     pub(super) fn coordinate_frames(&self) -> Result<CoordinateFrames, DatasetError> {
         let mut frames = CoordinateFrames::default();
         let labels = self.labels(None);
@@ -322,7 +322,7 @@ impl Sources<'_> {
         Ok(frames)
     }
 
-    /// When a row of the main table was recorded, s.
+    /// Time of a row of the main table, s.
     fn time_s(&self, row: usize) -> Option<f64> {
         let time = self.map.time.as_ref()?;
         let cell = self.cell_in_seconds(row, &time.column).ok()?;
@@ -333,7 +333,7 @@ impl Sources<'_> {
     }
 }
 
-/// A row of a table, and the column that says in which frame it is given.
+/// Row of a table, with the column that names its frame.
 struct Given<'a> {
     table: &'a ForeignTable,
     join: Option<&'a str>,
@@ -342,7 +342,7 @@ struct Given<'a> {
 }
 
 impl Given<'_> {
-    /// Takes the frame of the row, if one of the labels has a number there.
+    /// Records the row's frame if one of the labels has a number there.
     fn take(
         &self,
         frames: &mut CoordinateFrames,

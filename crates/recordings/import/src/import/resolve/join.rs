@@ -1,4 +1,4 @@
-//! Which row of another table belongs to each row of the main one.
+//! Matches rows of joined tables to rows of the main table.
 
 mod candidates;
 mod interpolation;
@@ -27,19 +27,19 @@ use taceva_dataset::{DatasetError, Place};
 
 pub(in crate::import) use matches::JoinMatches;
 
-/// A joined table, or one for each path that its name leads to.
+/// Joined table, or several if its name depends on the path.
 pub(super) struct Joined<'a> {
     map: &'a JoinMap,
     tables: Vec<Candidates>,
-    /// For each row of the main table.
+    /// One match per row of the main table.
     matches: Vec<Match>,
-    /// The greatest distance in time of what was matched, s.
+    /// Greatest time difference of a match, s.
     greatest_gap_s: Option<f64>,
-    /// Columns that are no plain numbers between two rows.
+    /// Columns that need special interpolation between two rows.
     interpolations: Vec<Interpolation>,
 }
 
-/// What belongs to a row of the main table.
+/// Match of a row of the main table.
 #[derive(Clone, Copy)]
 struct Match {
     table: usize,
@@ -106,18 +106,18 @@ impl<'a> Joined<'a> {
         self.matches[row].at != At::Nowhere
     }
 
-    /// The folder of the table that `row` is matched with.
+    /// Folder of the table that `row` is matched with.
     pub(super) fn folder(&self, row: usize) -> &Path {
         taceva_files::parent_of(self.tables[self.matches[row].table].table.path())
     }
 
-    /// Whether every file says that it holds integers in `column`.
+    /// True if every file states that `column` holds integers.
     pub(super) fn holds_integers(&self, column: &str) -> bool {
         let mut tables = self.tables.iter();
         !self.tables.is_empty() && tables.all(|joined| holds_integers(&joined.table, column))
     }
 
-    /// The columns of the main table that it is matched by.
+    /// Columns of the main table used as keys.
     pub(super) fn own_columns(&self) -> impl Iterator<Item = &str> {
         let columns = match &self.map.by {
             JoinBy::Columns(columns) => columns.as_slice(),
@@ -133,13 +133,13 @@ impl<'a> Joined<'a> {
         columns.iter().map(|(own, _)| own.as_str()).chain(lag)
     }
 
-    /// What the row that belongs to `row` has in `column`; nothing where none belongs to it.
+    /// Cell of the row matched with `row` in `column`; empty without a match.
     pub(super) fn cell(&self, row: usize, column: &str) -> Result<String, DatasetError> {
         let Match { table, at } = self.matches[row];
         let table = &self.tables[table].table;
         match at {
             At::Nowhere => {
-                // A column that is not there is said even so.
+                // A missing column is still an error.
                 match (table.has(column), super::columns::indexed(column)) {
                     (false, None) => Err(table.no_column(column)),
                     _ => Ok(String::new()),
@@ -153,7 +153,7 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// The rows of joined tables that the cells of `row` are taken from.
+    /// Rows of joined tables from which the cells of `row` are taken.
     pub(super) fn rows_of(&self, row: usize) -> impl Iterator<Item = TakenRow<'_>> {
         let Match { table: at, at: of } = self.matches[row];
         let candidates = &self.tables[at];
@@ -170,19 +170,19 @@ impl<'a> Joined<'a> {
         })
     }
 
-    /// A cell of the joined tables whose point may group digits, and how many there are.
+    /// Example cell of the joined tables whose point may group digits, with the number of such cells.
     pub(super) fn grouped_digits(&self, column: &str) -> Option<(String, u64)> {
         let mut tables = self.tables.iter();
         tables.find_map(|candidates| candidates.table.grouped_digits(column))
     }
 
-    /// Checks that what the map says of `column` agrees with what the files say of it.
+    /// Checks that the map agrees with the files about `column`.
     pub(super) fn check(&self, column: &str, reading: Reading<'_>) -> Result<(), DatasetError> {
         let mut tables = self.tables.iter();
         tables.try_for_each(|candidates| unit_statement::check(&candidates.table, column, reading))
     }
 
-    /// Counts the chunks that were never written of the arrays that are read.
+    /// Counts the unwritten chunks of the arrays read.
     pub(super) fn count_absent_chunks(
         &self,
         folder: &SourceFolder,
@@ -194,7 +194,7 @@ impl<'a> Joined<'a> {
         tables.try_for_each(|candidates| candidates.table.count_absent_chunks(folder, &own, into))
     }
 
-    /// What was matched, of the rows of `main`.
+    /// Summary of the matches with `main`.
     pub(super) fn matched(&self, main: &ForeignTable) -> JoinMatches {
         let mut used: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); self.tables.len()];
         for Match { table, at } in &self.matches {
@@ -236,7 +236,7 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// How much later the clock of the joined table shows the instant of `row`, ms.
+    /// Delay of the joined table's clock at `row`, ms; positive if it shows a later time.
     fn lag_ms(&self, sources: &Sources<'_>, row: usize, lag: &Lag) -> Result<f64, DatasetError> {
         match lag {
             Lag::Fixed(lag) => Ok(*lag),
@@ -348,7 +348,7 @@ impl<'a> Joined<'a> {
     }
 }
 
-/// The columns of the joined table among the names that a map mentions.
+/// Columns of the joined table among the names that a map mentions.
 fn own_columns<'n>(names: &'n [String], join: &str) -> Vec<&'n str> {
     let own = names.iter().filter_map(|name| {
         let (prefix, column) = name.split_once('.')?;

@@ -1,4 +1,4 @@
-//! Channels that are a matrix times columns.
+//! Channels computed as a matrix times columns.
 
 use super::table::ResolvedTable;
 use crate::csv_table::CsvTable;
@@ -6,7 +6,7 @@ use crate::import::map::{MatrixMap, MatrixRows};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::{DatasetError, Place};
 
-/// Adds the columns that `map` gives to `table`; a product is empty where one of its factors is.
+/// Adds the result columns of `map` to `table`. A product is empty if one of its factors is.
 pub(super) fn apply(
     map: &MatrixMap,
     folder: &SourceFolder,
@@ -28,7 +28,7 @@ pub(super) fn apply(
         for (product, factors) in products.iter_mut().zip(&rows) {
             product.push(match &numbers {
                 None => String::new(),
-                // In the shortest form that reads back to the same number.
+                // Shortest form that reads back to the same number.
                 Some(numbers) => format!("{:?}", times(factors, numbers, &map.offset)),
             });
         }
@@ -39,7 +39,7 @@ pub(super) fn apply(
     Ok(())
 }
 
-/// The numbers of the matrix, a row a channel.
+/// Rows of the matrix, one per channel.
 pub(in crate::import) fn matrix_rows(
     map: &MatrixMap,
     folder: &SourceFolder,
@@ -57,7 +57,7 @@ fn times(factors: &[f64], numbers: &[f64], offset: &[f64]) -> f64 {
         .sum()
 }
 
-/// The numbers of a CSV file without a header.
+/// Reads the matrix from a headerless CSV file.
 fn of_file(
     map: &MatrixMap,
     folder: &SourceFolder,

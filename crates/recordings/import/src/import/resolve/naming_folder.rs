@@ -1,17 +1,17 @@
-//! The folders of joined tables that name pictures: what a table names lies beside it.
+//! Folders of joined tables that name pictures; such paths are relative to the naming table.
 
 use std::path::{Path, PathBuf};
 
 use super::Sources;
 use crate::import::map::FrameNames;
 
-/// The folders of the joined tables that name pictures, those of each view.
+/// Folders of the joined tables that name pictures, for each view.
 #[derive(Debug, Default)]
 pub(in crate::import) struct NamedBy {
     views: Vec<ViewNamedBy>,
 }
 
-/// For each row the folder of the joined table that names its picture, and its picture without contact; none where the main table does.
+/// Folder of the joined table that names each row's picture and reference; `None` if the main table names them.
 #[derive(Debug)]
 struct ViewNamedBy {
     frames: Option<Vec<PathBuf>>,
@@ -38,12 +38,12 @@ impl NamedBy {
         }
     }
 
-    /// The folder of the joined table that names the picture of `row` in the view at position `view`.
+    /// Folder of the joined table that names the picture of `row` in the view at position `view`.
     pub(in crate::import) fn frame(&self, view: usize, row: usize) -> Option<&Path> {
         Some(self.views.get(view)?.frames.as_ref()?.get(row)?)
     }
 
-    /// That of its picture without contact.
+    /// Folder of the joined table that names its picture without contact.
     pub(in crate::import) fn reference(&self, view: usize, row: usize) -> Option<&Path> {
         Some(self.views.get(view)?.references.as_ref()?.get(row)?)
     }

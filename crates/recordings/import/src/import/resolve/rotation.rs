@@ -1,13 +1,13 @@
-//! Rows of a rotation, written so that neighbours lie near each other.
+//! Unwraps rotations, so that consecutive rows are close.
 
 use super::table::ResolvedTable;
 use crate::import::map::RotationMap;
 use taceva_dataset::DatasetError;
 
-/// How much nearer other numbers for the same rotation are before they are taken, in the unit of the cells.
+/// Least distance gained by equivalent numbers before they are used, in the unit of the cells.
 const LEAST_GAIN: f64 = 1e-9;
 
-/// Writes each rotation by those of its numbers that are nearer to the row before: robots report half a turn by v and -v in turn.
+/// Replaces each rotation by the equivalent nearest to the previous row. Robots alternate between v and -v near half a turn.
 ///
 /// # Errors
 /// [`DatasetError::Table`] naming the row for a quaternion whose norm is not 1.

@@ -1,12 +1,12 @@
-//! The numbers of taxels in the columns of a table.
+//! Taxel values in the columns of a table.
 
 use super::Sources;
 use crate::csv_table::number;
 use crate::import::map::SignalsMap;
 use taceva_dataset::DatasetError;
 
-/// The numbers of every row, place first, in the unit that they are kept in. Where a cell holds none there is a NaN, which is an
-/// error if the row is kept.
+/// Values of every row, grouped by taxel, in the unit they are kept in. A cell without a number gives NaN, which is an error if the row is
+/// kept.
 pub(super) fn numbers(
     sources: &Sources<'_>,
     map: &SignalsMap,
@@ -56,11 +56,11 @@ pub(super) fn numbers(
     })
 }
 
-/// Numbers of taxels that stand in columns.
+/// Taxel values in columns.
 pub(in crate::import) struct ColumnSignals {
-    /// Numbers of every row, place first.
+    /// Values of every row, grouped by taxel.
     pub(in crate::import) numbers: Vec<f32>,
-    /// True of each row with a number that stands for "nothing measured".
+    /// True for each row with a number that means "nothing measured".
     pub(in crate::import) are_placeholders: Vec<bool>,
 }
 
@@ -73,10 +73,10 @@ impl Sources<'_> {
     }
 }
 
-/// The lengths of the lists in a cell, from the outermost one; none of a cell without brackets.
+/// Lengths of the nested lists in a cell, from the outermost one; empty for a cell without brackets.
 ///
 /// # Errors
-/// Why there are no such lengths.
+/// Reason that the lists are irregular.
 fn nested(cell: &str) -> Result<Vec<u64>, String> {
     let mut open: Vec<u64> = Vec::new();
     let mut sides: Vec<Option<u64>> = Vec::new();
@@ -117,27 +117,27 @@ fn nested(cell: &str) -> Result<Vec<u64>, String> {
         .ok_or_else(|| "a bracket that nothing closes".to_owned())
 }
 
-/// The numbers that one cell packs, whatever lists they are in.
+/// Numbers in one cell, ignoring its list structure.
 fn packed(cell: &str) -> impl Iterator<Item = &str> {
     let parts = cell.split(|letter: char| letter.is_whitespace() || "[](),;".contains(letter));
     parts.filter(|part| !part.is_empty())
 }
 
-/// The number in a cell, as it is kept; NaN of none.
+/// Number in a cell, in the unit it is kept in; NaN if there is none.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "signals are kept in single precision; this is the one rounding"
 )]
 fn read(cell: &str, map: &SignalsMap) -> f32 {
     let number = number::number_in_unit(cell.trim(), &map.unit);
-    // Beyond single precision it is none either.
+    // Numbers beyond single precision are absent as well.
     let number = number.ok().flatten().map(|number| number as f32);
     number
         .filter(|number| number.is_finite())
         .unwrap_or(f32::NAN)
 }
 
-/// The numbers of a row in the order of places, then of channels.
+/// Numbers of a row reordered by taxel, then by channel.
 pub(in crate::import) fn place_first<'v>(
     map: &SignalsMap,
     values: &'v [f32],

@@ -9,17 +9,17 @@ use crate::csv_table::number;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// The cells of the columns that a map names.
+/// Cells of the columns that a map names.
 pub(in crate::import) struct ResolvedTable {
     path: PathBuf,
-    /// The path relative to the folder of the lab.
+    /// Path relative to the lab's folder.
     relative: String,
     names: Vec<String>,
-    /// For each column the cell of each row.
+    /// Cells by column, then by row.
     cells: Vec<Vec<String>>,
-    /// Where each row stands.
+    /// Place of each row, for messages.
     places: Vec<Place>,
-    /// For each row the join in which no row belongs to it, where that leaves the row out.
+    /// For each row, the join without a match that leaves it out, if any.
     unmatched: Vec<Option<String>>,
 }
 
@@ -45,12 +45,12 @@ impl ResolvedTable {
         }
     }
 
-    /// The file.
+    /// Path of the file.
     pub(in crate::import) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The path of the table in the folder of the lab.
+    /// Path of the table relative to the lab's folder.
     pub(in crate::import) fn source(&self) -> &str {
         &self.relative
     }
@@ -63,7 +63,7 @@ impl ResolvedTable {
         self.places.len()
     }
 
-    /// Where the column called `name` stands.
+    /// Position of the column called `name`.
     pub(in crate::import) fn position(&self, name: &str) -> Result<usize, DatasetError> {
         self.find(name).ok_or_else(|| DatasetError::Table {
             place: Place::file(&self.path),
@@ -85,17 +85,17 @@ impl ResolvedTable {
         number.map_err(|problem| self.refuse(row, column, &problem))
     }
 
-    /// Why a row is left out before its cells are looked at.
+    /// Join that leaves the row out; `None` if all joins match.
     pub(in crate::import) fn unmatched(&self, row: usize) -> Option<&str> {
         self.unmatched[row].as_deref()
     }
 
-    /// Where the column called `name` stands; every one that the map names is there.
+    /// Position of the column called `name`. Every column of the map exists.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)
     }
 
-    /// The number in a cell.
+    /// Number in a cell.
     pub(in crate::import) fn number(
         &self,
         row: usize,
@@ -105,7 +105,7 @@ impl ResolvedTable {
         number::number(cell).map_err(|problem| self.refuse(row, column, &problem))
     }
 
-    /// Writes another cell.
+    /// Replaces a cell.
     pub(super) fn set(&mut self, row: usize, column: usize, cell: String) {
         self.cells[column][row] = cell;
     }

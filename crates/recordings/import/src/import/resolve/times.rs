@@ -1,4 +1,4 @@
-//! Times that a file says to be times, or writes as text: they are read in seconds, and no map scales them again.
+//! Times that a file marks as times or writes as text. They are read in seconds and never scaled.
 
 use taceva_core::SourceUnit;
 
@@ -10,7 +10,7 @@ use crate::instant::TextInstant;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// Checks that `unit`, which the map states of the column `name` of `table`, is seconds where the file itself says that it holds times.
+/// Checks that the map states seconds for the column `name` if the file marks it as times.
 pub(super) fn check(
     table: &ForeignTable,
     name: &str,
@@ -31,24 +31,24 @@ pub(super) fn check(
     }
 }
 
-/// Times that a column writes as text.
+/// Times from a column of texts.
 pub(super) struct TextTimes {
-    /// Seconds as decimal text, or nothing where a cell is empty.
+    /// Seconds as decimal text; empty for an empty cell.
     pub(super) seconds: Vec<String>,
-    /// True of texts with a date whose zone neither they nor the map state.
+    /// True if a dated text has no zone and the map states none.
     has_no_zone: bool,
-    /// Number of times that times of day pass midnight.
+    /// Number of midnights that the times of day cross.
     midnights: i64,
 }
 
-/// From one row to the next a time of day falls by more than this only through midnight, s.
+/// Decrease of a time of day between rows that means a midnight, s.
 const HALF_A_DAY_S: i64 = 43_200;
 
 impl TextTimes {
-    /// The times in `cells` as `map` reads them; `None` where they are numbers.
+    /// Parses the times in `cells`; `None` if they are numbers.
     ///
     /// # Errors
-    /// The first row that is no time as the rows before, and what is wrong with it.
+    /// First row whose time does not match the previous form, with the problem.
     pub(super) fn of(
         cells: &[String],
         map: &TimeMap,

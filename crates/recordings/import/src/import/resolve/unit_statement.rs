@@ -1,4 +1,4 @@
-//! What a file says of the unit of a column, and whether its numbers are packed: a map that says otherwise would be wrong by a factor.
+//! Compares units and packing stated by a file with the map. A contradiction would mean a wrong factor.
 
 use taceva_core::SourceUnit;
 
@@ -9,25 +9,25 @@ use crate::foreign::{ForeignTable, Stated};
 use crate::unit_suffix::UnitSuffix;
 use taceva_dataset::{DatasetError, Place};
 
-/// How a map reads a column.
+/// Interpretation of a column by a map.
 #[derive(Clone, Copy)]
 pub(super) struct Reading<'a> {
     pub(super) unit: &'a SourceUnit,
-    /// Whether the map subtracts or multiplies, and so knows what the numbers are.
+    /// True if the map applies an offset or a scale.
     pub(super) is_moved: bool,
     pub(super) of: Of,
 }
 
-/// What the numbers are to the map.
+/// Kind of numbers in a column.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
-    /// Labels, of which it may say a scale.
+    /// Labels, for which the map may set a scale.
     Labels,
-    /// Times and numbers of taxels, of which it says none.
+    /// Times and taxel values, without a scale.
     Others,
 }
 
-/// Checks that `reading`, what the map says of the column `name` of `table`, is not otherwise than the file itself says.
+/// Checks that `reading` agrees with the attributes of the column `name` in `table`.
 pub(super) fn check(
     table: &ForeignTable,
     name: &str,
@@ -38,7 +38,7 @@ pub(super) fn check(
         true => name,
         false => base_of(name),
     };
-    // Times by their type are in seconds, whatever they are called.
+    // Typed times are in seconds, whatever their name.
     if reading.is_moved || !table.has(base) || table.time_unit(base).is_some() {
         return Ok(());
     }
@@ -55,7 +55,7 @@ pub(super) fn check(
     }
 }
 
-/// Contradiction between the map and the first of `names` with a unit of its quantity: the name of a number counts before that of its column.
+/// Contradiction between the map and the first of `names` with a unit of the quantity. An element's name precedes that of its column.
 pub(in crate::import) fn problem_of_names<'n>(
     names: impl IntoIterator<Item = &'n str>,
     unit: &SourceUnit,
@@ -74,8 +74,7 @@ pub(in crate::import) fn problem_of_names<'n>(
     None
 }
 
-/// The unit that is stated, if it is of the same quantity as that of the map and has another factor: an array of forces and torques has one
-/// attribute for both.
+/// Stated unit, if it has the map's quantity and another factor. An array of forces and torques has one attribute for both.
 fn contradicted(stated: &str, unit: &SourceUnit) -> Option<&'static str> {
     let own = SourceUnit::parse(stated.trim()).ok()?;
     let is_other =
@@ -83,7 +82,7 @@ fn contradicted(stated: &str, unit: &SourceUnit) -> Option<&'static str> {
     is_other.then(|| own.symbol())
 }
 
-/// Why the map contradicts what a file says of an array of numbers of taxels.
+/// Contradiction between the map and the attributes of a taxel array; `None` if they agree.
 pub(in crate::import) fn problem_of_signals(stated: &Stated, unit: &SourceUnit) -> Option<String> {
     problem(stated, unit, Of::Others)
 }
@@ -116,7 +115,7 @@ fn problem(stated: &Stated, unit: &SourceUnit, of: Of) -> Option<String> {
 }
 
 impl Sources<'_> {
-    /// Checks that every unit that the map states of a column agrees with what the file says of it.
+    /// Checks that the units of the map agree with the files.
     pub(super) fn check_units(&self) -> Result<(), DatasetError> {
         let columns = self.map.columns.iter();
         let columns = columns.map(|column| {
@@ -140,7 +139,7 @@ impl Sources<'_> {
         Ok(())
     }
 
-    /// Checks a number in a path by its name and by the letters behind it: `Fz{fz:number}mN`.
+    /// Checks a number in a path against its name and the following letters: `Fz{fz:number}mN`.
     fn check_part(&self, part: &str, reading: Reading<'_>) -> Result<(), DatasetError> {
         let pattern = self.map.path.as_ref();
         let behind = pattern.and_then(|pattern| pattern.letters_behind(part));
@@ -174,7 +173,7 @@ mod tests {
         assert!(of(Some("mN"), None, "N").is_some_and(|said| said.contains("`mN`")));
         assert_eq!(of(Some("N"), None, "N"), None);
         assert_eq!(of(Some("µT"), None, "uT"), None);
-        // Of a wrench, and of a unit that nobody knows here.
+        // A wrench, and an unknown unit.
         assert_eq!(of(Some("N"), None, "Nm"), None);
         assert_eq!(of(Some("newton"), None, "mN"), None);
         assert_eq!(of(None, None, "mN"), None);

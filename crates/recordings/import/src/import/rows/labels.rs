@@ -1,4 +1,4 @@
-//! The labels of a row: numbers in the units that they are kept in, and texts of closed lists.
+//! Labels of a row: numbers in the units they are kept in, and texts from closed lists.
 
 use taceva_core::{GratingKind, Limit, Nanometre, Phase, is_scorable};
 
@@ -8,14 +8,14 @@ use crate::import::resolve::ClassCells;
 use taceva_dataset::DatasetError;
 
 impl MappedTable<'_> {
-    /// The labels of a row, before a zero is taken from them.
+    /// Labels of a row before the zero is subtracted.
     pub(super) fn measured(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
         let mut labels = self.converted(row)?;
         if let Some(gravity) = &self.map.gravity {
             self.take_weight(row, gravity, &mut labels)?;
         }
         for (label, map) in labels.iter_mut().zip(&self.map.columns) {
-            // A difference from zero, so that no −0 appears where the sign of 0 is turned.
+            // Subtracts from zero, so that negating 0 gives no −0.
             if map.is_negated {
                 *label = label.map(|number| 0.0 - number);
             }
@@ -23,7 +23,7 @@ impl MappedTable<'_> {
         Ok(labels)
     }
 
-    /// The numbers of a row in the units that they are kept in, with the signs of the table.
+    /// Numbers of a row in the units they are kept in, with the table's signs.
     fn converted(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
         self.truth
             .iter()
@@ -35,7 +35,7 @@ impl MappedTable<'_> {
             .collect()
     }
 
-    /// The number in a cell less the offset of its column, scaled and converted.
+    /// Number in a cell with offset, scale and unit conversion applied.
     pub(super) fn moved(
         &self,
         row: usize,
@@ -110,7 +110,7 @@ impl MappedTable<'_> {
         }
     }
 
-    /// The attributes of a row, then its classes.
+    /// Attributes of a row, followed by its classes.
     pub(super) fn texts(&self, row: usize) -> Result<Vec<Option<String>>, DatasetError> {
         let text = |column: &usize| {
             let cell = self.table.cell(row, *column);
@@ -127,7 +127,7 @@ impl MappedTable<'_> {
         Ok(texts)
     }
 
-    /// The class that a cell names, or whose position it holds.
+    /// Class name for a cell that holds a name or a position.
     pub(super) fn class(
         &self,
         row: usize,

@@ -1,4 +1,4 @@
-//! The contact point of a row.
+//! Contact point of a row.
 
 use super::MappedTable;
 
@@ -17,7 +17,7 @@ impl MappedTable<'_> {
     }
 }
 
-/// Cells joined with `:`, so that other cells never make the same text: a `:` within one, and a `\`, stands behind a `\`.
+/// Cells joined with `:` without ambiguity: a `:` or `\` within a cell is escaped with `\`.
 fn joined(cells: &[&str]) -> String {
     let mut joined = String::new();
     for (at, cell) in cells.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The pictures of a table: of each view the cells that name them.
+//! Pictures of a table: the cells that name them, for each view.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -11,16 +11,16 @@ use crate::import::resolve::ResolvedTable;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// The pictures of one view, as the rows of a table name them.
+/// Pictures of one view, as the rows of a table name them.
 pub(in crate::import) struct MappedView {
     cells: FrameCells,
-    /// The column of the frame without contact of each row.
+    /// Column of each row's frame without contact.
     reference: Option<usize>,
-    /// The column of the picture that rows first came with.
+    /// Column of the original picture.
     pub(super) origin: Option<usize>,
-    /// The pictures that the table itself holds.
+    /// Pictures inside the table.
     pub(in crate::import) pictures: Option<Arc<dyn Pictures>>,
-    /// The pixels of a depth map that its clips are.
+    /// Pixels of the depth map in its clips.
     pub(in crate::import) depth: Option<DepthPixels>,
 }
 
@@ -71,7 +71,7 @@ impl MappedView {
 }
 
 impl MappedTable<'_> {
-    /// Name of the frame of a row in the view at position `view`, and its place.
+    /// Name of a row's frame in the view at position `view`, with its place.
     pub(in crate::import) fn frame_name(
         &self,
         view: usize,
@@ -107,7 +107,7 @@ impl MappedTable<'_> {
         Ok((name, self.table.place(row, column)))
     }
 
-    /// Name of the frame without contact of a row, and its place; `None` if the map names no column of such.
+    /// Name of a row's frame without contact, with its place; `None` if the map names no such column.
     pub(in crate::import) fn reference_name(
         &self,
         view: usize,
@@ -117,13 +117,13 @@ impl MappedTable<'_> {
         Some((self.table.cell(row, column), self.table.place(row, column)))
     }
 
-    /// The picture that the row first came with in a view, where the map of an export says so.
+    /// Original picture of a row in a view, if the map of an export names it.
     pub(in crate::import) fn origin_of(&self, view: usize, row: usize) -> Option<String> {
         let cell = self.table.cell(row, self.views[view].origin?);
         (!cell.is_empty()).then(|| cell.to_owned())
     }
 
-    /// The rules by which the names of the pictures of a row leave it out.
+    /// Rules that drop the row by the names of its pictures.
     pub(super) fn names_left_out(&self, row: usize) -> Vec<String> {
         let rules = &self.map.drop.frames_named;
         let views = self.map.frames.iter().zip(&self.views);

@@ -1,4 +1,4 @@
-//! Forces less their zero, and less the weight of a tool.
+//! Subtracts the zero of forces and the weight of a tool.
 
 use std::collections::BTreeMap;
 
@@ -8,21 +8,21 @@ use crate::import::warning::ImportWarning;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
-/// Acceleration of free fall, m/s².
+/// Standard gravity, m/s².
 const FREE_FALL: f64 = 9.806_65;
-/// Rows that read zero spread by less than this share of all; more are warned of.
+/// Limit of the spread of zero rows, as a share of the spread of all rows. Above it the import warns.
 const SPREAD: f64 = 0.2;
 
-/// The zero of each block of rows.
+/// Zero of each block of rows.
 pub(in crate::import) struct Zeros {
-    /// For each row its block.
+    /// Block of each row.
     blocks: Vec<usize>,
-    /// For each block the zero of each channel of the map.
+    /// Zero of each channel of the map, by block.
     means: Vec<Vec<f64>>,
 }
 
 impl Zeros {
-    /// The least and the greatest zero of the channel at `position` of the map, and the number of blocks.
+    /// Least and greatest zero of the channel at `position` of the map, with the number of blocks.
     pub(in crate::import) fn range(&self, position: usize) -> ([f64; 2], u64) {
         let means = self.means.iter().map(|block| block[position]);
         let least = means.clone().fold(f64::INFINITY, f64::min);
@@ -31,11 +31,11 @@ impl Zeros {
     }
 }
 
-/// Rows of a table that share a zero: each row that is kept, and whether it reads zero.
+/// Kept rows that share a zero; true for those that read zero.
 type Block = Vec<(usize, bool)>;
 
 impl MappedTable<'_> {
-    /// The labels of a row as the dataset keeps them.
+    /// Labels of a row as stored in the dataset.
     pub(super) fn truth(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
         let mut labels = self.measured(row)?;
         if let Some((map, zeros)) = self.map.zero.as_ref().zip(self.zeros.as_ref()) {
@@ -47,10 +47,10 @@ impl MappedTable<'_> {
         Ok(labels)
     }
 
-    /// The zeros that `map` says.
+    /// Computes the zeros of `map`.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] for a block without enough rows that read zero, or whose cells are no numbers.
+    /// [`DatasetError::Table`] for a block with too few zero rows, or whose cells are no numbers.
     pub(super) fn find_zeros(&mut self, map: &ZeroMap) -> Result<(), DatasetError> {
         let column = match &map.rows {
             ZeroRows::First(_) => None,
@@ -90,7 +90,7 @@ impl MappedTable<'_> {
         }
         let mut means = vec![Vec::new(); blocks.len()];
         for (name, block) in &names {
-            // All of its rows are left out.
+            // All rows of the block are dropped.
             if blocks[*block].is_empty() {
                 means[*block] = vec![0.0; map.channels.len()];
                 continue;
@@ -104,7 +104,7 @@ impl MappedTable<'_> {
         Ok(())
     }
 
-    /// The zero of each channel in the block called `name`.
+    /// Zero of each channel in the block called `name`.
     fn means(
         &mut self,
         map: &ZeroMap,
@@ -163,7 +163,7 @@ impl MappedTable<'_> {
         Ok(means)
     }
 
-    /// Takes the weight of the tool from the forces and torques of a row, in the frame of the transducer.
+    /// Subtracts the weight of the tool from the forces and torques of a row, in the transducer's frame.
     pub(super) fn take_weight(
         &self,
         row: usize,
@@ -203,7 +203,7 @@ impl MappedTable<'_> {
     }
 }
 
-/// Greatest less least number.
+/// Range of `numbers`: greatest minus least.
 fn spread(numbers: &[f64]) -> f64 {
     let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
     let greatest = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);

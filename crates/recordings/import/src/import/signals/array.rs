@@ -1,4 +1,4 @@
-//! Signals in an array of another file, read some rows at a time.
+//! Signals in an array of another file, read in blocks of rows.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -13,10 +13,10 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::{SignalsWriter, guarded};
 use taceva_dataset::{DatasetError, Place};
 
-/// Numbers that are read at once: 8 MiB as 64 bits.
+/// Numbers per read: 8 MiB as `f64`.
 const READ_VALUES: u64 = 1 << 20;
 
-/// An array of signals.
+/// Array of signals.
 #[derive(Debug)]
 pub(super) struct ArraySignals {
     path: PathBuf,
@@ -27,7 +27,7 @@ pub(super) struct ArraySignals {
 }
 
 impl ArraySignals {
-    /// The array called `name`, or the only one, of the file at `path`, whose rows have the axes that `map` states.
+    /// Opens the array `name`, or the only one, of the file at `path`, and checks its axes against `map`.
     pub(super) fn open(
         path: &Path,
         name: Option<&str>,
@@ -75,7 +75,7 @@ impl ArraySignals {
         }
         let of_file = guarded(|| stated(&file, &name)).map_err(wrong)?;
         let contradicted = problem_of_signals(&of_file, &map.unit);
-        // The array of a `.npy` has no name but that of its file.
+        // An array in a `.npy` file is named by the file.
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let named = match name.as_str() {
             "value" => stem.as_ref(),
@@ -105,7 +105,7 @@ impl ArraySignals {
         }
     }
 
-    /// Whether there are as many rows as in the table.
+    /// Checks that the array has `rows` rows, as the table.
     pub(super) fn check_rows(&self, rows: u64) -> Result<(), DatasetError> {
         match rows == self.rows {
             true => Ok(()),
@@ -116,7 +116,7 @@ impl ArraySignals {
         }
     }
 
-    /// Counts its chunks that were never written.
+    /// Counts the array's unwritten chunks.
     pub(super) fn count_absent_chunks(
         &self,
         folder: &SourceFolder,
@@ -131,7 +131,7 @@ impl ArraySignals {
         Ok(())
     }
 
-    /// The rows that hold a number which stands for "nothing measured".
+    /// Rows with a number that means "nothing measured".
     pub(super) fn placeholders(&self, map: &SignalsMap) -> Result<BTreeSet<u64>, DatasetError> {
         let step = (READ_VALUES / self.length).max(1);
         let length = usize::try_from(self.length).unwrap_or(usize::MAX);
@@ -201,7 +201,7 @@ impl ArraySignals {
     }
 }
 
-/// A number in the unit that it is kept in.
+/// Converts a number to the unit it is kept in.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "signals are kept in single precision; this is the one rounding"

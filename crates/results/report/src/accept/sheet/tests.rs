@@ -1,4 +1,4 @@
-//! A data sheet lists the finding of every limit, and passes only if all are met.
+//! Tests of the data sheet: it lists every finding, and passes only if all limits are met.
 
 use serde_json::Value;
 
@@ -7,7 +7,7 @@ use crate::accept::{LimitsFile, accept};
 use crate::table::Row;
 use taceva_results::Samples;
 
-/// A simulated unit with two errors: one of 0.5 N between 0.375 N and 0.75 N, one of 0.25 mm without an interval.
+/// Simulated unit with two errors: 0.5 N with the interval 0.375 N to 0.75 N, and 0.25 mm without an interval.
 fn study() -> Study {
     let studies = crate::results::unsealed(
         r#"{"schema": "taceva.evaluation/1.0",
@@ -24,7 +24,7 @@ const KEPT: &str = "metric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 1.5
 const BROKEN: &str = "metric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nleast = 0.25\nmost = 0.625\nwhole_interval = true";
 const MISSING: &str = "metric = \"mae\"\nchannel = \"Fx\"\nunit = \"N\"\nleast = 0.25";
 
-/// What becomes of `limits`.
+/// Findings for `limits`.
 fn held(study: &Study, limits: &[&str]) -> Vec<Finding> {
     let text: String = limits
         .iter()

@@ -1,4 +1,4 @@
-//! Marks as the operators of a page.
+//! Draws marks as page operators.
 
 use std::collections::BTreeSet;
 
@@ -10,10 +10,10 @@ use super::text::{self, Used};
 use crate::figure::canvas::{Ink, Mark, Points, Stroke};
 use crate::figure::palette::LIGHT;
 
-/// A circle of four Bézier curves: how far their handles reach, as a part of the radius.
+/// Length of the Bézier handles of a circle of four curves, as a share of the radius.
 const HANDLE: f64 = 0.552_284_75;
 
-/// Draws marks, one after the other.
+/// Draws marks in sequence.
 pub(super) struct Painter {
     height: f64,
     content: Content,
@@ -21,17 +21,17 @@ pub(super) struct Painter {
     fonts: [Used; 3],
 }
 
-/// What was drawn, and what it uses.
+/// Drawn content, with its resources.
 pub(super) struct Drawn {
     pub(super) operators: Vec<u8>,
-    /// Hundredths, each a state of the page.
+    /// Opacities in hundredths, each a graphics state of the page.
     pub(super) opacities: BTreeSet<u8>,
-    /// Fonts of which at least one glyph is used.
+    /// Fonts with at least one used glyph.
     pub(super) fonts: Vec<Used>,
 }
 
 impl Painter {
-    /// A page of `height`, with nothing on it.
+    /// Painter for an empty page of `height`.
     pub(super) fn new(height: f64) -> Painter {
         Painter {
             height,
@@ -41,7 +41,7 @@ impl Painter {
         }
     }
 
-    /// Everything that was drawn.
+    /// Returns the drawn content.
     pub(super) fn finish(self) -> Drawn {
         let used = self.fonts.into_iter();
         Drawn {
@@ -51,7 +51,7 @@ impl Painter {
         }
     }
 
-    /// Draws `mark` above what is there.
+    /// Draws `mark` above the previous marks.
     pub(super) fn mark(&mut self, mark: &Mark) {
         self.content.save_state();
         match mark {
@@ -73,7 +73,7 @@ impl Painter {
                 content.rect(left, low, number(width), number(height));
                 content.fill_nonzero();
             }
-            // What is only there to be pointed at is not drawn.
+            // Invisible hover targets are skipped.
             Mark::Points { opacity, .. } if *opacity <= 0.0 => {}
             Mark::Points {
                 points,
@@ -128,7 +128,7 @@ impl Painter {
         }
     }
 
-    /// Sets the colour and the opacity of what is filled.
+    /// Sets the fill colour and opacity.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -154,18 +154,18 @@ impl Painter {
         }
     }
 
-    /// A place on the page, whose ordinate grows upwards.
+    /// Page position, whose y axis points upwards.
     fn at(&self, [x, y]: [f64; 2]) -> [f32; 2] {
         [number(x), number(self.height - y)]
     }
 }
 
-/// The name of the state with `hundredths` of opacity.
+/// Name of the graphics state with `hundredths` of opacity.
 pub(super) fn state_name(hundredths: u8) -> String {
     format!("G{hundredths}")
 }
 
-/// A number as a file holds it: to a hundredth.
+/// Number in the file, rounded to a hundredth.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "hundredths on a page of some hundreds"
@@ -174,7 +174,7 @@ pub(super) fn number(value: f64) -> f32 {
     ((value * 100.0).round() / 100.0) as f32
 }
 
-/// A colour on white paper.
+/// Colour on white paper.
 fn colour(ink: Ink) -> [f32; 3] {
     let hex = match ink {
         Ink::Text => "#1b1f24",
@@ -188,7 +188,7 @@ fn colour(ink: Ink) -> [f32; 3] {
     [part(1), part(3), part(5)].map(share)
 }
 
-/// A part of a colour, to a thousandth.
+/// Share of a colour component, rounded to a thousandth.
 fn share(part: u8) -> f32 {
     (f32::from(part) / 255.0 * 1000.0).round() / 1000.0
 }

@@ -1,4 +1,4 @@
-//! A font in a file: the used glyphs alone, their widths, and the letters that they stand for, so that text can be searched and copied.
+//! Embeds a font: used glyphs, their widths, and their letters for search and copy.
 
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Str};
@@ -8,16 +8,16 @@ use super::compressed;
 use super::content::number;
 use super::text::Used;
 
-/// How many objects a font is.
+/// Number of PDF objects per font.
 const OBJECTS: i32 = 5;
-/// Glyphs are known by their numbers in the file, which is no order of letters that anybody else knows.
+/// Glyphs are addressed by their numbers in the file, without a predefined character order.
 const ORDER: SystemInfo = SystemInfo {
     registry: Str(b"Adobe"),
     ordering: Str(b"Identity"),
     supplement: 0,
 };
 
-/// The object of the font at position `at`, where the first has `first`.
+/// Object of the font at position `at`; the first font has `first`.
 pub(super) fn font(first: Ref, at: i32) -> Ref {
     Ref::new(first.get() + at * OBJECTS)
 }
@@ -86,7 +86,7 @@ pub(super) fn write(pdf: &mut Pdf, first: Ref, at: i32, used: &Used) {
     written.name(Name(b"Letters")).system_info(ORDER);
 }
 
-/// Six capitals that name this subset of a font: a digest (FNV-1a) of its glyphs.
+/// Tag of this font subset: six capitals from a digest (FNV-1a) of its glyphs.
 fn tag(used: &Used) -> String {
     let glyphs = used.glyphs.remapped_gids();
     let mut digest = glyphs.fold(FNV_OFFSET, |digest, glyph| {

@@ -1,10 +1,10 @@
-//! The fonts that are built in, and which of them has the glyph of a letter.
+//! Built-in fonts, with the search for a letter's glyph.
 
 use std::sync::OnceLock;
 
 use ttf_parser::{Face as Parsed, GlyphId};
 
-/// A built-in font; `fonts/README.md` names its origin.
+/// Built-in font; `fonts/README.md` names its origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Face {
     /// Arimo: Latin, Greek, Cyrillic, arrows, mathematics.
@@ -15,21 +15,21 @@ pub(super) enum Face {
     EastAsian,
 }
 
-/// What is drawn for a letter.
+/// Result of the search for a glyph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Found {
     Glyph(Face, GlyphId),
-    /// A letter that is not seen.
+    /// Invisible letter.
     Nothing,
-    /// No font has it.
+    /// No font has a glyph.
     Nowhere,
 }
 
 impl Face {
-    /// Every font.
+    /// All fonts.
     pub(super) const ALL: [Face; 3] = [Face::Regular, Face::Bold, Face::EastAsian];
 
-    /// Its name in a file.
+    /// Name of the font in a file.
     pub(super) fn name(self) -> &'static str {
         match self {
             Face::Regular => "Arimo",
@@ -38,7 +38,7 @@ impl Face {
         }
     }
 
-    /// Its name among the resources of a page.
+    /// Name of the font among the page resources.
     pub(super) fn resource(self) -> &'static [u8] {
         match self {
             Face::Regular => b"F0",
@@ -47,7 +47,7 @@ impl Face {
         }
     }
 
-    /// How thick its upright stems are, in thousandths of its size.
+    /// Width of vertical stems, in thousandths of the size.
     pub(super) fn stem(self) -> f32 {
         match self {
             Face::Regular | Face::EastAsian => 88.0,
@@ -55,7 +55,7 @@ impl Face {
         }
     }
 
-    /// Its file, decompressed when it is first asked for.
+    /// Font file, decompressed on first use.
     pub(super) fn bytes(self) -> &'static [u8] {
         static REGULAR: OnceLock<Vec<u8>> = OnceLock::new();
         static BOLD: OnceLock<Vec<u8>> = OnceLock::new();
@@ -77,7 +77,7 @@ impl Face {
         })
     }
 
-    /// Its glyphs and their widths.
+    /// Parsed glyphs and their widths.
     pub(super) fn parsed(self) -> &'static Parsed<'static> {
         static REGULAR: OnceLock<Parsed<'static>> = OnceLock::new();
         static BOLD: OnceLock<Parsed<'static>> = OnceLock::new();
@@ -92,7 +92,7 @@ impl Face {
         })
     }
 
-    /// How far the pen goes on behind a glyph, in parts of the font's size.
+    /// Advance width of a glyph, as a share of the font size.
     pub(super) fn advance(self, glyph: GlyphId) -> f64 {
         let parsed = self.parsed();
         let units = parsed.glyph_hor_advance(glyph).unwrap_or(0);
@@ -100,7 +100,7 @@ impl Face {
     }
 }
 
-/// What is drawn for `letter`.
+/// Finds the glyph of `letter`.
 pub(super) fn find(letter: char, bold: bool) -> Found {
     let european = if bold { Face::Bold } else { Face::Regular };
     let glyph = |face: Face, letter| {
@@ -111,13 +111,13 @@ pub(super) fn find(letter: char, bold: bool) -> Found {
         return Found::Nothing;
     }
     let found = glyph(european, letter);
-    // The large font is not even decompressed for a space that Arimo lacks.
+    // For a space that Arimo lacks, this avoids decompressing the large font.
     let found = found.or_else(|| letter.is_whitespace().then(|| glyph(european, ' '))?);
     let found = found.or_else(|| glyph(Face::EastAsian, letter));
     found.unwrap_or(Found::Nowhere)
 }
 
-/// Joiners, marks of direction and selectors of a variant.
+/// True for joiners, direction marks and variant selectors.
 fn is_unseen(letter: char) -> bool {
     matches!(letter, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')
 }

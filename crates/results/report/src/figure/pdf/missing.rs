@@ -1,4 +1,4 @@
-//! The replacement for a letter that no font has: a box with its code point.
+//! Replacement for a letter without a glyph: a box with its code point.
 
 use pdf_writer::{Content, Finish, Name, Str, TextStr};
 
@@ -6,12 +6,12 @@ use super::content::number;
 use super::face::{Face, Found, find};
 use super::text::{Used, code};
 
-/// The size of the digits, in parts of the label's.
+/// Size of the digits, as a share of the label's size.
 const DIGITS: f64 = 0.4;
-/// The space between the box and what stands around and in it, likewise.
+/// Padding around and inside the box, as a share of the label's size.
 const SPACE: f64 = 0.06;
 
-/// The code point in two rows of as many digits.
+/// Code point in two rows of equally many digits.
 fn rows(letter: char) -> [String; 2] {
     let digits = format!("{:04X}", u32::from(letter));
     let digits = if digits.len() % 2 == 0 {
@@ -23,15 +23,15 @@ fn rows(letter: char) -> [String; 2] {
     [upper.to_owned(), lower.to_owned()]
 }
 
-/// How wide the box is, with the space around it, in parts of the label's size.
+/// Width of the box with padding, as a share of the label's size.
 pub(super) fn advance(letter: char) -> f64 {
-    // A digit of Arimo is 0.556 of its size wide, and A to F at most 0.722.
+    // Digits of Arimo are 0.556 of its size wide, A to F at most 0.722.
     let [upper, _] = rows(letter);
     let digits = u32::try_from(upper.len()).unwrap_or(u32::MAX);
     f64::from(digits) * DIGITS * 0.722 + 4.0 * SPACE
 }
 
-/// Draws the box behind `pen`, on the base line of a label of `size`. Whoever copies or searches text finds the letter.
+/// Draws the box behind `pen`, on the baseline of a label of `size`. Copy and search still find the letter.
 pub(super) fn draw(
     letter: char,
     pen: f64,

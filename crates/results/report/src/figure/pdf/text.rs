@@ -1,4 +1,4 @@
-//! Labels: runs of glyphs of one font each, and boxes for letters that no font has.
+//! Labels: runs of glyphs of one font, and boxes for letters without a glyph.
 
 use std::collections::BTreeMap;
 
@@ -10,17 +10,17 @@ use super::face::{Face, Found, find};
 use super::missing;
 use crate::figure::canvas::{Anchor, Label};
 
-/// What a figure uses of a font.
+/// Glyphs of a font that a figure uses.
 pub(super) struct Used {
     pub(super) face: Face,
-    /// The numbers of glyphs in the file of a figure, in the order in which they came.
+    /// Numbers of glyphs in the file of a figure, in order of first use.
     pub(super) glyphs: GlyphRemapper,
-    /// The letter that each of these stands for.
+    /// Letter of each glyph.
     pub(super) letters: BTreeMap<u16, char>,
 }
 
 impl Used {
-    /// Nothing yet.
+    /// Font without used glyphs.
     pub(super) fn none_of(face: Face) -> Used {
         Used {
             face,
@@ -30,13 +30,13 @@ impl Used {
     }
 }
 
-/// A part of a label.
+/// Part of a label.
 enum Piece {
     Run { face: Face, letters: Vec<u16> },
     Missing(char),
 }
 
-/// Draws `label` at `at`, in the state that holds its colour, and notes what it uses of each font.
+/// Draws `label` at `at` in the current colour state, and records the used glyphs.
 pub(super) fn draw(label: &Label, at: [f64; 2], fonts: &mut [Used; 3], content: &mut Content) {
     let (pieces, length) = pieces(label, fonts);
     let back = match label.anchor {
@@ -63,7 +63,7 @@ pub(super) fn draw(label: &Label, at: [f64; 2], fonts: &mut [Used; 3], content: 
     }
 }
 
-/// The parts of a label, each with the place of the pen where it begins, and the length of all.
+/// Parts of a label with their pen positions, and the total length.
 fn pieces(label: &Label, fonts: &mut [Used; 3]) -> (Vec<(Piece, f64)>, f64) {
     let mut pieces: Vec<(Piece, f64)> = Vec::new();
     let mut pen = 0.0;
@@ -98,7 +98,7 @@ fn pieces(label: &Label, fonts: &mut [Used; 3]) -> (Vec<(Piece, f64)>, f64) {
     (pieces, pen)
 }
 
-/// The number of a glyph in the file.
+/// Number of a glyph in the file.
 pub(super) fn code(letter: char, face: Face, glyph: u16, fonts: &mut [Used; 3]) -> u16 {
     let Some(used) = fonts.iter_mut().find(|used| used.face == face) else {
         return 0;

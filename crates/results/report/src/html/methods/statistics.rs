@@ -1,4 +1,4 @@
-//! Intervals, tests, and what earns a comparison, in the sentences of a paper.
+//! Sentences of the methods paragraph on intervals, tests, and standing.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +10,7 @@ use crate::results::Study;
 use crate::scores::ScoreTable;
 use taceva_results::Score;
 
-/// Intervals, tests and adjustment.
+/// Sentences on intervals, tests and adjustment.
 pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {
     let methods: BTreeSet<String> = table
         .rows
@@ -43,7 +43,7 @@ pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {
     out + &seeds(studies)
 }
 
-/// The method of an interval without how many clusters, replicates and which seed it was of: `jackknife by point_id, logarithmic`.
+/// Interval method without its numbers of clusters and replicates and its seed: `jackknife by point_id, logarithmic`.
 fn without_count(method: &str) -> String {
     let is_kept = |part: &&str| {
         let is_count = ["G=", "B=", "seed="]
@@ -55,7 +55,7 @@ fn without_count(method: &str) -> String {
     parts.join(", ")
 }
 
-/// Which scores are compared, and how the others are marked.
+/// Sentence on the compared scores, and on the marks of the others.
 fn skill(studies: &[Study]) -> String {
     let is_predicted = |score: &Score| {
         catalogue::find(&score.metric).is_some_and(|metric| metric.reads_predictions())
@@ -83,7 +83,7 @@ fn skill(studies: &[Study]) -> String {
     )
 }
 
-/// A mark and its meaning: `“no skill” (the model is not shown to do better than a constant)`.
+/// Mark with its meaning: `“no skill” (the model is not shown to do better than a constant)`.
 fn explained(mark: &str) -> String {
     let reason = Standing::from_words(mark).and_then(Standing::reason);
     match reason.and_then(|reason| reason.split_once(": ")) {
@@ -92,7 +92,7 @@ fn explained(mark: &str) -> String {
     }
 }
 
-/// With which seeds models were fitted, where with several.
+/// Sentence on the seeds of models fitted with several.
 fn seeds(studies: &[Study]) -> String {
     let over = studies.iter().filter_map(|study| study.over_seeds.as_ref());
     let mut all: Vec<Vec<String>> = over

@@ -1,4 +1,4 @@
-//! What a screen reader, a keyboard and weak eyes need, looked for by axe-core.
+//! Accessibility checks by axe-core, for screen readers, keyboards and contrast.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use taceva_needs::Browser;
 
-/// The source of axe-core: the file that `TACEVA_AXE` names, or the one that node finds; why there is none.
+/// Source of axe-core, from the file in `TACEVA_AXE` or from node. The error says why there is none.
 pub(crate) fn source() -> Result<String, String> {
     let path = match std::env::var_os("TACEVA_AXE") {
         Some(path) => PathBuf::from(path),
@@ -45,7 +45,7 @@ pub(crate) fn assert_accessible(browser: &mut Browser, axe: &str, page: &str) {
     assert!(planted.starts_with("image-alt"), "{page}: {planted}");
 }
 
-/// What is violated, with the first elements that do so.
+/// Violated rules, each with its first elements.
 fn violations(browser: &mut Browser) -> Value {
     browser.evaluate(
         "axe.run(document, {resultTypes: ['violations']}).then((found) => found.violations.map((one) =>

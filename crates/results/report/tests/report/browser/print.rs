@@ -4,9 +4,9 @@ use serde_json::json;
 
 use taceva_needs::{Browser, from_base64};
 
-/// How many sheets of A4 the page that is open takes.
+/// Number of A4 sheets of the open page.
 pub(crate) fn pages(browser: &mut Browser) -> usize {
-    // In inches; the margins are those of the page's own style.
+    // Inches; the margins come from the page's own style.
     let paper = json!({"paperWidth": 8.27, "paperHeight": 11.69, "preferCSSPageSize": false});
     let pdf = browser.call("Page.printToPDF", paper);
     let file = from_base64(pdf["data"].as_str().expect("a file"));

@@ -1,4 +1,4 @@
-//! Rows of a joined table that may belong to one of the main table, by what they are found by.
+//! Candidate rows of a joined table, indexed by their join key.
 
 use std::collections::HashMap;
 
@@ -13,21 +13,21 @@ use crate::import::resolve::unit_statement::{self, Of, Reading};
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
-/// A table, and the rows of it that may be matched.
+/// Table with its candidate rows.
 pub(super) struct Candidates {
     pub(super) table: ForeignTable,
     pub(super) rows: Vec<usize>,
-    /// Number of rows that are given in another frame than the map takes.
+    /// Number of rows excluded because of another coordinate frame.
     pub(super) in_other_frames: usize,
-    /// Of a join by columns: the rows that hold each key.
+    /// For a join by columns: rows by key.
     pub(super) by_key: HashMap<Vec<String>, Vec<usize>>,
-    /// Of a join by time: each row with its time, s, in order.
+    /// For a join by time: time, s, and row, in order of time.
     pub(super) by_time: Vec<(f64, usize)>,
-    /// Of a join up to a number: each row with its number, in order.
+    /// For a join with `until`: number and row, in order of the number.
     pub(super) until: Vec<(u64, usize)>,
 }
 
-/// A row of a joined table that a row of the main one takes its cells from.
+/// Row of a joined table that supplies cells of a main row.
 pub(crate) struct TakenRow<'a> {
     pub(super) candidates: &'a Candidates,
     /// Number of the joined table.
@@ -40,7 +40,7 @@ impl<'a> TakenRow<'a> {
         &self.candidates.table
     }
 
-    /// Time, s, of a join by time.
+    /// Time, s, in a join by time.
     pub(crate) fn time_s(&self) -> Option<f64> {
         let mut times = self.candidates.by_time.iter();
         let found = times.find(|(_, row)| *row == self.row);
@@ -145,7 +145,7 @@ impl Candidates {
                 }
                 let back = by_time.windows(2).find(|pair| pair[1].0 < pair[0].0);
                 let back = back.map(<[_]>::to_vec);
-                // Of several at one time the first.
+                // The first of several rows at one time is kept.
                 by_time.dedup_by(|later, first| later.0.total_cmp(&first.0).is_eq());
                 if let Some([_, (_, row)]) = back.as_deref() {
                     return Err(DatasetError::Table {

@@ -1,4 +1,4 @@
-//! The cell between two rows of a joined table: numbers in proportion, angles the short way, rotations by the shortest turn.
+//! Interpolates a cell between two rows of a joined table: numbers linearly, angles the short way, rotations by the shortest turn.
 
 use taceva_core::Unit;
 
@@ -9,23 +9,23 @@ use crate::import::resolve::cell::cell_of;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
-/// Reading of the cells of one column between two rows.
+/// Interpolation of one column between two rows.
 pub(super) struct Interpolation {
-    /// The column of the joined table.
+    /// Column of the joined table.
     column: String,
     by: Way,
 }
 
 enum Way {
-    /// An angle, of whose period nothing is declared.
+    /// Angle without a declared period.
     Angle {
         channel: String,
         /// Half a turn, in the unit of the cells.
         half_turn: f64,
     },
-    /// An angle with a period, in the unit of the cells.
+    /// Angle with a period, in the unit of the cells.
     Periodic(f64),
-    /// A part of a rotation: its position in the columns, by their names in the joined table.
+    /// Component of a rotation, whose columns are named as in the joined table.
     Rotation {
         map: RotationMap,
         columns: Vec<String>,
@@ -33,11 +33,11 @@ enum Way {
     },
 }
 
-/// Two rotations further apart than this have no shortest way between them, degrees.
+/// Limit of the angle between two rotations with a unique shortest path, degrees.
 const OPPOSITE_DEG: f64 = 179.0;
 
 impl Interpolation {
-    /// Those of the columns of the join `name`.
+    /// Interpolations for the columns of the join `name`.
     pub(super) fn of_join(map: &ImportMap, name: &str) -> Vec<Interpolation> {
         let own = |from: &str| {
             let (join, column) = from.split_once('.')?;
@@ -95,10 +95,10 @@ pub(super) struct Gap<'a> {
 }
 
 impl Gap<'_> {
-    /// The cell of `column` between the rows; empty where one of its ends is.
+    /// Interpolated cell of `column`; empty if either row is empty.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] for a cell that is no number, and for angles and rotations between which there is no one way.
+    /// [`DatasetError::Table`] for a cell that is no number, and for angles or rotations without a unique path.
     pub(super) fn cell(
         &self,
         column: &str,
@@ -129,7 +129,7 @@ impl Gap<'_> {
         Ok(format!("{number:?}"))
     }
 
-    /// The numbers in both rows; `None` where one of them is empty.
+    /// Numbers in both rows; `None` if either is empty.
     fn ends(&self, column: &str) -> Result<Option<[f64; 2]>, DatasetError> {
         let of = |row| -> Result<Option<f64>, DatasetError> {
             let cell = cell_of(self.table, row, column)?;
@@ -145,7 +145,7 @@ impl Gap<'_> {
         Ok(before?.zip(after?).map(|(before, after)| [before, after]))
     }
 
-    /// Part `at` of the rotation between the rows.
+    /// Component `at` of the interpolated rotation.
     fn rotated(
         &self,
         map: &RotationMap,
@@ -183,7 +183,7 @@ impl Gap<'_> {
     }
 }
 
-/// The angle at `share` of the short way, in the range that both ends lie in.
+/// Angle at `share` of the shorter path, in the range of both ends.
 fn wrapped(before: f64, after: f64, share: f64, period: f64) -> f64 {
     let turns = ((after - before) / period).round();
     let angle = before + share * (after - before - turns * period);

@@ -1,4 +1,4 @@
-//! What joins matched, and which rows of joined tables belong to no row of any main table.
+//! Join matches, with the rows of joined tables that no main table uses.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -7,21 +7,21 @@ use crate::import::summary::JoinSummary;
 use taceva_dataset::internal::shown_path;
 use taceva_dataset::{DatasetError, Place};
 
-/// What one main table found in a joined one.
+/// Matches of one main table with a joined table.
 pub(in crate::import) struct JoinMatches {
     pub(super) name: String,
-    /// The frame that the map takes the rows of.
+    /// Coordinate frame to which the map restricts the rows.
     pub(super) frame_id: Option<String>,
-    /// The key of the map by which rows belong to those of the same number in each main table, if they do.
+    /// Key of the map for a join by row number; `None` for other joins.
     pub(super) counted_by: Option<&'static str>,
     pub(super) matched: u64,
     pub(super) unmatched: u64,
     pub(super) greatest_gap_s: Option<f64>,
-    /// Which rows belong to one, of each joined table.
+    /// Use of each joined table.
     pub(super) tables: BTreeMap<PathBuf, TableUses>,
 }
 
-/// Which rows of a joined table belong to a row.
+/// Used and excluded rows of a joined table.
 pub(super) struct TableUses {
     pub(super) candidates: usize,
     pub(super) skipped: usize,
@@ -30,7 +30,7 @@ pub(super) struct TableUses {
 }
 
 impl JoinMatches {
-    /// Adds what another main table found; a row of a joined table is unused only if it belongs to no row of any.
+    /// Adds the matches of another main table. A row is unused only if no main table uses it.
     pub(in crate::import) fn add(&mut self, other: JoinMatches) {
         self.matched += other.matched;
         self.unmatched += other.unmatched;
@@ -44,8 +44,8 @@ impl JoinMatches {
         }
     }
 
-    /// Checks that no table whose rows are counted is joined to two main ones: each would begin with its first row again. `main` is the table
-    /// that found `other`, one of `tables`; `are_files` where each of them is a file that is one row.
+    /// Checks that no table joined by row number serves two main tables, as each would begin with its first row. `main` is the table of
+    /// `other`, one of `tables`. `are_files` is true if each main table is a file that is one row.
     pub(in crate::import) fn check_counted_once(
         &self,
         other: &JoinMatches,

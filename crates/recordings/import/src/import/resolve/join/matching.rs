@@ -1,4 +1,4 @@
-//! When a row of one table belongs to a row of another: equal keys, near times.
+//! Match rules between rows of two tables: equal keys, near times.
 
 use crate::csv_table::number;
 use crate::foreign::cell_list;
@@ -6,20 +6,20 @@ use crate::import::map::{Pick, TimeJoin, TimeMap};
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// Seconds since 1970 are rounded by less than this in binary64.
+/// Upper limit of the `f64` rounding error of seconds since 1970.
 const ROUNDING_S: f64 = 1e-6;
 
-/// Which row belongs to one of the main table.
+/// Matched row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum At {
     Nowhere,
     Row(usize),
-    /// Between two rows; the weight of the second, from 0 to 1.
+    /// Between two rows, with the weight of the second, from 0 to 1.
     Between([usize; 2], f64),
 }
 
-/// A key as it is compared: 3, 3.0 and `np.int64(3)` are one, and so are texts that are equal; an empty one is none. Whole numbers are compared
-/// digit by digit, however many they have; what is written with an exponent may be an id and is a text.
+/// Normalised key: 3, 3.0 and `np.int64(3)` are equal, and so are equal texts. An empty key matches nothing. Integers are compared exactly
+/// at any length. A number with an exponent may be an id and counts as text.
 pub(super) fn comparable(cell: &str) -> String {
     let cell = cell_list::plain(cell.trim());
     let whole = cell.strip_suffix(".0").unwrap_or(cell);
@@ -32,7 +32,7 @@ pub(super) fn comparable(cell: &str) -> String {
     }
 }
 
-/// The time in a cell, s; `None` if it is empty.
+/// Time in a cell, s; `None` if it is empty.
 pub(super) fn seconds(
     cell: &str,
     time: &TimeMap,
@@ -44,7 +44,7 @@ pub(super) fn seconds(
     })
 }
 
-/// What of `times`, which are in order, belongs to `instant`, and how far away it is, s.
+/// Match of `instant` in `times`, which are sorted, with its distance, s.
 pub(super) fn about(times: &[(f64, usize)], instant: f64, join: &TimeJoin) -> Option<(At, f64)> {
     let behind = times.partition_point(|(time, _)| *time <= instant);
     let before = behind.checked_sub(1).map(|at| times[at]);
