@@ -1,4 +1,4 @@
-//! The bench: one unit of a sensor in a rig, which can be pressed any number of times.
+//! The bench: one unit of a sensor in a rig, pressed any number of times.
 
 mod error;
 mod press;
@@ -16,7 +16,8 @@ use crate::rig::{Label, Touch, TransducerModel, search};
 use crate::specimen::GratingPose;
 use crate::unit::Unit;
 
-/// A unit of a sensor in a rig of a seed. Every answer is a function of the question: order, threads and interruptions change nothing.
+/// A unit of a sensor in a rig, with the noise of a seed. Results are pure functions of the arguments: order, threads and interruptions
+/// change nothing.
 ///
 /// ```
 /// use taceva_sim::{Bench, Model, Press};
@@ -42,7 +43,7 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// The unit numbered `unit` of a sensor, with the noise of `seed`.
+    /// Creates the unit numbered `unit` of a sensor, with the noise of `seed`.
     pub fn new(parameters: Parameters, unit: u32, seed: u64) -> Bench {
         let random = Random::new(seed);
         Bench {
@@ -57,7 +58,7 @@ impl Bench {
         }
     }
 
-    /// What the sensor and the rig are.
+    /// Parameters of sensor and rig.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
     }
@@ -67,17 +68,17 @@ impl Bench {
         &self.unit
     }
 
-    /// The body, for whoever moves a ball step by step.
+    /// Body of the sensor, for callers that move a ball step by step.
     pub fn solid(&self) -> &Solid {
         &self.solid
     }
 
-    /// The random numbers of this run.
+    /// Random numbers of this run.
     pub fn random(&self) -> Random {
         self.random
     }
 
-    /// What every product of this bench says of itself.
+    /// Provenance of every product of this bench.
     pub fn provenance(&self) -> Provenance {
         Provenance {
             sensor: self.parameters.name.clone(),
@@ -87,7 +88,7 @@ impl Bench {
         }
     }
 
-    /// How contact is found at the point of `press`: once a point, the same for each of its presses.
+    /// First contact at the point of `press`, the same for each of its presses.
     ///
     /// # Errors
     /// [`PressError`] as for [`press`](Bench::press).
@@ -96,16 +97,16 @@ impl Bench {
         Ok(self.find(press))
     }
 
-    /// The contact of `press` on a gel that nobody has pressed before.
+    /// Contact of `press` on a new gel.
     ///
     /// # Errors
-    /// [`PressError`]: a number that is not finite, a place outside the probed surface, a depth outside what the sensor bears.
+    /// [`PressError`] for a number that is not finite, a place outside the probed surface, or a depth out of range.
     pub fn press(&self, press: &Press) -> Result<Contact, PressError> {
         press.check(&self.parameters, self.outline)?;
         Ok(self.indent(press, 1.0))
     }
 
-    /// The contact of `press` on a gel that remembers `history`.
+    /// Contact of `press` on a gel with `history`.
     ///
     /// # Errors
     /// As [`press`](Bench::press).
@@ -115,7 +116,7 @@ impl Bench {
         Ok(self.indent(press, self.conditioning.remaining(wear, press.depth_mm)))
     }
 
-    /// What the rig writes down of `press`, whose contact was `contact`.
+    /// Label that the rig records for `press` with `contact`.
     pub fn label(&self, press: &Press, contact: &Contact) -> Label {
         let [point, later] = [
             self.transducer.point_zero_n(press.point),
@@ -133,7 +134,7 @@ impl Bench {
         }
     }
 
-    /// How a board lies on the gel in a press: turned by up to 23° and shifted by up to 1 mm.
+    /// Pose of a board on the gel in a press: turned by up to 23° and shifted by up to 1 mm.
     pub fn grating_pose(&self, press: u64) -> GratingPose {
         let stream = self.random.stream(Purpose::GratingPose, press);
         GratingPose {
@@ -204,7 +205,7 @@ impl Bench {
         contact
     }
 
-    /// Draws an indentation back to where it meets the force limit; whether that was needed.
+    /// Reduces an indentation to the force limit; returns true if that was needed.
     fn limit(&self, indentation: &mut Indentation) -> bool {
         let limit_n = self.parameters.probing.force_max_n;
         let loading = |depth_mm: f64| Indentation {
@@ -212,7 +213,7 @@ impl Bench {
             deepest_mm: depth_mm,
             ..*indentation
         };
-        // Relaxation only lowers a force: what an unrelaxed gel bears, this one does.
+        // Relaxation only lowers a force, so an unrelaxed force within the limit suffices.
         if self.solid.swift_force_n(&loading(indentation.deepest_mm)) <= limit_n {
             return false;
         }

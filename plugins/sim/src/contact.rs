@@ -1,7 +1,7 @@
-//! A ball in a gel: which force answers which displacement.
+//! A ball in a gel: forces from displacements.
 //!
-//! Everything here is the truth of the bench, without noise. Forces and depths follow the signs of the project: positive into the gel
-//! and in compression; tangential forces are those of the ball on the gel, along its displacement.
+//! All values are the truth of the bench, without noise. Depths and forces are positive into the gel and in compression. Tangential forces
+//! act on the gel, along the displacement of the ball.
 
 mod board;
 mod dome_law;
@@ -22,57 +22,57 @@ pub use wear::{Conditioning, History, Wear};
 
 use crate::displacement::Load;
 
-/// One state of contact, as it truly is; all zero where ball and gel do not touch.
+/// True state of a contact; all zero without contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contact {
-    /// Where the ball's centre is, over the gel: the shear is part of it.
+    /// Centre of the ball over the gel, shear included.
     pub position_mm: [f64; 2],
-    /// How far the ball stands below the place where it would just touch, along the axis of the sensor.
+    /// Depth below first touch, along the axis of the sensor.
     pub depth_mm: f64,
-    /// How far it stands in the gel along the contact's normal; on a flat gel the same.
+    /// Depth along the normal of the contact; the same on a flat gel.
     pub normal_depth_mm: f64,
-    /// The contact's normal: x, y and upwards, out of the gel.
+    /// Normal of the contact: x, y and upwards, out of the gel.
     pub normal: [f64; 3],
-    /// The direction in which the ball was displaced along the surface; zero if it was not.
+    /// Direction of the displacement along the surface; zero without one.
     pub tangent: [f64; 3],
-    /// How far along it the surface was carried; beyond that the ball slid.
+    /// Displacement that the surface followed; beyond it the ball slid.
     pub carried_mm: f64,
-    /// How far the ball slid over the surface.
+    /// Sliding distance of the ball over the surface.
     pub slip_mm: f64,
     /// The contact radius a.
     pub radius_mm: f64,
-    /// The radius within which nothing slips.
+    /// Radius of the zone without slip.
     pub stick_radius_mm: f64,
     /// The radius of the ball.
     pub indenter_radius_mm: f64,
-    /// The modulus that the gel shows at this place, depth and time; on a dome that of the gel under the skin.
+    /// Effective modulus at this place, depth and time; on a dome that of the gel under the skin.
     pub young_modulus_mpa: f64,
-    /// The share of the skin, rather than of the gel under it, in the normal force; 0 on a flat gel.
+    /// Share of the skin in the normal force; 0 on a flat gel.
     pub skin_share: f64,
     /// Force along the normal.
     pub normal_force_n: f64,
     /// Force along the tangent.
     pub shear_force_n: f64,
-    /// The force of the ball on the sensor: along x, along y, and into the gel along the sensor's axis.
+    /// Force of the ball on the sensor: along x, along y, and into the gel along the sensor's axis.
     pub force_n: [f64; 3],
-    /// How far the robot travelled after it had found contact, as commanded or, where the press was limited, as far as it came.
+    /// Travel of the robot after first contact: as commanded, or less if the press was limited.
     pub travel_mm: f64,
-    /// Whether the press stopped at the force limit before it reached its depth.
+    /// True if the force limit stopped the press before its depth.
     pub limited: bool,
 }
 
 impl Contact {
-    /// Whether ball and gel press on each other.
+    /// True if ball and gel press on each other.
     pub fn touches(&self) -> bool {
         self.normal_force_n > 0.0
     }
 
-    /// Whether the whole contact slides.
+    /// True if the whole contact slides.
     pub fn slides(&self) -> bool {
         self.slip_mm > 0.0
     }
 
-    /// What moves the points of a flat gel.
+    /// Load that displaces the points of a flat gel.
     pub fn load(&self) -> Load {
         Load {
             centre_mm: self.position_mm,

@@ -1,15 +1,16 @@
-//! Where the points of a gel go under a press: radial tables, made once a sensor, looked up a pixel at a time.
+//! Displacement of the points of a gel under a press: radial tables, made once a sensor, and looked up at each pixel.
 //!
-//! The pressure is Hertz's over the contact radius a, the shear a no-slip one, q = Q/(2π a √(a² − r²)); both meet the bonded layer's
-//! [`Kernel`](crate::elastic::kernel::Kernel) in a Hankel integral. What does not depend on the depth below the surface is scaled out,
-//! so one [`Tables`] serves every force, modulus and place; a [`Profile`] is its row for one press, a [`Field`] that row put in place.
+//! The pressure is Hertz's over the contact radius a, the shear that of no slip, q = Q/(2π a √(a² − r²)). Both are convolved with the
+//! [`Kernel`](crate::elastic::kernel::Kernel) of the bonded layer in a Hankel integral. All factors except the depth below the surface are
+//! scaled out, so one [`Tables`] serves every force, modulus and place. A [`Profile`] is its row for one press, a [`Field`] that row at its
+//! place.
 //!
-//! With r the place relative to the contact's centre, s the unit vector of the shear and r² = r·r, a profile gives
+//! With r the place relative to the centre of the contact, s the unit vector of the shear and r² = r·r, a profile gives
 //!
 //! * along the surface: r·outward + s·along − r (r·s)·radial,
 //! * upwards: −sink + (r·s)·bulge, with the gradient −r·sink_slope + s·bulge + r (r·s)·bulge_slope.
 //!
-//! Each factor is a function of r² alone: no square root and no trigonometric function a pixel.
+//! Each factor is a function of r² alone, so a pixel needs no square root and no trigonometric function.
 
 mod field;
 mod index;

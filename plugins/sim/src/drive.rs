@@ -1,11 +1,11 @@
 //! The bench as devices: `sim/vitactip`, `sim/magictac`, `sim/gelsight`, `sim/gelsight-wm`, `sim/robot`, `sim/force-transducer` and
-//! `sim/lighting`, linked into whatever program names this crate.
+//! `sim/lighting`, linked into every program that names this crate.
 //!
-//! Devices opened with one `rig` argument in one [`Rig`](taceva_core::Rig) work on one gel and share one virtual clock, [`SimulatedRig`]:
-//! a second passes as fast as it is worked out. Time passes while the robot moves, while the transducer averages and until the next frame.
+//! Devices opened with one `rig` argument in one [`Rig`](taceva_core::Rig) share one gel and one virtual clock, [`SimulatedRig`], which
+//! runs as fast as the simulation. Time passes while the robot moves, while the transducer averages and until the next frame.
 //!
-//! What is random belongs to a *visit*, the time from an arrival over a place (or a tare there) to the next: the same visits of a place
-//! meet the same errors, whatever was done elsewhere before.
+//! Random errors belong to a *visit*, the time from an arrival over a place (or a tare there) to the next. The same visits of a place meet
+//! the same errors, whatever happened elsewhere before.
 
 mod error;
 mod force;

@@ -1,6 +1,6 @@
-//! The two casts that displacements and pictures need, argued once.
+//! The two casts of displacements and pictures, justified once.
 
-/// A value worked out in binary64 as one of a table or a picture.
+/// Converts a binary64 value for a table or a picture.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "displacements and pictures need seven digits"
@@ -10,7 +10,7 @@ pub(crate) fn narrow(value: f64) -> f32 {
     value as f32
 }
 
-/// A count as a number to reckon with.
+/// Converts a count to a number.
 #[expect(
     clippy::cast_precision_loss,
     reason = "counts of pixels stay far below 2^53"

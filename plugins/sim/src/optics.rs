@@ -1,17 +1,16 @@
-//! Pictures: what the camera inside a tactile sensor sees when something touches the gel.
+//! Pictures: the view of the camera in a tactile sensor.
 //!
-//! A [`Camera`] is one unit of one sensor at one frame size; it turns a [`View`] into a frame in the caller's buffer, and tells how
-//! bright the frame is. Everything is in closed form and every picture is a function of its inputs alone.
+//! A [`Camera`] is one unit of one sensor at one frame size. It turns a [`View`] into a frame in the caller's buffer, and returns its
+//! brightness. Everything is in closed form, and every picture is a function of its inputs alone.
 //!
-//! How a picture comes about, a few rows at a time:
+//! Steps of a picture, a few rows at a time:
 //!
-//! 1. copy the picture of the untouched gel, worked out once a camera;
-//! 2. work out afresh the pixels near the contact, from radial tables by the square of the distance;
-//! 3. darken the markers where they are now;
-//! 4. add noise from a tile of normal numbers, round, clip, and add up the brightness.
+//! 1. copy the picture of the untouched gel, computed once a camera;
+//! 2. recompute the pixels near the contact, from radial tables by the squared distance;
+//! 3. darken the markers at their present places;
+//! 4. add noise from a tile of normal numbers, round, clip, and sum the brightness.
 //!
-//! The pictures are simulated: parameters marked *fit* were chosen so that a figure of the paper comes out, those marked *free* have
-//! no public evidence.
+//! The pictures are simulated: parameters marked *fit* reproduce a figure of the paper, those marked *free* have no public evidence.
 
 mod ambient;
 mod band;

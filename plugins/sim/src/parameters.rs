@@ -1,7 +1,7 @@
-//! What a sensor and its rig are: numbers with a unit and an origin, read from TOML and checked.
+//! Parameters of a sensor and its rig: values with a unit and an origin, read from TOML and checked.
 //!
-//! Every number is written `key = { value = 4.25, unit = "mm", origin = "geometric" }`; the origin says how far to trust it. A sensor
-//! of one's own is a copy of one of the compiled-in tables with other numbers, read by [`Parameters::parse`].
+//! Every value is written `key = { value = 4.25, unit = "mm", origin = "geometric" }`; the origin tells how far to trust it. For another
+//! sensor, copy one of the built-in tables, change its values, and read it by [`Parameters::parse`].
 
 mod digest;
 mod error;
@@ -25,7 +25,7 @@ pub use sections::{
 use read::Document;
 use section::Section;
 
-/// The body of a sensor: what answers a press.
+/// Body of a sensor, which responds to a press.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Body {
     /// A flat gel on a rigid plate.
@@ -34,7 +34,7 @@ pub enum Body {
     Dome(Dome),
 }
 
-/// Everything the bench knows of one kind of sensor and of the rig that tests it.
+/// Parameters of one kind of sensor and of its rig.
 ///
 /// ```
 /// use taceva_sim::{Model, Parameters};
@@ -45,42 +45,42 @@ pub enum Body {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters {
-    /// The name of the sensor, as reports write it.
+    /// Name of the sensor in reports.
     pub name: String,
-    /// What answers a press.
+    /// Body, which responds to a press.
     pub body: Body,
-    /// What the indenter touches.
+    /// Surface under the indenter.
     pub surface: Surface,
-    /// How the gel forgets.
+    /// Relaxation and conditioning of the gel.
     pub material: Material,
-    /// Where and how deep the sensor may be pressed.
+    /// Probed surface and depths.
     pub probing: Probing,
-    /// How units and places differ.
+    /// Variation between units and places.
     pub variation: Variation,
-    /// What the camera of the sensor gives.
+    /// Camera of the sensor.
     pub camera: Camera,
-    /// What is printed in or on the gel, if anything is.
+    /// Markers in or on the gel, if any.
     pub markers: Option<Markers>,
-    /// The layers of a printed lattice, if there is one.
+    /// Layers of a printed lattice, if any.
     pub lattice: Option<Lattice>,
-    /// How gratings are seen.
+    /// Blur and contrast of gratings.
     pub gratings: Gratings,
-    /// What moves the indenter.
+    /// Robot that moves the indenter.
     pub robot: Robot,
-    /// How contact is found.
+    /// Search for contact.
     pub search: Search,
-    /// What measures the force.
+    /// Force transducer.
     pub transducer: Transducer,
     entries: Vec<Entry>,
     digest: ParameterDigest,
 }
 
 impl Parameters {
-    /// The parameters written in `text`.
+    /// Parses the parameters in `text`.
     ///
     /// # Errors
-    /// [`ParameterError`]: not TOML, an unknown or missing section or key, a value outside its range, another unit than the declared
-    /// one, or numbers that contradict each other; with the line, what was found and what was expected.
+    /// [`ParameterError`] with the line, the value found and the value expected: invalid TOML, an unknown or missing section or key, a
+    /// value out of range, another unit than the declared one, or contradictory values.
     pub fn parse(text: &str) -> Result<Parameters, ParameterError> {
         let mut document = Document::parse(text)?;
         let name = document.name()?;
@@ -123,17 +123,17 @@ impl Parameters {
         Ok(parameters)
     }
 
-    /// Every number with its section, unit, origin and line, in the order of section and key.
+    /// All values with section, unit, origin and line, ordered by section and key.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }
 
-    /// What the parameters are, in 32 bytes: equal numbers, units and origins give equal digests, whatever the file looks like.
+    /// Digest of the parameters, 32 bytes: equal values, units and origins give equal digests, whatever the layout of the file.
     pub fn digest(&self) -> &ParameterDigest {
         &self.digest
     }
 
-    /// Refuses numbers that are each in range and contradict each other.
+    /// Rejects values that are in range but contradict each other.
     fn check(&self) -> Result<(), ParameterError> {
         let Probing {
             depth_min_mm,
@@ -182,5 +182,5 @@ impl Parameters {
     }
 }
 
-/// The largest ball that sensors are pressed with.
+/// Radius of the largest ball that presses sensors, mm.
 pub(crate) const GREATEST_INDENTER_MM: f64 = 10.0;

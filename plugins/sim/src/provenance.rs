@@ -1,18 +1,18 @@
-//! Where a number came from: never mistaken for a measurement.
+//! Provenance of simulated numbers, which marks them as not measured.
 
 use std::fmt;
 
 use crate::parameters::ParameterDigest;
 
-/// The version of the physical model: it changes when the same parameters and seed give other numbers.
+/// Version of the physical model; it changes when the same parameters and seed give other numbers.
 pub const MODEL_VERSION: u32 = 2;
 
-/// What every product of the bench says of itself.
+/// Provenance of a product of the bench.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Provenance {
-    /// The sensor that was simulated.
+    /// Simulated sensor.
     pub sensor: String,
-    /// The number of its unit.
+    /// Number of the unit.
     pub unit: u32,
     /// The seed of the run.
     pub seed: u64,
@@ -21,10 +21,10 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// The word that stands where others say how they were measured.
+    /// Value of `source`, in place of a measurement method.
     pub const SOURCE: &'static str = "simulated";
 
-    /// Names and values, in a fixed order, for files and reports.
+    /// Names and values in a fixed order, for files and reports.
     pub fn facts(&self) -> [(&'static str, String); 6] {
         [
             ("source", Provenance::SOURCE.to_owned()),

@@ -1,52 +1,53 @@
-//! Random numbers that are looked up, not drawn: each is a function of what it is for.
+//! Random numbers by lookup: each is a function of its purpose, identity and index.
 //!
-//! A number is named by the seed, a [`Purpose`], an identity (a press, a point, a frame) and an index. So a press looks the same
-//! whichever press came before it, on which thread it was made, and whether the run was interrupted.
+//! The key of a number is the seed, a [`Purpose`], an identity (a press, a point, a frame) and an index. A press is therefore independent
+//! of earlier presses, of threads and of interruptions.
 //!
-//! The mixing is that of `taceva_core::random`, applied once a coordinate; normal numbers come from one uniform number through the inverse of the distribution.
+//! The mixing is that of `taceva_core::random`, applied once a coordinate. A normal number comes from one uniform number through the
+//! inverse of the distribution.
 
 mod normal;
 
 use taceva_core::random::{Draws, mix, open_unit};
 
-/// What a random number is for; different purposes never share a number.
+/// Purpose of a random number; different purposes never share a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u32)]
 #[non_exhaustive]
 pub enum Purpose {
-    /// How stiff the gel of a unit is, here and there.
+    /// Stiffness field of a unit's gel.
     Stiffness = 1,
-    /// How the surface of a unit deviates: gap and blisters.
+    /// Surface of a unit: gap and blisters.
     Surface,
-    /// Where the robot stands rather than where it was sent.
+    /// Position error of the robot.
     Positioning,
-    /// How far the search for contact starts from the surface.
+    /// Start of the search for contact above the surface.
     SearchPhase,
-    /// The transducer's noise during the search for contact.
+    /// Noise of the transducer in the search for contact.
     SearchNoise,
-    /// The transducer's zero, a point.
+    /// Zero of the transducer, by point.
     ZeroDrift,
-    /// The transducer's zero, a press.
+    /// Zero of the transducer, by press.
     PressDrift,
-    /// The transducer's white noise in what is logged.
+    /// White noise of logged readings.
     ForceNoise,
-    /// The transducer's cross-talk.
+    /// Cross-talk of the transducer.
     CrossTalk,
-    /// Where points lie and how deep they are pressed.
+    /// Places and depths of presses.
     Draws,
-    /// The flicker of a frame.
+    /// Flicker of a frame.
     Flicker,
-    /// The noise of a frame's pixels.
+    /// Pixel noise of a frame.
     PixelNoise,
-    /// The texture of a unit's picture.
+    /// Texture of a unit's picture.
     Texture,
-    /// The gains of a unit's lamps.
+    /// Gains of a unit's lamps.
     LampGain,
-    /// The places of a unit's markers.
+    /// Places of a unit's markers.
     MarkerJitter,
-    /// The buckling of a lattice under a press.
+    /// Buckling of a lattice under a press.
     Buckling,
-    /// How a grating is turned and shifted.
+    /// Pose of a grating.
     GratingPose,
 }
 
@@ -65,12 +66,12 @@ pub struct Random {
 }
 
 impl Random {
-    /// The numbers of `seed`.
+    /// Random numbers of `seed`.
     pub fn new(seed: u64) -> Random {
         Random { key: mix(seed) }
     }
 
-    /// The numbers for one purpose and one identity.
+    /// Stream for one purpose and one identity.
     pub fn stream(&self, purpose: Purpose, identity: u64) -> Stream {
         let purpose = mix(self.key ^ u64::from(purpose as u32));
         Stream {
@@ -79,7 +80,7 @@ impl Random {
     }
 }
 
-/// Random numbers of one purpose and one identity, by index.
+/// Stream of random numbers of one purpose and one identity, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stream {
     draws: Draws,
@@ -92,19 +93,19 @@ impl Stream {
         self.draws.bits(index)
     }
 
-    /// A number strictly between 0 and 1, a multiple of 2⁻⁵³ minus half of one.
+    /// Uniform number strictly between 0 and 1, in steps of 2⁻⁵³.
     #[inline]
     pub fn uniform(&self, index: u64) -> f64 {
         open_unit(self.bits(index))
     }
 
-    /// A number between `low` and `high`.
+    /// Uniform number between `low` and `high`.
     #[inline]
     pub fn between(&self, index: u64, low: f64, high: f64) -> f64 {
         low + (high - low) * self.uniform(index)
     }
 
-    /// A normal number of mean 0 and standard deviation 1.
+    /// Normal number of mean 0 and standard deviation 1.
     #[inline]
     pub fn normal(&self, index: u64) -> f64 {
         normal::quantile(self.uniform(index))

@@ -1,4 +1,4 @@
-//! What stands around the sensor and is not perfect: a robot, a force transducer, and the search for contact.
+//! Imperfect devices around the sensor: robot, force transducer, and search for contact.
 
 mod label;
 mod search;

@@ -1,4 +1,4 @@
-//! What a sensor is pressed with.
+//! Specimens: balls and boards.
 
 use std::fmt;
 
@@ -8,20 +8,20 @@ use thiserror::Error;
 /// A rigid ball.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Indenter {
-    /// Of 2 mm radius: calibration.
+    /// Radius 2 mm: calibration.
     #[default]
     Ball2,
-    /// Of 4 mm radius.
+    /// Radius 4 mm.
     Ball4,
-    /// Of 10 mm radius: the alternative for maps of the surface.
+    /// Radius 10 mm: the alternative for maps of the surface.
     Ball10,
 }
 
 impl Indenter {
-    /// Every ball of the bench.
+    /// All balls of the bench.
     pub const ALL: [Indenter; 3] = [Indenter::Ball2, Indenter::Ball4, Indenter::Ball10];
 
-    /// Its radius.
+    /// Radius, mm.
     pub const fn radius_mm(self) -> f64 {
         match self {
             Indenter::Ball2 => 2.0,
@@ -30,7 +30,7 @@ impl Indenter {
         }
     }
 
-    /// The ball of that radius.
+    /// Finds the ball with this radius.
     pub fn from_radius(radius: Nanometre) -> Option<Indenter> {
         Indenter::ALL
             .into_iter()
@@ -51,16 +51,16 @@ pub struct Grating {
     spacing: Nanometre,
 }
 
-/// The finest board, the coarsest one, and the step between two.
+/// Finest and coarsest spacing, and the step between boards, nm.
 const SPACING_MIN: i64 = 250_000;
 const SPACING_MAX: i64 = 1_750_000;
 const SPACING_STEP: i64 = 50_000;
 
 impl Grating {
-    /// The board of this kind and spacing.
+    /// Board of this kind and spacing.
     ///
     /// # Errors
-    /// [`GratingError`] if the catalogue has none: spacings go from 0.25 to 1.75 mm in steps of 0.05 mm.
+    /// [`GratingError`] if the catalogue has no such board: spacings are 0.25 to 1.75 mm in steps of 0.05 mm.
     pub fn new(kind: GratingKind, spacing: Nanometre) -> Result<Grating, GratingError> {
         let in_range = (SPACING_MIN..=SPACING_MAX).contains(&spacing.0);
         if in_range && (spacing.0 - SPACING_MIN) % SPACING_STEP == 0 {
@@ -70,7 +70,7 @@ impl Grating {
         }
     }
 
-    /// Every board, lines first, from fine to coarse.
+    /// All boards, lines first, from fine to coarse.
     pub fn catalogue() -> impl Iterator<Item = Grating> {
         GratingKind::ALL.into_iter().flat_map(|kind| {
             (0..=(SPACING_MAX - SPACING_MIN) / SPACING_STEP).map(move |step| Grating {
@@ -85,30 +85,30 @@ impl Grating {
         self.kind
     }
 
-    /// The width of a ridge and of the gap beside it.
+    /// Width of a ridge, and of the gap beside it.
     pub fn spacing(&self) -> Nanometre {
         self.spacing
     }
 
-    /// From one ridge to the next.
+    /// Distance between ridges, mm.
     pub fn period_mm(&self) -> f64 {
         Nanometre(2 * self.spacing.0).to_millimetres()
     }
 }
 
-/// A grating that the catalogue does not have.
+/// Error for a grating outside the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("no grating of {spacing} spacing, expected 0.25 to 1.75 mm in steps of 0.05 mm")]
 pub struct GratingError {
     spacing: Nanometre,
 }
 
-/// How a board lies on the gel.
+/// Pose of a board on the gel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GratingPose {
-    /// How it is turned.
+    /// Rotation about z.
     pub yaw_degree: f64,
-    /// How its centre is shifted.
+    /// Offset of the centre.
     pub offset_mm: [f64; 2],
 }
 

@@ -1,7 +1,7 @@
-//! One unit of a sensor: how it differs from other units, and from place to place.
+//! One unit of a sensor: its differences from other units, and between places.
 //!
-//! A unit is a function of the sensor's name and its number, not of the run's seed: it is the same gel in every run. Unit 0 has the
-//! nominal modulus and sag.
+//! A unit is a function of the sensor's name and its number, not of the run's seed: it is the same gel in every run. Unit 0 has the nominal
+//! modulus and sag.
 
 use std::f64::consts::TAU;
 
@@ -21,7 +21,7 @@ pub struct Unit {
     surface: Surface,
 }
 
-/// The surface of a flat gel, as it came out of its mould.
+/// Surface of a flat gel, as moulded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Relief {
     sag_ratio: f64,
@@ -30,7 +30,7 @@ struct Relief {
     blisters: [Blister; BLISTERS],
 }
 
-/// A place where the gel has come off its plate.
+/// A blister, where the gel has detached from its plate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Blister {
     centre_mm: [f64; 2],
@@ -38,18 +38,18 @@ struct Blister {
     height_mm: f64,
 }
 
-/// A unit has one or two blisters; the second may be of no height.
+/// Number of blisters; the second may have height 0.
 const BLISTERS: usize = 2;
-/// Where the sag is stated.
+/// Distances along x and y at which the sag is stated.
 const SAG_STATED_MM: [f64; 2] = [7.0, 9.0];
-/// More than what binary64 makes of sums of a few lengths.
+/// Bound of the rounding error of sums of a few lengths.
 const ROUNDING_MM: f64 = 1e-9;
-/// A free edge is felt in the outer quarter, the gel reaching this far beyond the picture.
+/// Start of the edge softening, as a part of the reach, and the margin of the gel beyond the picture.
 const EDGE_BEGINS: f64 = 0.75;
 const EDGE_MARGIN_MM: f64 = 1.5;
 
 impl Unit {
-    /// The unit `number` of a sensor.
+    /// Unit `number` of a sensor.
     pub fn new(parameters: &Parameters, number: u32) -> Unit {
         let name = fnv_1a(parameters.name.as_bytes());
         let random = Random::new(u64::from(number));
@@ -76,18 +76,18 @@ impl Unit {
         }
     }
 
-    /// Its number.
+    /// Number of the unit.
     pub fn number(&self) -> u32 {
         self.number
     }
 
-    /// How stiff it is at a place over the nominal stiffness: above 0.
+    /// Stiffness at a place relative to the nominal one, above 0.
     pub fn stiffness(&self, place_mm: [f64; 2]) -> f64 {
         let smooth = 1.0 + self.stiffness_sd * self.stiffness.at(place_mm);
         self.modulus_ratio * smooth.max(0.1) * self.edge(place_mm)
     }
 
-    /// How high its surface lies at a place over the ideal one: negative where it sags.
+    /// Height of the surface at a place over the ideal one; negative where it sags.
     pub fn height_mm(&self, place_mm: [f64; 2]) -> f64 {
         let Some(relief) = &self.relief else {
             return 0.0;
@@ -100,7 +100,7 @@ impl Unit {
         relief.gap_mm * relief.gap.at(place_mm) + blisters - sag
     }
 
-    /// An upper bound of [`height_mm`](Unit::height_mm) over the whole surface.
+    /// Upper bound of [`height_mm`](Unit::height_mm) over the whole surface.
     pub fn height_max_mm(&self) -> f64 {
         let Some(relief) = &self.relief else {
             return ROUNDING_MM;
@@ -112,7 +112,7 @@ impl Unit {
         relief.gap_mm.abs() * Waves::GREATEST + blisters.sum::<f64>() + ROUNDING_MM
     }
 
-    /// 1 inside, less towards the free edge.
+    /// Edge softening: 1 inside, less towards the free edge.
     fn edge(&self, place_mm: [f64; 2]) -> f64 {
         let reach = |length: f64| 0.5 * length + EDGE_MARGIN_MM;
         let x = place_mm[0].abs() / reach(self.surface.width_mm);
@@ -170,12 +170,12 @@ struct Waves {
 }
 
 const WAVES: usize = 8;
-/// Greatest wave numbers along x and y, in radians a millimetre.
+/// Greatest wave numbers along x and y, in radians per millimetre.
 const STIFFNESS_WAVES: f64 = 0.5;
 const GAP_WAVES: f64 = 1.0;
 
 impl Waves {
-    /// No place has more: eight cosines of 1.
+    /// Greatest possible value: eight cosines of 1.
     const GREATEST: f64 = 0.5 * WAVES as f64;
 
     fn new(stream: Stream, first: u64, wave_number_max: f64) -> Waves {

@@ -1,7 +1,7 @@
-//! AVI files: the video stream's packets by walking through the chunks that hold them, and its indices where they are there.
+//! AVI files: finds the packets of the video stream by walking through its chunks, and checks the indices if there are any.
 //!
-//! Chunks say their own kind and size, so a file without an index is read as one with it; an index that contradicts them is an error,
-//! since nobody knows then which of the two is right.
+//! Chunks state their kind and size, so a file without an index is readable too. An index that contradicts the chunks is an error, since
+//! either could be wrong.
 
 mod chunk;
 mod header;
@@ -16,18 +16,18 @@ use chunk::{Chunk, ChunkId, Chunks};
 use header::StreamHeader;
 use index::Index;
 
-/// What an AVI file holds of video.
+/// Video stream of an AVI file.
 #[derive(Debug)]
 pub(crate) struct Avi {
     pub(crate) stream: StreamHeader,
-    /// In the order in which they lie and are presented. An empty one stands for a frame that was lost while it was recorded: it is left out, as
-    /// other readers do, and the times of the others say where.
+    /// Packets in file and presentation order. An empty packet marks a frame lost in recording: it is skipped, as by other readers, and the
+    /// times of the others show the gap.
     pub(crate) packets: Vec<Packet>,
-    /// When each is presented, in frames of the stream.
+    /// Time of each packet, in frames of the stream.
     places: Vec<u64>,
 }
 
-/// Whether a file that begins with `start` is an AVI file.
+/// True if a file that begins with `start` is an AVI file.
 pub(crate) fn is_avi(start: &[u8]) -> bool {
     start.starts_with(b"RIFF") && start.get(8..12) == Some(b"AVI ")
 }
@@ -44,7 +44,7 @@ impl Avi {
         };
         let mut parts = Chunks::new(source, 0, source.length());
         while let Some(part) = parts.next()? {
-            // What follows the last part is no AVI: some writers leave padding there.
+            // Data after the last part is no AVI: some writers leave padding there.
             if part.id != ChunkId(*b"RIFF") {
                 break;
             }
@@ -66,7 +66,7 @@ impl Avi {
         })
     }
 
-    /// Whether its packets are JPEG files.
+    /// True if its packets are JPEG files.
     pub(crate) fn is_motion_jpeg(&self) -> bool {
         matches!(
             self.stream.codec.to_ascii_uppercase().as_slice(),
@@ -74,7 +74,7 @@ impl Avi {
         )
     }
 
-    /// The codec by its four letters, which are numbers of what is not compressed.
+    /// Name of the codec, or its four letters; uncompressed video has zeros there.
     pub(crate) fn codec(&self) -> String {
         let letters = self.stream.codec;
         let name = match letters.to_ascii_uppercase().as_slice() {
@@ -89,7 +89,7 @@ impl Avi {
         name.to_owned()
     }
 
-    /// When each packet is presented, in s, if the file says at what rate.
+    /// Time of each packet, in s; `None` if the file states no rate.
     pub(crate) fn times_s(&self) -> Option<Vec<f64>> {
         let StreamHeader { scale, rate, .. } = self.stream;
         if scale == 0 || rate == 0 {
@@ -100,7 +100,7 @@ impl Avi {
     }
 }
 
-/// What was found so far.
+/// State of the walk through the chunks.
 struct Walk<'a> {
     source: &'a Source,
     stream: Option<StreamHeader>,
@@ -123,7 +123,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// One of the RIFF parts of the file: `AVI `, then `AVIX` for each further GiB or so.
+    /// Reads one RIFF part of the file: `AVI `, then `AVIX` for each further GiB or so.
     fn part(&mut self, part: &Chunk) -> Result<(), VideoError> {
         if part.size == 0 {
             return Err(self.source.damaged(
@@ -159,7 +159,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// The packets of a list; `is_whole` unless it is a record within the list of all packets.
+    /// Reads the packets of a list; `is_whole` is false for a record within the list of all packets.
     fn movie(&mut self, list: &Chunk, is_whole: bool) -> Result<(), VideoError> {
         let Some(number) = self.stream.as_ref().map(|stream| stream.number) else {
             return Err(self

@@ -1,6 +1,6 @@
-//! What is known of a clip, and what its frames are given as.
+//! Properties of a clip, and its frames.
 
-/// What is known of a clip without decoding it.
+/// Properties of a clip, known without decoding it.
 ///
 /// # Units
 /// Sizes are pixels, times are seconds from the beginning of the presentation.
@@ -17,27 +17,27 @@
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VideoInfo {
-    /// The format of the file, such as `AVI` or `MP4`.
+    /// Format of the file, such as `AVI` or `MP4`.
     pub container: String,
-    /// The codec, with its profile where that is known, such as `MJPEG` or `H.264 High`.
+    /// Codec, with its profile if known, such as `MJPEG` or `H.264 High`.
     pub codec: String,
-    /// How pixels are stored, by the names of FFmpeg, such as `yuv420p`.
+    /// Pixel format by the names of FFmpeg, such as `yuv420p`.
     pub pixel_format: String,
     /// Width of every frame, pixels.
     pub width: u32,
     /// Height of every frame, pixels.
     pub height: u32,
-    /// How many frames are presented.
+    /// Number of presented frames.
     pub frames: u64,
-    /// When each is presented, s; `None` where the container has no times.
+    /// Time of each frame, s; `None` if the container has no times.
     pub times_s: Option<Vec<f64>>,
-    /// Whether the codec loses detail; `None` for a codec that has modes of both kinds.
+    /// True for a lossy codec; `None` for a codec with modes of both kinds.
     pub lossy: Option<bool>,
-    /// What decodes the frames, with its version where it says one; `None` where frames are the packets of the clip as they are.
+    /// Decoder of the frames, with its version if known; `None` if frames are the packets of the clip.
     pub decoder: Option<String>,
 }
 
-/// What is wanted of frames that are decoded.
+/// Colours of decoded frames.
 ///
 /// ```
 /// use taceva_video::{Colours, Decoders, Picture, Video};
@@ -53,10 +53,10 @@ pub struct VideoInfo {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// The luma plane as it is stored, untouched.
+    /// Luma plane as stored.
     Luma,
-    /// Red, green and blue of 8 bits, converted by the matrix and range that the stream names (else BT.601, limited range), with the nearest sample
-    /// of chroma. Of a stream of more than 8 bits the upper 8 are converted.
+    /// Red, green and blue of 8 bits, converted by the matrix and range of the stream (default BT.601, limited range) with the nearest
+    /// chroma sample. Streams of more than 8 bits are reduced to their upper 8 bits.
     Rgb,
 }
 
@@ -78,33 +78,33 @@ pub enum Colours {
 #[derive(Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Picture {
-    /// A JPEG file, whatever [`Colours`] were asked for: the bytes that lie in the clip. Where these have no Huffman tables, as Motion JPEG may,
-    /// the standard ones stand in it before the scan: without them no other program reads it.
+    /// A JPEG file, whatever [`Colours`] are requested: the bytes in the clip. If these lack Huffman tables, as in some Motion JPEG, the
+    /// standard tables are inserted before the scan, so that other programs can read it.
     Jpeg(Vec<u8>),
     /// Pixels of 8 bits a sample.
     Pixels {
-        /// Columns.
+        /// Width, pixels.
         width: u32,
-        /// Rows.
+        /// Height, pixels.
         height: u32,
-        /// Row by row: one number a pixel of [`Colours::Luma`], red, green and blue of [`Colours::Rgb`].
+        /// Samples row by row: one for each pixel with [`Colours::Luma`], red, green and blue with [`Colours::Rgb`].
         samples: Vec<u8>,
     },
-    /// The luma plane of a clip of more than 8 bits a sample.
+    /// Luma plane of a clip of more than 8 bits a sample.
     Deep {
-        /// Columns.
+        /// Width, pixels.
         width: u32,
-        /// Rows.
+        /// Height, pixels.
         height: u32,
-        /// How many bits of each number are used: 9 to 16.
+        /// Bits of each sample: 9 to 16.
         bits: u32,
-        /// Row by row, as in the stream: from 0 to below 2 to the power of `bits`.
+        /// Samples row by row, as in the stream: below 2 to the power of `bits`.
         samples: Vec<u16>,
     },
 }
 
 impl Picture {
-    /// How many bytes it takes.
+    /// Size in memory, bytes.
     pub(crate) fn size(&self) -> usize {
         match self {
             Picture::Jpeg(bytes) => bytes.len(),

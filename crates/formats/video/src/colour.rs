@@ -1,31 +1,31 @@
-//! Luma and two differences of colour as red, green and blue, in whole numbers.
+//! Conversion of luma and chroma to red, green and blue, in integers.
 
 use std::path::Path;
 
 use crate::error::VideoError;
 
-/// How luma and chroma stand for colours.
+/// Colour coding of luma and chroma.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct YuvCoding {
-    /// The number of the matrix in ITU-T H.273, where the stream names one.
+    /// Matrix number of ITU-T H.273, if the stream states one.
     pub(crate) matrix: Option<u16>,
-    /// Whether samples use all 256 steps, or 16 to 235 (luma) and 16 to 240 (chroma).
+    /// True for samples from 0 to 255; false for 16 to 235 (luma) and 16 to 240 (chroma).
     pub(crate) is_full_range: bool,
 }
 
-/// The planes of a frame of 8 bits a sample.
+/// Planes of a frame of 8 bits a sample.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes<'a> {
     width: usize,
     height: usize,
     luma: &'a [u8],
-    /// The differences of blue and red, if there are any.
+    /// Blue and red chroma, if there are any.
     chroma: Option<[&'a [u8]; 2]>,
-    /// How many pixels share a sample of chroma, as powers of two: along a row, along a column.
+    /// Pixels for each chroma sample as powers of two: along a row, along a column.
     shifts: (u32, u32),
 }
 
-/// A matrix that is not converted.
+/// A matrix that is not supported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct UnknownMatrix(u16);
 
@@ -39,10 +39,10 @@ impl UnknownMatrix {
 }
 
 impl<'a> Planes<'a> {
-    /// Rows without padding; chroma with a sample for `1 << shifts.0` by `1 << shifts.1` pixels.
+    /// Planes with rows without padding; each chroma sample covers `1 << shifts.0` by `1 << shifts.1` pixels.
     ///
     /// # Panics
-    /// If a plane is smaller than that: whoever decoded it has checked.
+    /// If a plane is too small; decoders check this before.
     pub(crate) fn new(
         width: u32,
         height: u32,
@@ -65,10 +65,10 @@ impl<'a> Planes<'a> {
         }
     }
 
-    /// Red, green and blue of each pixel, by numbers of 8 bits behind the point; the nearest sample of chroma.
+    /// Converts each pixel to red, green and blue with the nearest chroma sample, in fixed-point arithmetic of 8 fractional bits.
     ///
     /// # Errors
-    /// If the matrix is none of those of BT.601, BT.709, FCC, SMPTE 240M and BT.2020.
+    /// [`UnknownMatrix`] for a matrix other than those of BT.601, BT.709, FCC, SMPTE 240M and BT.2020.
     pub(crate) fn to_rgb(self, coding: YuvCoding) -> Result<Vec<u8>, UnknownMatrix> {
         let Factors {
             luma,
@@ -87,7 +87,7 @@ impl<'a> Planes<'a> {
                 let [blue, red] = self.chroma.map_or([0, 0], |planes| {
                     planes.map(|plane| i32::from(plane[at]) - 128)
                 });
-                // Half a step is added so that the division rounds to the nearest.
+                // Adds half a step, so that the shift rounds to nearest.
                 let light = (i32::from(sample) - offset) * luma + 128;
                 let mixed = [
                     light + red_of_red * red,
@@ -103,15 +103,15 @@ impl<'a> Planes<'a> {
     }
 }
 
-/// Half, a quarter … of a length, rounded up.
+/// Divides a length by `1 << shift`, rounded up.
 fn shifted(length: usize, shift: u32) -> usize {
     (length + (1 << shift) - 1) >> shift
 }
 
-/// What samples are multiplied by, in 256ths.
+/// Factors of samples, in 256ths.
 struct Factors {
     luma: i32,
-    /// The luma of black.
+    /// Luma of black.
     offset: i32,
     red_of_red: i32,
     green_of_blue: i32,
@@ -120,9 +120,9 @@ struct Factors {
 }
 
 impl Factors {
-    /// With the weights K_r and K_b of red and blue in luma: R = Y + 2 (1 − K_r) V, B = Y + 2 (1 − K_b) U, and G from the sum.
+    /// Uses the weights K_r and K_b of red and blue in luma: R = Y + 2 (1 − K_r) V, B = Y + 2 (1 − K_b) U, and G from the sum.
     fn of(coding: YuvCoding) -> Result<Factors, UnknownMatrix> {
-        // Unnamed: BT.601, as other decoders take it.
+        // Unspecified: BT.601, as other decoders assume.
         let (of_red, of_blue) = match coding.matrix.unwrap_or(2) {
             1 => (0.2126, 0.0722),
             2 | 3 | 5 | 6 => (0.299, 0.114),

@@ -1,11 +1,11 @@
-//! What can be wrong with a clip, its decoder or a question asked of it.
+//! Errors of a clip, its decoder or a request.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
 
-/// Why a clip or one of its frames cannot be given.
+/// Reasons for which a clip or one of its frames cannot be read.
 ///
 /// ```
 /// use taceva_video::{Decoders, Video, VideoError};
@@ -20,22 +20,22 @@ pub enum VideoError {
     Io {
         /// The clip.
         path: PathBuf,
-        /// What was tried, as a verb.
+        /// Failed action, as a verb.
         doing: &'static str,
-        /// What the system said.
+        /// System error.
         source: io::Error,
     },
-    /// Bytes contradict the format of the container or of the stream in it.
+    /// Bytes contradict the format of the container or of the stream.
     #[error("{} is damaged at byte {offset}: {problem}", shown(path))]
     Damaged {
         /// The clip.
         path: PathBuf,
-        /// Where, from the beginning of the file.
+        /// Byte offset in the file.
         offset: u64,
-        /// What was found there, and what was expected.
+        /// Value found, and value expected.
         problem: String,
     },
-    /// The index of the container contradicts the frames that lie in it.
+    /// The index of the container contradicts its frames.
     #[error(
         "the index of {} is broken at byte {offset}: {problem}; `ffmpeg -i OLD -c copy NEW` writes it anew",
         shown(path)
@@ -43,34 +43,34 @@ pub enum VideoError {
     Index {
         /// The clip.
         path: PathBuf,
-        /// Where the index says so, from the beginning of the file.
+        /// Byte offset of the index entry in the file.
         offset: u64,
-        /// What it says, and what there is.
+        /// Value of the index, and value found.
         problem: String,
     },
-    /// Something is larger than is accepted; nothing was allocated for it.
+    /// A size exceeds its limit; nothing was allocated for it.
     #[error("{}: {what}: {found}, at most {limit} are accepted", shown(path))]
     TooLarge {
         /// The clip.
         path: PathBuf,
-        /// What is counted.
+        /// Counted quantity.
         what: &'static str,
-        /// How many there are, as the file says.
+        /// Stated size.
         found: u64,
-        /// How many are accepted.
+        /// Greatest accepted size.
         limit: u64,
     },
-    /// A frame was asked for that the clip does not have.
+    /// The clip has no frame of the requested index.
     #[error("{}: no frame {index}, there are {frames} from 0", shown(path))]
     NoFrame {
         /// The clip.
         path: PathBuf,
-        /// The frame that was asked for, from 0.
+        /// Requested frame, from 0.
         index: u64,
-        /// How many frames there are.
+        /// Number of frames.
         frames: u64,
     },
-    /// Frames were not asked for in rising order, each once.
+    /// Requested frames are not strictly ascending.
     #[error(
         "{}: frame {index} is asked for after frame {after}, expected rising numbers",
         shown(path)
@@ -78,12 +78,12 @@ pub enum VideoError {
     Unsorted {
         /// The clip.
         path: PathBuf,
-        /// The frame that came too late.
+        /// Frame out of order.
         index: u64,
-        /// The one before it.
+        /// Frame before it.
         after: u64,
     },
-    /// A frame is not as large as the first.
+    /// The size of a frame differs from that of the first.
     #[error(
         "{}: frame {frame} is {found}, expected {expected} as at the beginning: cut the clip where its size changes",
         shown(path)
@@ -91,24 +91,24 @@ pub enum VideoError {
     ChangedSize {
         /// The clip.
         path: PathBuf,
-        /// The frame, from 0.
+        /// Frame, from 0.
         frame: u64,
-        /// Its size, `width×height` in pixels.
+        /// Size of the frame, `width×height` in pixels.
         found: String,
-        /// The size of the clip.
+        /// Size of the clip.
         expected: String,
     },
-    /// Nothing at hand decodes the clip.
+    /// No available decoder supports the clip.
     #[error("{}: nothing at hand decodes {codec}: {remedy}", shown(path))]
     NoDecoder {
         /// The clip.
         path: PathBuf,
-        /// The codec, with the profile or pixel format that is the difficulty.
+        /// Codec, with the unsupported profile or pixel format.
         codec: String,
-        /// What would mend it.
+        /// Remedy.
         remedy: String,
     },
-    /// The luma plane was asked of a clip that has none.
+    /// The clip has no luma plane.
     #[error(
         "{}: pixels are {pixel_format}, which have no luma plane: ask for colours",
         shown(path)
@@ -116,10 +116,10 @@ pub enum VideoError {
     NoLuma {
         /// The clip.
         path: PathBuf,
-        /// How its pixels are stored.
+        /// Pixel format.
         pixel_format: String,
     },
-    /// Colours were asked of a clip whose matrix is not known here.
+    /// The colour matrix of the clip is not supported.
     #[error(
         "{}: colours are coded by matrix {matrix} of ITU-T H.273, which is not converted: ask for luma, or write the clip anew by another",
         shown(path)
@@ -127,29 +127,29 @@ pub enum VideoError {
     Colours {
         /// The clip.
         path: PathBuf,
-        /// The number of the matrix.
+        /// Matrix number of ITU-T H.273.
         matrix: u16,
     },
-    /// The decoder refused the stream.
+    /// The decoder rejected the stream.
     #[error("{}: {decoder} does not decode frame {frame}: {problem}", shown(path))]
     Decoder {
         /// The clip.
         path: PathBuf,
-        /// The library or program.
+        /// Library or program.
         decoder: &'static str,
-        /// The first frame that it did not give, from 0 in the order of presentation.
+        /// First missing frame, from 0 in presentation order.
         frame: u64,
-        /// What it said.
+        /// Message of the decoder.
         problem: String,
     },
-    /// A program that decodes was killed, ended early, was too slow or did not speak as it should.
+    /// A decoder program was killed, ended early, was too slow or broke the protocol.
     #[error("{}: {program}: {problem}", shown(path))]
     Process {
         /// The clip.
         path: PathBuf,
         /// The program.
         program: String,
-        /// What became of it.
+        /// Reason.
         problem: String,
     },
 }
@@ -173,7 +173,7 @@ impl VideoError {
     }
 }
 
-/// Why a visit of frames ended early.
+/// Reasons for which a visit of frames ended early.
 ///
 /// ```
 /// use taceva_video::{Colours, Decoders, Video, VisitError};
@@ -190,7 +190,7 @@ pub enum VisitError<E> {
     /// The clip could not be read or decoded.
     #[error(transparent)]
     Video(#[from] VideoError),
-    /// The caller's own error, which ended the visit.
+    /// Error of the caller, which ended the visit.
     #[error("{0}")]
     Caller(E),
 }

@@ -1,9 +1,8 @@
-//! Clips that an external ffmpeg decodes: any container and codec that it knows.
+//! Clips decoded by an external ffmpeg: any container and codec that it supports.
 //!
-//! It looks through the whole clip once when the clip is opened, so that the number of frames, their times, and whether anything in it is damaged
-//! or changes its size are known, and once more up to the last frame that is wanted. No pixel is converted by it: raw frames are taken in the
-//! format of the codec, of which luma is cut out here. The clip is its standard input, which it reads as a file: no name is shown to it, and
-//! it may open nothing but files.
+//! When a clip is opened, ffmpeg decodes all of it once. This gives the number of frames and their times, and reveals damage and changes of
+//! size. A visit decodes it again up to the last requested frame. ffmpeg converts no pixels: raw frames arrive in the format of the codec,
+//! and the luma is extracted here. The clip is its standard input, so it sees no file name, and it may open only files.
 
 mod command;
 mod format;
@@ -25,7 +24,7 @@ use format::Layout;
 use picture::{RawFrame, Refused};
 use probe::Look;
 
-/// A clip that ffmpeg decodes.
+/// A clip decoded by ffmpeg.
 #[derive(Debug)]
 pub(crate) struct ForeignClip {
     path: PathBuf,
@@ -36,12 +35,12 @@ pub(crate) struct ForeignClip {
     frames: u64,
 }
 
-/// What is known of a clip before ffmpeg looks at it.
+/// Properties of a clip known before ffmpeg runs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
     container: Option<&'static str>,
     codec: Option<String>,
-    /// Why it is not decoded here, behind the name of the codec; empty where the codec says it all.
+    /// Reason why it is not decoded in this process, to follow the name of the codec; empty if the codec is the reason.
     why: String,
 }
 
@@ -54,7 +53,7 @@ impl Known {
         }
     }
 
-    /// The codec and what is the matter with it.
+    /// Codec, with the reason.
     fn codec(&self) -> String {
         let codec = self
             .codec
@@ -63,7 +62,7 @@ impl Known {
         [codec, &self.why].join(" ").trim().to_owned()
     }
 
-    /// That nothing at hand decodes it.
+    /// Error for a clip without an available decoder.
     pub(crate) fn no_decoder(&self, path: &Path) -> VideoError {
         VideoError::NoDecoder {
             path: path.to_owned(),
@@ -74,7 +73,7 @@ impl Known {
 }
 
 impl ForeignClip {
-    /// Has ffmpeg look through the clip at `path`, of which `known` is known already.
+    /// Runs ffmpeg over the clip at `path`, whose known properties are `known`.
     pub(crate) fn open(
         path: &Path,
         program: &Path,
@@ -161,7 +160,7 @@ impl ForeignClip {
         Ok((info, clip))
     }
 
-    /// Shows the frames of `sorted`, which are there.
+    /// Calls `each` with the frames in `sorted`, which must exist.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],
@@ -172,7 +171,7 @@ impl ForeignClip {
             return Ok(());
         };
         let count = (last + 1).to_string();
-        // A frame as often as it is in the clip, whatever its times: without it ffmpeg repeats and drops frames of a varying rate.
+        // Outputs each frame once whatever its time; otherwise ffmpeg repeats and drops frames of a variable rate.
         let raw = [
             "-frames:v",
             &count,
@@ -231,7 +230,7 @@ impl ForeignClip {
     }
 }
 
-/// Whether a codec loses detail, by the name that ffmpeg gives it; nothing of those that do either.
+/// True for a lossy codec, by its name in ffmpeg; `None` for a codec with modes of both kinds, and for others.
 fn is_lossy(codec: &str) -> Option<bool> {
     match codec {
         "ffv1" | "huffyv" | "huffyuv" | "ffvhuff" | "utvideo" | "rawvideo" | "png" | "gif"

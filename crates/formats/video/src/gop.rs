@@ -1,4 +1,4 @@
-//! Frames that build on each other: decoded from the key frame before what is wanted, shown in the order of presentation.
+//! Visits dependent frames: decodes from the key frame before each requested one, and shows frames in presentation order.
 
 use std::ops::ControlFlow;
 
@@ -7,31 +7,31 @@ use crate::error::VideoError;
 use crate::presentation_order::Reorder;
 use crate::source::Source;
 
-/// What decodes samples one after the other, in the order in which they lie.
+/// Decoder of samples in file order.
 pub(crate) trait SampleDecoder {
-    /// Why it does not.
+    /// Error of the decoder.
     type Refusal: From<VideoError>;
 
-    /// Whether decoding can begin at the sample of this number.
+    /// True if decoding can begin at this sample.
     fn is_key(&self, sample: usize) -> Result<bool, VideoError>;
 
-    /// Forgets all samples before the next one.
+    /// Resets the decoder before the next sample.
     fn restart(&mut self);
 
-    /// Decodes a sample on the way to the one that `towards` names; gives its picture if it is that one itself.
+    /// Decodes a sample on the way to `towards`; returns the picture if it is that sample.
     fn decode(&mut self, sample: usize, towards: Wanted) -> Result<Option<Picture>, Self::Refusal>;
 }
 
-/// A frame that is wanted.
+/// A requested frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Wanted {
-    /// Its place in the order of decoding.
+    /// Index in decoding order.
     pub(crate) sample: usize,
-    /// Its place in the order of presentation.
+    /// Index in presentation order.
     pub(crate) frame: u64,
 }
 
-/// Shows the frames of `sorted`; `presented` are the numbers of samples in the order of presentation.
+/// Calls `each` with the frames in `sorted`; `presented` holds sample indices in presentation order.
 pub(crate) fn visit<D: SampleDecoder>(
     decoder: &mut D,
     source: &Source,
@@ -59,7 +59,7 @@ pub(crate) fn visit<D: SampleDecoder>(
     let mut reorder = Reorder::new(source, sorted);
     let mut next = 0;
     for wanted in wanted {
-        // Where it has to go on as it is, there is no key frame on the way.
+        // Without a key frame on the way, decoding continues.
         for key in (next..=wanted.sample).rev() {
             if decoder.is_key(key)? {
                 next = key;

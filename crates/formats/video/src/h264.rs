@@ -1,6 +1,6 @@
-//! H.264 of 8 bits and 4:2:0 in MP4: decoded sample by sample, from the key frame before what is wanted.
+//! H.264 of 8 bits and 4:2:0 in MP4: decoded sample by sample, from the key frame before the requested one.
 //!
-//! The order of presentation is that of the container, so that no frame is kept but those that wait for an earlier one.
+//! Frames follow the presentation order of the container, so only those that wait for an earlier one are kept.
 
 mod bits;
 mod parameters;
@@ -22,29 +22,29 @@ use units::{Settings, UnitKind, push_unit};
 
 pub(crate) use parameters::Sequence;
 
-/// The name and version of the library that decodes.
+/// Name and version of the decoder library.
 pub(crate) const DECODER: &str = "rusty_h264-decoder 0.17";
 
-/// A clip of H.264 that is decoded here.
+/// An H.264 clip decoded in this process.
 #[derive(Debug)]
 pub(crate) struct H264Clip {
     source: Source,
     samples: Vec<Sample>,
-    /// Numbers of samples in the order of presentation.
+    /// Sample indices in presentation order.
     presented: Vec<u32>,
     settings: Settings,
     pub(crate) sequence: Sequence,
     coding: YuvCoding,
 }
 
-/// Why a frame was not decoded.
+/// Reasons for which a frame was not decoded.
 pub(crate) enum Refusal {
     Video(VideoError),
-    /// The stream needs a tool of the codec that the decoder does not have; said as what stands behind the name of the codec.
+    /// The stream needs an unsupported tool of the codec; the text follows the name of the codec.
     Tool(String),
 }
 
-/// A picture as the decoder gives it: rows without padding, chroma half as wide and high.
+/// A decoded picture: rows without padding, chroma half as wide and high.
 struct Decoded {
     width: usize,
     height: usize,
@@ -59,7 +59,7 @@ impl From<VideoError> for Refusal {
 }
 
 impl H264Clip {
-    /// The clip of a track, with why others must decode it, if so.
+    /// Opens the clip of a track. Also returns the reason why this process cannot decode it, if so.
     pub(crate) fn open(
         source: Source,
         track: Track,
@@ -107,7 +107,7 @@ impl H264Clip {
         (self.sequence.width, self.sequence.height)
     }
 
-    /// Shows the frames of `sorted`.
+    /// Calls `each` with the frames in `sorted`.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],
@@ -122,7 +122,7 @@ impl H264Clip {
         gop::visit(&mut session, &self.source, &self.presented, sorted, each)
     }
 
-    /// Whether a parameter set within the stream says what those at its beginning do.
+    /// Checks a parameter set within the stream against the first one.
     fn check_sequence(&self, unit: &[u8], offset: u64, frame: u64) -> Result<(), Refusal> {
         let Some(sequence) = Sequence::read(unit) else {
             return Err(self
@@ -199,7 +199,7 @@ impl H264Clip {
 struct Session<'a> {
     clip: &'a H264Clip,
     colours: Colours,
-    /// None before the first sample, and before one that decoding begins at.
+    /// `None` before the first sample, and after a reset.
     decoder: Option<Decoder>,
 }
 
@@ -284,7 +284,7 @@ impl SampleDecoder for Session<'_> {
     }
 }
 
-/// The first sequence parameter set of a stream whose container has none.
+/// First sequence parameter set of a stream whose container has none.
 fn first_sequence(
     source: &Source,
     settings: &Settings,

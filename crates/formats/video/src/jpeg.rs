@@ -1,20 +1,20 @@
-//! As much of a JPEG as says how large it is, and the Huffman tables that Motion JPEG may leave out.
+//! Headers of a JPEG, and the Huffman tables that Motion JPEG may omit.
 
-/// What the headers of a JPEG say.
+/// Contents of the headers of a JPEG.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct JpegHeader {
     pub(crate) width: u32,
     pub(crate) height: u32,
-    /// How pixels are stored, by the names of FFmpeg.
+    /// Pixel format by the names of FFmpeg.
     pub(crate) pixel_format: &'static str,
-    /// Where the standard Huffman tables belong, if the file has none.
+    /// Offset at which the standard Huffman tables are inserted, if the file has none.
     tables_missing_at: Option<usize>,
 }
 
-/// Reads the headers of the JPEG `bytes`, up to its first scan.
+/// Parses the headers of the JPEG `bytes`, up to its first scan.
 ///
 /// # Errors
-/// What is wrong, and how many bytes from the beginning.
+/// The byte offset and the fault.
 pub(crate) fn read_header(bytes: &[u8]) -> Result<JpegHeader, (usize, String)> {
     if bytes.get(..2) != Some(&[0xff, 0xd8]) {
         return Err((0, "no JPEG begins here".to_owned()));
@@ -71,7 +71,7 @@ pub(crate) fn read_header(bytes: &[u8]) -> Result<JpegHeader, (usize, String)> {
     })
 }
 
-/// Width, height and how pixels are stored, of the segment of a frame header.
+/// Parses width, height and pixel format from the segment of a frame header.
 fn read_frame(segment: &[u8]) -> Option<(u32, u32, &'static str)> {
     let &[bits, h1, h0, w1, w0, components, ref rest @ ..] = segment else {
         return None;
@@ -96,7 +96,7 @@ fn read_frame(segment: &[u8]) -> Option<(u32, u32, &'static str)> {
     Some((width, height, pixel_format))
 }
 
-/// The packet as a file: itself, or with the standard Huffman tables where it has none.
+/// Completes a packet with the standard Huffman tables if it has none.
 pub(crate) fn with_tables(packet: Vec<u8>, header: &JpegHeader) -> Vec<u8> {
     let Some(at) = header.tables_missing_at else {
         return packet;
@@ -109,7 +109,7 @@ pub(crate) fn with_tables(packet: Vec<u8>, header: &JpegHeader) -> Vec<u8> {
     whole
 }
 
-/// The tables K.3 to K.6 of ITU-T T.81, each as its class and number, its counts of codes by length and its values.
+/// Tables K.3 to K.6 of ITU-T T.81, each as its class and number, its counts of codes by length, and its values.
 #[rustfmt::skip]
 const STANDARD_TABLES: [u8; 416] = [
     0x00, 0x00, 0x01, 0x05, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x01, 0x02,
@@ -139,7 +139,7 @@ const STANDARD_TABLES: [u8; 416] = [
 mod tests {
     use super::*;
 
-    /// A header of 32×16 pixels, with tables or without, and the beginning of a scan.
+    /// A header of 32×16 pixels with the segments `tables`, and the beginning of a scan.
     fn jpeg(tables: &[u8], sampling: [u8; 3]) -> Vec<u8> {
         let mut bytes = vec![0xff, 0xd8, 0xff, 0xe0, 0, 4, b'A', b'V'];
         bytes.extend([0xff, 0xc0, 0, 17, 8, 0, 16, 0, 32, 3]);

@@ -1,4 +1,4 @@
-//! As much of a Matroska or WebM file as names its codec, for whoever lacks a decoder of it.
+//! Finds the codec name in a Matroska or WebM file, for the error without a decoder.
 
 use crate::error::VideoError;
 use crate::source::Source;
@@ -8,22 +8,22 @@ const TRACKS: u32 = 0x1654_ae6b;
 const TRACK: u32 = 0xae;
 const TRACK_TYPE: u32 = 0x83;
 const CODEC: u32 = 0x86;
-/// Elements that are looked at before the name is given up.
+/// Greatest number of elements in the search for the name.
 const MOST_ELEMENTS: u32 = 10_000;
 
-/// Whether a file that begins with `start` is a Matroska or WebM file.
+/// True if a file that begins with `start` is a Matroska or WebM file.
 pub(crate) fn is_matroska(start: &[u8]) -> bool {
     start.starts_with(&[0x1a, 0x45, 0xdf, 0xa3])
 }
 
-/// The codec of the first video track, as far as it can be found.
+/// Codec of the first video track; `None` if it is not found.
 pub(crate) fn codec(source: &Source) -> Result<Option<String>, VideoError> {
     let mut left = MOST_ELEMENTS;
     let mut tracks = None;
     let mut outer = Elements::new(source, 0, source.length(), &mut left);
     while let Some(element) = outer.next()? {
         match element.id {
-            // What it holds is looked at in turn.
+            // Visits its children next.
             SEGMENT => outer.enter(&element),
             TRACKS => {
                 tracks = Some(element);
@@ -54,7 +54,7 @@ pub(crate) fn codec(source: &Source) -> Result<Option<String>, VideoError> {
     Ok(None)
 }
 
-/// `V_FFV1` as `FFV1`.
+/// Converts `V_FFV1` to `FFV1`.
 fn known(name: &str) -> String {
     let known = match name {
         "V_MPEG4/ISO/AVC" => "H.264",
@@ -73,13 +73,13 @@ struct Element {
 }
 
 impl Element {
-    /// The content of a small element.
+    /// Reads the content of a small element.
     fn bytes(&self, source: &Source) -> Result<Vec<u8>, VideoError> {
         source.read(self.body, self.end - self.body, "bytes of a name", 256)
     }
 }
 
-/// Elements one behind the other.
+/// Consecutive elements.
 struct Elements<'a> {
     source: &'a Source,
     at: u64,
@@ -97,7 +97,7 @@ impl<'a> Elements<'a> {
         }
     }
 
-    /// Goes on with what `element`, which came last, holds.
+    /// Continues with the children of `element`, the last one returned.
     fn enter(&mut self, element: &Element) {
         self.at = element.body;
     }
@@ -114,7 +114,7 @@ impl<'a> Elements<'a> {
             return Ok(None);
         };
         let body = at + id_bytes + size_bytes;
-        // A size of ones alone is unknown: to the end.
+        // A size of all ones is unknown: to the end.
         let is_unknown = size == (1 << (7 * size_bytes)) - 1;
         let end = if is_unknown {
             self.end
@@ -130,7 +130,8 @@ impl<'a> Elements<'a> {
         }))
     }
 
-    /// A number whose first byte says by its zeros how many bytes it has, with them or without.
+    /// Variable-length number and its length in bytes; the leading zeros of the first byte give the length. `is_size` removes the length
+    /// marker.
     fn number(&self, at: u64, is_size: bool) -> Result<Option<(u64, u64)>, VideoError> {
         let mut first = [0];
         if at >= self.end {

@@ -1,7 +1,7 @@
-//! MP4 and QuickTime files: the first video track, its samples in the order of decoding and of presentation.
+//! MP4 and QuickTime files: the first video track, with its samples in decoding and presentation order.
 //!
-//! Everything is checked against the length of the file and against the other tables before it is believed. Files with several edits or
-//! descriptions, or encrypted ones are left to others.
+//! All values are checked against the length of the file and against other tables. Files with several edits or descriptions, and encrypted
+//! ones, are left to ffmpeg.
 
 mod boxes;
 mod edits;
@@ -19,30 +19,30 @@ use edits::Edit;
 pub(crate) use entry::{Coding, Entry};
 pub(crate) use samples::Sample;
 
-/// The video track of a file.
+/// Video track of a file.
 #[derive(Debug)]
 pub(crate) struct Track {
     pub(crate) entry: Entry,
-    /// In the order of decoding.
+    /// Samples in decoding order.
     pub(crate) samples: Vec<Sample>,
-    /// Numbers of samples in the order of presentation.
+    /// Sample indices in presentation order.
     pub(crate) presented: Vec<u32>,
-    /// When each of those is presented, in s.
+    /// Time of each presented sample, s.
     pub(crate) times_s: Vec<f64>,
 }
 
-/// What a file was found to be.
+/// Result of reading a file.
 #[derive(Debug)]
 pub(crate) enum Found {
     Track(Track),
-    /// A file that is read by others alone: its codec, and why.
+    /// A track that only ffmpeg reads: its codec, and the reason.
     Elsewhere {
         codec: String,
         why: &'static str,
     },
 }
 
-/// Whether a file that begins with `start` is one of MP4 or QuickTime.
+/// True if a file that begins with `start` is an MP4 or QuickTime file.
 pub(crate) fn is_mp4(start: &[u8]) -> bool {
     let kind = start.get(4..8).unwrap_or_default();
     [b"ftyp", b"moov", b"mdat", b"wide", b"skip", b"free"]
@@ -80,7 +80,7 @@ pub(crate) fn read(source: &Source) -> Result<Found, VideoError> {
     Err(source.damaged(movie.at, "the file has no video track"))
 }
 
-/// A track if it is one of video.
+/// Reads a track; `None` if it is no video.
 fn read_track(
     source: &Source,
     movie: &BoxAt,
@@ -136,7 +136,7 @@ fn read_track(
     })))
 }
 
-/// How many ticks a second has, of a header of a movie or a track.
+/// Ticks per second, from the header of a movie or a track.
 fn time_scale(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
     let mut fields = header.fields(source, "bytes of a header", limits::HEADER_BYTES)?;
     let times = match fields.version(source)? {
@@ -151,7 +151,7 @@ fn time_scale(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
     }
 }
 
-/// The number by which fragments name a track, of its header.
+/// Number by which fragments name a track, from its header.
 fn track_number(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
     let mut fields = header.fields(source, "bytes of a header", limits::HEADER_BYTES)?;
     let times = match fields.version(source)? {
@@ -162,7 +162,7 @@ fn track_number(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
     fields.u32(source)
 }
 
-/// The samples that the edit presents, in the order of their times, and these.
+/// Indices and times, in s, of the samples that the edit presents, ordered by time.
 fn present(
     samples: &[Sample],
     edit: Edit,

@@ -1,4 +1,4 @@
-//! Clips whose packets are JPEG files, each a whole frame: they are given as they came.
+//! Clips whose packets are JPEG files, each a whole frame, returned unchanged.
 
 use std::ops::ControlFlow;
 
@@ -8,16 +8,16 @@ use crate::jpeg::{self, JpegHeader};
 use crate::limits;
 use crate::source::Source;
 
-/// Where a packet lies.
+/// Location of a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Packet {
-    /// From the beginning of the file.
+    /// Byte offset in the file.
     pub(crate) offset: u64,
-    /// In bytes.
+    /// Size, in bytes.
     pub(crate) size: u64,
 }
 
-/// The packets of a clip in the order of presentation.
+/// Packets of a clip in presentation order.
 #[derive(Debug)]
 pub(crate) struct JpegClip {
     pub(crate) source: Source,
@@ -27,7 +27,7 @@ pub(crate) struct JpegClip {
 }
 
 impl JpegClip {
-    /// Shows the frames of `sorted`, which are there.
+    /// Calls `each` with the frames in `sorted`.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],
@@ -61,7 +61,7 @@ impl JpegClip {
     }
 }
 
-/// The bytes of a packet and what its headers say.
+/// Reads the bytes of a packet and parses their headers.
 pub(crate) fn read_packet(
     source: &Source,
     packet: Packet,

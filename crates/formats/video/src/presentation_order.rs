@@ -1,4 +1,4 @@
-//! Frames that are decoded in one order and shown in another.
+//! Reorders frames from decoding to presentation order.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -8,10 +8,10 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// Holds decoded frames back until all that are shown before them were shown.
+/// Buffer of decoded frames that wait for earlier ones.
 pub(crate) struct Reorder<'a> {
     source: &'a Source,
-    /// The frames that are still to be shown, in their order.
+    /// Frames still to be shown, in order.
     wanted: std::slice::Iter<'a, u64>,
     held: BTreeMap<u64, Picture>,
     held_bytes: u64,
@@ -27,10 +27,10 @@ impl<'a> Reorder<'a> {
         }
     }
 
-    /// Shows the frame and what waited for it, or holds it back.
+    /// Shows the frame and those that waited for it, or keeps it.
     ///
     /// # Errors
-    /// If more is held back than any stream asks for.
+    /// [`VideoError::TooLarge`] if the buffer exceeds its limit.
     pub(crate) fn add(
         &mut self,
         frame: u64,

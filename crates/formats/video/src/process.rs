@@ -1,5 +1,5 @@
-//! A program that decodes: what it says and gives comes in pieces of a bounded size, and it is killed when it gives nothing for too long or is
-//! no longer wanted.
+//! A decoder program: its output arrives in pieces of bounded size. It is killed after a timeout without output, or when it is no longer
+//! needed.
 
 use std::io::{self, BufRead, BufReader, Read};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -7,26 +7,26 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
 
-/// For how long a program may say and give nothing.
+/// Timeout without output.
 pub(crate) const SILENCE: Duration = Duration::from_secs(60);
-/// A longer line is taken as several.
+/// Greatest length of a line, in bytes; longer ones are split.
 const LINE_BYTES: u64 = 1 << 16;
-/// Pieces that wait for whoever reads them: memory is bounded by as many frames.
+/// Queue length of pieces, which bounds the memory.
 const WAITING: usize = 4;
 
-/// What a program said or gave.
+/// A piece of output.
 #[derive(Debug)]
 pub(crate) enum Piece {
-    /// A line of its standard error, without its end.
+    /// A line of standard error, without its end.
     Line(String),
-    /// What was taken at once of its standard output.
+    /// A block of standard output.
     Block(Vec<u8>),
 }
 
-/// Takes the next block of a program's standard output; an empty one ends it.
+/// Callback that reads the next block of standard output; an empty block ends it.
 pub(crate) type Take = Box<dyn FnMut(&mut dyn Read) -> io::Result<Vec<u8>> + Send>;
 
-/// Blocks of `size` bytes, of which the last may be shorter.
+/// Reads blocks of `size` bytes; the last one may be shorter.
 pub(crate) fn blocks_of(size: usize) -> Take {
     Box::new(move |output| {
         let mut block = Vec::with_capacity(size);
@@ -42,22 +42,22 @@ pub(crate) struct Running {
     pieces: Receiver<Piece>,
 }
 
-/// Why there is no further piece.
+/// Reasons for which no further piece arrives.
 #[derive(Debug)]
 pub(crate) enum Ended {
     /// The program ended.
     By(ExitStatus),
-    /// It said nothing for [`SILENCE`], and was killed.
+    /// No output for [`SILENCE`]; the program was killed.
     Silent,
-    /// It could not be waited for.
+    /// Waiting for its exit failed.
     Unknown(io::Error),
 }
 
 impl Running {
-    /// Starts `command`, whose standard output comes in blocks as `take` takes them; without that it is thrown away.
+    /// Starts `command`; `take` reads its standard output, which is discarded without it.
     ///
     /// # Errors
-    /// If it does not start.
+    /// A system error if it does not start.
     pub(crate) fn start(mut command: Command, take: Option<Take>) -> io::Result<Running> {
         command.stderr(Stdio::piped());
         command.stdout(match take {
@@ -79,12 +79,12 @@ impl Running {
         Ok(running)
     }
 
-    /// The process.
+    /// The child process.
     pub(crate) fn child(&mut self) -> &mut Child {
         &mut self.child
     }
 
-    /// What comes next, or how it ended.
+    /// Next piece of output, or the end of the program.
     pub(crate) fn next(&mut self) -> Result<Piece, Ended> {
         match self.pieces.recv_timeout(SILENCE) {
             Ok(piece) => Ok(piece),
@@ -92,7 +92,7 @@ impl Running {
                 self.kill();
                 Err(Ended::Silent)
             }
-            // Both ends were closed, which is what a program does last.
+            // Both pipes were closed, which happens at the exit.
             Err(RecvTimeoutError::Disconnected) => Err(match self.child.wait() {
                 Ok(status) => Ended::By(status),
                 Err(error) => Ended::Unknown(error),

@@ -1,4 +1,4 @@
-//! The file of a clip, read at places that were checked against its length.
+//! File of a clip; reads are checked against its length.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// The kind is looked at before the file is opened: opening a FIFO would wait for ever.
+    /// Opens a regular file. Checks the kind first: opening a FIFO would block.
     pub(crate) fn open(path: &Path) -> Result<Source, VideoError> {
         let metadata = fs::metadata(path).map_err(VideoError::io("read", path))?;
         if !metadata.is_file() {
@@ -36,12 +36,12 @@ impl Source {
         self.length
     }
 
-    /// That the file is wrong at `offset`.
+    /// Error for damage at `offset`.
     pub(crate) fn damaged(&self, offset: u64, problem: impl Into<String>) -> VideoError {
         VideoError::damaged(&self.path, offset, problem)
     }
 
-    /// Fills `into` with what lies at `offset`.
+    /// Fills `into` from `offset`.
     pub(crate) fn read_into(&self, offset: u64, into: &mut [u8]) -> Result<(), VideoError> {
         let end = offset.checked_add(into.len() as u64);
         if end.is_none_or(|end| end > self.length) {
@@ -55,7 +55,7 @@ impl Source {
         read_exact_at(&self.file, into, offset).map_err(VideoError::io("read", &self.path))
     }
 
-    /// `size` bytes at `offset`; `what` they are stands in the refusal of more than `limit`.
+    /// Reads `size` bytes at `offset`; an error for more than `limit` bytes names them `what`.
     pub(crate) fn read(
         &self,
         offset: u64,

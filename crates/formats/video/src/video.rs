@@ -1,4 +1,4 @@
-//! A clip, whatever container and codec it has.
+//! A clip of any supported container and codec.
 
 mod decoder_choice;
 
@@ -14,9 +14,9 @@ use crate::ffmpeg::{ForeignClip, Known};
 use crate::h264::{H264Clip, Refusal};
 use crate::packets::JpegClip;
 
-/// Programs that decode the codecs which this process does not.
+/// External decoders, for codecs that this process does not decode.
 ///
-/// It gets no further field: a codec is decoded in this process, in a confined child process, or by ffmpeg.
+/// The struct gets no further field: a codec is decoded in this process, in a confined child process, or by ffmpeg.
 ///
 /// ```
 /// use std::path::PathBuf;
@@ -33,13 +33,13 @@ use crate::packets::JpegClip;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decoders {
-    /// The program ffmpeg, which decodes every codec and container that nothing else here does.
+    /// Program ffmpeg, which decodes every other codec and container.
     pub ffmpeg: Option<PathBuf>,
     /// A program and its arguments that runs `taceva_video::av1::serve` between its standard input and output, for AV1.
     pub av1: Option<Vec<OsString>>,
 }
 
-/// A clip whose frames are read by their place in the order of presentation.
+/// A clip whose frames are read by their index in presentation order.
 ///
 /// ```
 /// use taceva_video::{Colours, Decoders, Video};
@@ -60,13 +60,13 @@ pub struct Video {
     frames: Frames,
 }
 
-/// How frames are come by.
+/// Source of the frames.
 #[derive(Debug)]
 pub(crate) enum Frames {
     Jpeg(JpegClip),
     H264 {
         clip: Box<H264Clip>,
-        /// ffmpeg, for tools of the codec that only show once a frame is decoded.
+        /// ffmpeg, for unsupported tools of the codec that appear only when a frame is decoded.
         else_by: Option<PathBuf>,
     },
     Av1(Box<Av1Clip>),
@@ -74,10 +74,10 @@ pub(crate) enum Frames {
 }
 
 impl Video {
-    /// Reads what the container says of the clip at `path`, and finds who decodes it.
+    /// Opens the clip at `path`: parses its container and chooses a decoder.
     ///
     /// # Errors
-    /// [`VideoError`]: what is wrong with the file, or [`VideoError::NoDecoder`] if nothing at hand decodes its codec.
+    /// [`VideoError`] for a fault of the file, or [`VideoError::NoDecoder`] if no available decoder supports its codec.
     pub fn open(path: &Path, decoders: &Decoders) -> Result<Video, VideoError> {
         let (info, frames) = decoder_choice::open(path, decoders)?;
         Ok(Video {
@@ -87,18 +87,18 @@ impl Video {
         })
     }
 
-    /// What is known of it.
+    /// Properties of the clip.
     pub fn info(&self) -> &VideoInfo {
         &self.info
     }
 
-    /// Hands the frames whose numbers are in `sorted` to `each`, with the number: strictly ascending, from 0 in the order of presentation.
+    /// Calls `each` with the frames in `sorted` and their indices: strictly ascending, from 0 in presentation order.
     ///
-    /// Nothing but what lies between the key frame before a frame and that frame is decoded. One picture is in memory at a time, and those
-    /// that the codec keeps to decode the next. Threads may share the clip, each with a visit of its own.
+    /// Decodes only from the key frame before a frame up to that frame. Memory holds one picture at a time, and those that the codec needs
+    /// for later ones. Threads may share the clip, each with its own visit.
     ///
     /// # Errors
-    /// [`VisitError::Video`] for what cannot be read, [`VisitError::Caller`] for what `each` returned.
+    /// [`VisitError::Video`] if a frame cannot be read, [`VisitError::Caller`] for an error of `each`.
     pub fn visit<E>(
         &self,
         sorted: &[u64],
@@ -134,7 +134,7 @@ impl Video {
         refused.map_or(Ok(()), |error| Err(VisitError::Caller(error)))
     }
 
-    /// Shows the frames of `rest` by ffmpeg, since the stream needs a `tool` that the decoder of this process does not have.
+    /// Visits the frames of `rest` by ffmpeg, since the stream needs a `tool` that this process does not support.
     fn go_on(
         &self,
         program: Option<&Path>,
@@ -165,7 +165,7 @@ impl Video {
         clip.visit(rest, colours, show)
     }
 
-    /// Whether there are such frames, in such an order.
+    /// Checks that the frames exist and are strictly ascending.
     fn check(&self, sorted: &[u64]) -> Result<(), VideoError> {
         if let Some(pair) = sorted.windows(2).find(|pair| pair[0] >= pair[1]) {
             return Err(VideoError::Unsorted {

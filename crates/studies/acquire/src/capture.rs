@@ -1,7 +1,7 @@
-//! A sensor without a robot: what its camera shows and what a transducer reads become a recording, or are looked at.
+//! Capture and preview of a sensor without a robot: frames of its camera and readings of a transducer.
 //!
-//! One thread takes frames and puts them into a queue of 8, another reads the transducer; the calling thread gives each frame the wrench at its
-//! time and records some at once. A frame that finds no room is counted and left out: nobody waits for a disk.
+//! One thread puts frames into a queue of 8, another reads the transducer. The calling thread labels each frame with the wrench at its time
+//! and records frames in batches. A frame that finds the queue full is counted and dropped, so no device waits for a disk.
 
 mod camera;
 mod contacts;
@@ -40,39 +40,39 @@ pub use predictor::{LivePredictor, PredictionCounts};
 pub use preview::preview;
 use streams::Streams;
 
-/// Frames that are made durable at once.
+/// Frames that are made durable together.
 const TOGETHER: usize = 8;
 
-/// What is to be recorded.
+/// Settings of a capture.
 #[derive(Clone, Debug)]
 pub struct CaptureRequest {
-    /// The folder of the recording: a new one.
+    /// Folder of the recording, which must not exist.
     pub path: PathBuf,
-    /// Which sensor it is.
+    /// Facts of the sensor.
     pub sensor: SensorFacts,
-    /// How long, by the stamps of the frames; until somebody stops it where it is not said.
+    /// Duration by the stamps of the frames; `None` means until cancelled.
     pub lasts: Option<Duration>,
-    /// How many frames.
+    /// Number of frames; `None` means until cancelled.
     pub frames: Option<u64>,
 }
 
-/// Onlookers of a capture, which nobody waits for.
+/// Optional viewer and predictor of a capture, which never wait for them.
 #[derive(Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct Onlookers<'a> {
-    /// A viewer of forces, and of what was lost.
+    /// Viewer of forces and of lost frames.
     pub viewer: Option<&'a dyn Viewer>,
-    /// A predictor of frames; its [table](LivePredictor::with_table) is written beside the recording.
+    /// Predictor of frames; its [table](LivePredictor::with_table) is written beside the recording.
     pub predictor: Option<&'a LivePredictor<'a>>,
 }
 
 impl<'a> Onlookers<'a> {
-    /// Nobody.
+    /// No onlookers.
     pub fn none() -> Onlookers<'a> {
         Onlookers::default()
     }
 
-    /// The same, and `viewer`.
+    /// Adds `viewer`.
     #[must_use]
     pub fn with_viewer(self, viewer: &'a dyn Viewer) -> Onlookers<'a> {
         Onlookers {
@@ -81,7 +81,7 @@ impl<'a> Onlookers<'a> {
         }
     }
 
-    /// The same, and `predictor`.
+    /// Adds `predictor`.
     #[must_use]
     pub fn with_predictor(self, predictor: &'a LivePredictor<'a>) -> Onlookers<'a> {
         Onlookers {
@@ -91,54 +91,56 @@ impl<'a> Onlookers<'a> {
     }
 }
 
-/// What a capture is doing.
+/// Stages of a capture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CaptureStage {
-    /// The zero of the force and the frame without contact are taken: nothing may touch the gel.
+    /// Measuring the zero of the force and the frame without contact: nothing may touch the gel.
     Zeroing,
-    /// Frames are recorded.
+    /// Recording frames.
     Recording(CaptureState),
 }
 
-/// How far a capture is.
+/// Progress of a capture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct CaptureState {
-    /// Frames that are recorded, and durable.
+    /// Number of durable frames.
     pub frames: u64,
-    /// Frames a second, over all of them; 0 before the second.
+    /// Mean frame rate, in Hz; 0 before the second frame.
     pub rate_hz: f64,
-    /// Frames that were lost.
+    /// Lost frames.
     pub stream: StreamFacts,
-    /// Contacts that began.
+    /// Number of contacts begun.
     pub contacts: u64,
-    /// Frames at whose time no force was known, where there is a transducer.
+    /// Number of frames without a force, if there is a transducer.
     pub without_force: u64,
-    /// The normal force at the last frame, in N.
+    /// Normal force at the last frame, in N.
     pub normal_n: Option<f64>,
-    /// The least normal force so far, in N: far below 0 where an axis is the wrong way round.
+    /// Least normal force so far, in N: far below 0 if an axis has the wrong sign.
     pub least_normal_n: f64,
 }
 
-/// A capture that is over.
+/// A finished capture.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Captured {
-    /// How far it went.
+    /// Final state.
     pub state: CaptureState,
-    /// The header of the recording.
+    /// Header of the recording.
     pub header: Header,
 }
 
-/// Records what `live` sees until `request` is met, somebody cancels, a recorded sensor ends, or a device fails.
+/// Records from `live` until `request` is met, the capture is cancelled, a recorded sensor ends, or a device fails.
 ///
-/// `on_stage` hears what is done, some times a second at most.
+/// Calls `on_stage` with each stage, at most some times a second.
 ///
 /// # Errors
-/// [`AcquireError::Device`] if a device failed before there was anything to keep; [`AcquireError::CaptureEnded`] if one failed later: what was
-/// recorded before is a whole recording then. [`AcquireError::CaptureBroken`] if it cannot be written; [`AcquireError::Dataset`] if the folder
-/// is taken; [`AcquireError::Model`] if the model does not fit the frames. A model that fails later ends its predictions and no capture.
+/// - [`AcquireError::Device`] if a device fails before the first frame.
+/// - [`AcquireError::CaptureEnded`] if one fails later; the frames before are a whole recording.
+/// - [`AcquireError::CaptureBroken`] if the recording cannot be written.
+/// - [`AcquireError::Dataset`] if the folder exists.
+/// - [`AcquireError::Model`] if the model does not fit the frames. A model that fails later ends its predictions, not the capture.
 pub fn capture(
     live: &mut LiveDevices,
     request: &CaptureRequest,
@@ -216,15 +218,15 @@ pub fn capture(
     }
 }
 
-/// Closes a capture that was interrupted by a full disk, a power cut or a kill: what is durable becomes a recording.
+/// Closes a capture interrupted by a full disk, a power cut or a kill: its durable frames become a recording.
 ///
 /// # Errors
-/// [`AcquireError::Dataset`] if nothing was recorded there, if it was closed, or if there is no room.
+/// [`AcquireError::Dataset`] if nothing was recorded, if the capture was closed, or if the disk is full.
 pub fn close_capture(path: &Path) -> Result<Header, AcquireError> {
     Ok(Recorder::resume(path)?.close()?)
 }
 
-/// What is recorded so far, and what of it is asked for.
+/// A capture in progress, with its request.
 struct Recording<'a> {
     recorder: Recorder,
     request: &'a CaptureRequest,
@@ -232,12 +234,12 @@ struct Recording<'a> {
     contacts: Option<Contacts>,
     viewer: Option<&'a dyn Viewer>,
     state: CaptureState,
-    /// The time of the first frame.
+    /// Time of the first frame, in s.
     first_s: Option<f64>,
 }
 
 impl Recording<'_> {
-    /// Records frames until it is enough, or no more come.
+    /// Records frames until the request is met, or no more arrive.
     fn take_all(
         &mut self,
         streams: &Streams<'_>,
@@ -278,14 +280,14 @@ impl Recording<'_> {
                 self.state.frames += together.len() as u64;
                 on_stage(CaptureStage::Recording(self.state));
             } else if !has_more || is_enough {
-                // What was lost after the last frame is written too.
+                // Stores losses after the last frame too.
                 self.recorder.append_stream(&[], self.state.stream)?;
                 return Ok(());
             }
         }
     }
 
-    /// Counts a sample; whether it is the last that is asked for.
+    /// Counts a sample; returns true if it meets the request.
     fn count(&mut self, streamed: &Streamed, stamp_s: f64) -> bool {
         let first_s = *self.first_s.get_or_insert(stamp_s);
         let state = &mut self.state;
@@ -309,7 +311,7 @@ impl Recording<'_> {
     }
 }
 
-/// The forces that the transducer measures.
+/// Force channels that the transducer measures.
 fn channels(live: &LiveDevices) -> Channels {
     let measured = [
         (Axis::Fx, Channel::FX),
@@ -330,7 +332,7 @@ fn source(live: &LiveDevices) -> Source {
     }
 }
 
-/// After a write that failed: the recording is opened anew and closed, if there is room for that.
+/// After a failed write: reopens and closes the recording, if there is space.
 fn kept_after(
     recorder: Recorder,
     path: &Path,
@@ -351,7 +353,7 @@ fn broken(path: &Path, state: CaptureState, is_whole: bool, source: DatasetError
     }
 }
 
-/// An error of a device that says `why`.
+/// Creates an error of a device with its reason.
 fn device_error(
     kind: ErrorKind,
     driver: &DriverKey,

@@ -1,4 +1,4 @@
-//! Why nothing is acquired, or no more.
+//! Errors of an acquisition.
 
 use std::path::{Path, PathBuf};
 
@@ -8,45 +8,45 @@ use taceva_drivers::OpenError;
 use taceva_models::{FeatureError, SettingError};
 use taceva_protocol::{RunError, SceneError, StopCause};
 
-/// Why nothing is acquired, or no more.
+/// Reasons for which an acquisition fails or stops.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AcquireError {
     /// The recording cannot be read or written.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// Frames that cannot be reduced as the scene says.
+    /// Frames cannot be reduced as the scene says.
     #[error(transparent)]
     Features(#[from] FeatureError),
-    /// A setting that no model has.
+    /// No model has this setting.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// A scene that cannot be meant; the error names its line.
+    /// The scene is invalid; the error names its line.
     #[error(transparent)]
     Scene(Box<SceneError>),
-    /// A device that did not open.
+    /// A device did not open.
     #[error("study `{study}`: {source}", study = taceva_core::shown(study))]
     Open {
         /// The study.
         study: String,
-        /// Why.
+        /// Reason.
         source: Box<OpenError>,
     },
     /// A device failed while a rig was set up or looked at, or before a capture had kept anything.
     #[error(transparent)]
     Device(#[from] DriverError),
-    /// A rig that stopped before its end; every press before is recorded, and the same study goes on from there.
+    /// A run stopped before its end; every press before is recorded, and the same study resumes from there.
     #[error("study `{study}`: {source}", study = taceva_core::shown(study))]
     Acquisition {
         /// The study.
         study: String,
-        /// Why, and how the tip was left.
+        /// Cause, and the place of the tip.
         source: Box<RunError>,
     },
-    /// A device of a capture or a preview that did not open.
+    /// A device of a capture or a preview did not open.
     #[error(transparent)]
     OpenLive(Box<OpenError>),
-    /// A device that failed while a capture was recorded; what came before is whole.
+    /// A device failed during a capture; the frames before are a whole recording.
     #[error(
         "{source}; the {frames} frames before are a whole recording in {}",
         taceva_core::shown(path)
@@ -54,40 +54,40 @@ pub enum AcquireError {
     CaptureEnded {
         /// The recording.
         path: PathBuf,
-        /// Frames in it.
+        /// Number of frames in it.
         frames: u64,
-        /// What ended it.
+        /// Failure of the device.
         source: Box<DriverError>,
     },
-    /// A capture that cannot be written any more.
+    /// A capture can no longer be written.
     #[error("{source}; {}", kept(path, *frames, *is_whole))]
     CaptureBroken {
         /// The recording.
         path: PathBuf,
-        /// Frames that are durable.
+        /// Number of durable frames.
         frames: u64,
-        /// Whether what is durable could be closed.
+        /// True if the recording of the durable frames could be closed.
         is_whole: bool,
-        /// What could not be written.
+        /// Failure of the write.
         source: Box<DatasetError>,
     },
-    /// A fitted model that cannot predict what the camera shows.
+    /// A fitted model does not fit the frames of the camera.
     #[error("model {}: {problem}", taceva_core::shown(path))]
     Model {
         /// File of the model.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         problem: String,
     },
-    /// A lock of a device that cannot be taken.
+    /// The lock of a device cannot be acquired.
     #[error("{}: {problem}", taceva_core::shown(path))]
     RigLock {
-        /// The lock.
+        /// Path of the lock.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         problem: String,
     },
-    /// A device of a rig file that another run has.
+    /// Another run holds a device of the rig file.
     #[error(
         "{}: `{}` is in use by another run: wait until it has ended, or stop it",
         taceva_core::shown(rig),
@@ -96,15 +96,15 @@ pub enum AcquireError {
     RigTaken {
         /// The rig file.
         rig: String,
-        /// What opens the device.
+        /// Selector of the device.
         device: String,
     },
-    /// Something was asked for that the dataset or the model does not have.
+    /// The request names something that the dataset or the model does not have.
     #[error("{0}")]
     Request(String),
 }
 
-/// What is left of a capture that could not be written on, and what makes it whole.
+/// Describes the state of a broken capture, and the command that closes it.
 fn kept(path: &Path, frames: u64, is_whole: bool) -> String {
     let path = taceva_core::shown(path);
     match is_whole {
@@ -116,7 +116,7 @@ fn kept(path: &Path, frames: u64, is_whole: bool) -> String {
 }
 
 impl AcquireError {
-    /// The kind of failure, by the closed list that every part shares.
+    /// Kind of the failure, from the list that all crates share.
     pub fn kind(&self) -> ErrorKind {
         match self {
             AcquireError::Dataset(error) => error.kind(),
@@ -135,7 +135,7 @@ impl AcquireError {
         }
     }
 
-    /// Whether a device failed, rather than what was typed, read or written.
+    /// True if a device failed, rather than the request, a file or a write.
     pub fn is_of_device(&self) -> bool {
         match self {
             AcquireError::Open { source, .. } | AcquireError::OpenLive(source) => {
@@ -144,7 +144,7 @@ impl AcquireError {
             AcquireError::Device(_) | AcquireError::CaptureEnded { .. } => true,
             AcquireError::Acquisition { source, .. } => {
                 let cause = &source.cause;
-                // A rig file that is wrong is a file that is wrong.
+                // A wrong rig file is the fault of a file.
                 !matches!(
                     cause,
                     StopCause::Cancelled | StopCause::Log(_) | StopCause::Rig(_)
@@ -154,7 +154,7 @@ impl AcquireError {
         }
     }
 
-    /// Whether the command line is at fault, rather than a file.
+    /// True if the command line is at fault, rather than a file.
     pub fn is_usage(&self) -> bool {
         matches!(self, AcquireError::Setting(_) | AcquireError::Request(_))
     }

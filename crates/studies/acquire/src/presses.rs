@@ -1,4 +1,4 @@
-//! From a plan to a recording: every press that is not in it yet, unit after unit, each durable before the next begins.
+//! Records the presses of a plan that a recording does not have yet, unit after unit, each durable before the next begins.
 
 mod changers;
 mod content_key;
@@ -47,12 +47,12 @@ pub(crate) use tap::tap_study;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
 impl PlannedStudy {
-    /// The whole recording of this study: pressed at `path`, from its beginning or from where it was left, or found where the scene names
-    /// one. Presses that are finished advance the progress.
+    /// Completes and opens the recording of this study. It presses at `path`, from the beginning or from an interruption, or opens the
+    /// recording that the scene names. Each finished press advances the progress.
     ///
     /// # Errors
-    /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or somebody wished to stop: what was recorded stays, and
-    /// the same call goes on. [`AcquireError::Dataset`] if it cannot be recorded, or something else was recorded there.
+    /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or the run was cancelled: finished presses stay, and the
+    /// same call resumes. [`AcquireError::Dataset`] if it cannot be recorded, or `path` holds another recording.
     pub fn acquire(
         &self,
         path: &Path,
@@ -65,13 +65,13 @@ impl PlannedStudy {
         }
     }
 
-    /// Whether it presses with a device that is not simulated.
+    /// True if it presses with a device that is not simulated.
     pub fn is_real(&self, drivers: &Drivers) -> bool {
         matches!(&self.source, StudySource::Rig(rig) if !rig.is_only_simulated(drivers))
     }
 }
 
-/// The recording of `study` at `path`, whole: begun, continued or found there.
+/// Begins, resumes or opens the recording of `study` at `path`, and completes it.
 fn acquire(
     study: &PlannedStudy,
     rig: &RigSpec,
@@ -83,9 +83,9 @@ fn acquire(
     match Dataset::open(path) {
         Err(DatasetError::NoDataset { .. }) => {}
         closed_before => {
-            // Whoever reads holds the folder, which nobody may write to meanwhile.
+            // An open dataset locks its folder against writers.
             drop(closed_before?);
-            // A power cut may have spared the journal of what was closed; asking to go on removes it.
+            // A power cut may have left the journal of a closed recording; a resume removes it.
             match Recorder::resume(path) {
                 Err(DatasetError::TargetExists { .. }) => {}
                 other => drop(other?),
@@ -138,7 +138,7 @@ fn acquire(
         }
     }
     if left > 0 {
-        // What is recorded is kept open: the same call goes on with it.
+        // The recording stays open: the same call resumes it.
         return Err(acquisition(plan, StopCause::Skipped { presses: left }));
     }
     if let Some(log) = log {
@@ -147,7 +147,7 @@ fn acquire(
     Ok(Dataset::open(path)?)
 }
 
-/// The presses of one unit.
+/// Makes the presses of one unit.
 fn acquire_unit(
     study: &PlannedStudy,
     unit: &str,
@@ -198,12 +198,12 @@ fn acquire_unit(
     };
     let done = open.conduct(&spec, log, sitting, &mut events);
     let done = done.map(drop).map_err(|error| stopped(plan, error));
-    // A count that cannot be written is no reason to lose a recording.
+    // A count that cannot be written must not cost the recording.
     drop(add_frame_retries(path, retried));
     done
 }
 
-/// What the recording of `study` is of.
+/// Header of the recording of `study`.
 fn recording_spec(study: &PlannedStudy, open: &OpenRig, is_simulated: bool) -> RecordingSpec {
     let plan = &study.plan;
     let gel = open.surroundings.gel.clone();
@@ -222,7 +222,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, is_simulated: bool) -> R
     RecordingSpec::new(facts, plan.truth_channels())
 }
 
-/// Where the sensor senses and how deep it is pressed, as recordings write it.
+/// Footprint and greatest depth, as recordings store them.
 fn footprint(plan: &Plan) -> Option<Footprint> {
     let footprint = plan.footprint?;
     let of_gel = footprint.depth_max().map(|depth| depth.to_millimetres());

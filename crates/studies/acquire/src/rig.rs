@@ -1,4 +1,4 @@
-//! A rig that is set up: where its robot stands, and whether its devices do what a run needs of them.
+//! Setup of a rig: registration of its robot, latencies, and checks of its devices.
 
 mod check;
 mod stream;
@@ -17,10 +17,10 @@ pub use switch::SwitchCheck;
 pub use tap::{RigTap, tap_rig};
 pub use teach::teach_rig;
 
-/// The rig file at `path`.
+/// Reads the rig file at `path`.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] if it cannot be read or is none, with its line.
+/// [`AcquireError::Scene`] with the line, if it cannot be read or is invalid.
 pub fn read_rig(path: &Path) -> Result<RigFile, AcquireError> {
     crate::scene::read_rig_file(path)
 }

@@ -1,4 +1,4 @@
-//! A scene and its plans: what the text says, joined with what drivers and recordings say of themselves. No device is opened.
+//! A scene and its plans: the text, joined with descriptors of drivers and recordings. Opens no device.
 
 mod overrides;
 mod rig;
@@ -25,29 +25,29 @@ pub(crate) use text::read_rig_file;
 /// A scene with the plan of each of its studies.
 #[derive(Debug)]
 pub struct PlannedScene {
-    /// What the scene says, with the seed that counts.
+    /// Parsed scene, with the effective seed.
     pub scene: Scene,
-    /// Its text, as it was written.
+    /// Text as written.
     pub text: SceneText,
-    /// Its studies, in order.
+    /// Studies, in order.
     pub studies: Vec<PlannedStudy>,
-    /// The seeds that models are fitted with, one after the other; what models have of their own if empty.
+    /// Seeds for fits of the models, one after the other; empty for the models' own.
     pub seeds: Vec<u64>,
-    /// Whether the model or settings of it were typed: then no line of the scene is at fault for them.
+    /// True if the command line names the model or its settings: then no line of the scene is at fault for them.
     pub is_model_typed: bool,
 }
 
-/// One sensor of a scene, and what is done with it.
+/// One sensor of a scene, with its plan.
 #[derive(Debug)]
 pub struct PlannedStudy {
-    /// What is done, what is not, and why.
+    /// Plan, with skipped parts and reasons.
     pub plan: Plan,
-    /// What the scene says of it, with the devices of the rig file.
+    /// Study of the scene, with the devices of the rig file.
     pub study: Study,
     pub(crate) source: StudySource,
 }
 
-/// Where the samples of a study come from.
+/// Source of the samples of a study.
 #[derive(Debug)]
 pub(crate) enum StudySource {
     /// Devices by name.
@@ -57,11 +57,10 @@ pub(crate) enum StudySource {
 }
 
 impl PlannedScene {
-    /// Reads what `text` says and plans it with `drivers`; `seed` stands in the place of the one that is written.
+    /// Parses `text` and plans it with `drivers`; `seed` replaces the one in the scene.
     ///
     /// # Errors
-    /// [`AcquireError::Scene`] with the line: see [`Scene::parse`] and [`plan`], and drivers, arguments, models and recordings that are
-    /// not there.
+    /// [`AcquireError::Scene`] with the line: see [`Scene::parse`] and [`plan`], and missing drivers, arguments, models and recordings.
     pub fn new(
         text: SceneText,
         drivers: &Drivers,
@@ -74,10 +73,10 @@ impl PlannedScene {
         PlannedScene::with(text, drivers, &overrides)
     }
 
-    /// The same with what `overrides` says in the place of what is written.
+    /// As [`new`](PlannedScene::new), with `overrides` in place of written values.
     ///
     /// # Errors
-    /// As [`new`](PlannedScene::new); [`AcquireError::Request`] for settings of no model.
+    /// As [`new`](PlannedScene::new); [`AcquireError::Request`] for settings without a model.
     pub fn with(
         text: SceneText,
         drivers: &Drivers,
@@ -130,7 +129,7 @@ impl PlannedScene {
     }
 }
 
-/// The source of the samples of a study, for the planner and for the run.
+/// Source of the samples of a study, for planner and run.
 struct Source {
     info: SourceInfo,
     source: StudySource,
@@ -170,7 +169,7 @@ impl Source {
     }
 }
 
-/// What the recording at `path` holds.
+/// Contents of the recording at `path`.
 fn recording(path: &Path) -> Result<RecordingInfo, AcquireError> {
     let dataset = Dataset::open(path)?;
     let header = dataset.header();
@@ -208,12 +207,12 @@ impl Serialize for PlannedScene {
         scene.serialize_field("scene", &self.scene.name)?;
         scene.serialize_field("seed", &self.scene.seed)?;
         scene.serialize_field("studies", &plans)?;
-        // Results depend on it, so that a run with another classifier is another run.
+        // Results depend on it: a run with another classifier is another run.
         if is_classified_otherwise {
             scene.serialize_field("gratings_classified_by", &classified_by)?;
             scene.serialize_field("gratings_set", set)?;
         }
-        // What was recorded on one rig is not gone on with on another.
+        // A recording of one rig is not resumed on another.
         if let Some(rig) = rig {
             scene.serialize_field("rig", &rig.digest().to_string())?;
         }

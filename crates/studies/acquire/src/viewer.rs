@@ -1,22 +1,21 @@
-//! Who looks on while devices work.
+//! Viewer of devices at work.
 
 use taceva_core::{Frame, Pose, Wrench};
 use taceva_dataset::StreamFacts;
 use taceva_protocol::{ContentId, Event, Plan};
 
-/// Somebody who looks on while devices work, such as a page. Every call comes from the thread that conducts the run, so an implementation must
-/// return at once and never wait.
+/// Viewer of devices at work, such as a page. The thread that conducts the run makes every call, so an implementation must return at once.
 pub trait Viewer: Send + Sync {
-    /// Presses of `unit` begin, but for those that are recorded already.
+    /// Presses of `unit` begin; those recorded already are skipped.
     fn begins(&self, plan: &Plan, unit: &str, is_recorded: &dyn Fn(ContentId) -> bool);
-    /// Something happened in a run.
+    /// An event of the run.
     fn event(&self, event: &Event);
-    /// A frame was taken.
+    /// A captured frame.
     fn frame(&self, frame: &Frame);
-    /// The transducer read this; its zero is taken off.
+    /// A force reading, after subtraction of its zero.
     fn force(&self, wrench: &Wrench);
-    /// The tip is here, in the sensor's frame.
+    /// Pose of the tip, in the sensor's frame.
     fn pose(&self, pose: &Pose);
-    /// So much of a stream of frames was lost.
+    /// Losses of the stream of frames.
     fn lost(&self, stream: StreamFacts);
 }

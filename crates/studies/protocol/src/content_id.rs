@@ -1,10 +1,10 @@
-//! Names derived from content: equal things have equal names, on every machine and in every version.
+//! Ids derived from content: equal contents have equal ids, on every machine and in every version.
 
 use std::fmt;
 
-/// The name of a press or a plan: 128 bits of its content, written as 32 hexadecimal digits.
+/// Id of a press or a plan: a 128-bit hash of its content, written as 32 hexadecimal digits.
 ///
-/// The hash is FNV-1a: different contents collide by accident with negligible probability, but collisions can be made on purpose.
+/// The hash is FNV-1a. Accidental collisions are negligible; deliberate ones are possible.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ContentId(u128);
 
@@ -21,12 +21,12 @@ impl fmt::Debug for ContentId {
 }
 
 impl ContentId {
-    /// The digest of a text.
+    /// Id of a text.
     pub fn of_text(text: &str) -> ContentId {
         Hasher::new("taceva.text/1").text(text).finish()
     }
 
-    /// The digest written as 32 hexadecimal digits.
+    /// Parses 32 hexadecimal digits.
     pub fn from_hex(text: &str) -> Option<ContentId> {
         let is_hex = text.len() == 32 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
         let bits = u128::from_str_radix(text, 16).ok()?;
@@ -40,12 +40,12 @@ impl serde::Serialize for ContentId {
     }
 }
 
-/// Content being digested; every part carries its length or its width, so that no two contents are one sequence of bytes.
+/// Hash in progress. Every part includes its length or has a fixed width, so that different contents give different bytes.
 #[derive(Clone, Debug)]
 pub(crate) struct Hasher(u128);
 
 impl Hasher {
-    /// Nothing yet, of the kind `schema`; another version of a kind is another schema.
+    /// Starts a hash of the kind `schema`; another version of a kind is another schema.
     pub(crate) fn new(schema: &str) -> Hasher {
         Hasher(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d).text(schema)
     }
@@ -62,7 +62,7 @@ impl Hasher {
         self.bytes(&(count as u64).to_le_bytes())
     }
 
-    /// A number by its bits; equal numbers of different bits do not occur, because zeros come from whole nanometres.
+    /// Adds a number by its bits. Zeros come from whole nanometres, so −0 does not occur.
     pub(crate) fn number(self, number: f64) -> Hasher {
         self.bytes(&number.to_bits().to_le_bytes())
     }

@@ -1,19 +1,19 @@
-//! Numbers drawn by counter: each is a function of the seed, what it is for, and its place, never of what was drawn before.
+//! Counter-based random numbers: each is a function of seed, purpose and place, never of earlier draws.
 
 use taceva_core::random::{STEP, fnv_1a, mix};
 use taceva_core::{Footprint, Nanometre};
 
-/// A source of numbers for one purpose.
+/// Random numbers for one purpose.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Draws {
     key: u64,
 }
 
-/// Tries at a place within an outline; a disc fills 79 % of its square, so that 64 misses in a row come once in 10⁴³ points.
+/// Greatest number of tries at a place within an outline. A disc fills 79 % of its square, so 64 misses in a row occur once in 10⁴³ points.
 const TRIES: u64 = 64;
 
 impl Draws {
-    /// The numbers that `seed` gives for `purpose`.
+    /// Random numbers of `seed` for `purpose`.
     pub(crate) fn new(seed: u64, purpose: &str) -> Draws {
         Draws {
             key: mix(seed ^ fnv_1a(purpose.as_bytes())),
@@ -25,7 +25,7 @@ impl Draws {
         mix(mix(self.key ^ place[0].wrapping_mul(STEP)) ^ place[1].wrapping_mul(STEP))
     }
 
-    /// A whole number from `least` to `greatest`, both included.
+    /// Random integer from `least` to `greatest`, both included.
     pub(crate) fn between(self, least: i64, greatest: i64, place: [u64; 2]) -> i64 {
         let span = u128::from(greatest.abs_diff(least)) + 1;
         let up = (u128::from(self.bits(place)) * span) >> 64;
@@ -33,7 +33,7 @@ impl Draws {
             + i64::try_from(up).expect("at most the span, which came from two i64 that are lengths")
     }
 
-    /// A place of `footprint`, uniformly.
+    /// Random place of `footprint`, uniform.
     pub(crate) fn place(self, footprint: &Footprint, point: u64) -> [Nanometre; 2] {
         let [half_x, half_y] = footprint.half_extent();
         let candidate = |attempt: u64| {

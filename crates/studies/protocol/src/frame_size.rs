@@ -8,17 +8,17 @@ use taceva_core::FrameInfo;
 /// The sides of a frame, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct FrameSize {
-    /// Pixels a row.
+    /// Width, pixels.
     pub width: u32,
-    /// Rows.
+    /// Height, pixels.
     pub height: u32,
 }
 
 impl FrameSize {
-    /// The longest side that is accepted.
+    /// Longest accepted side, pixels.
     pub const SIDE_MAX: u32 = 16_384;
 
-    /// The size that `text` says, `WIDTHxHEIGHT`; `None` if it says none, or a side is out of range.
+    /// Parses `WIDTHxHEIGHT`; `None` for other text or a side outside 1 to [`SIDE_MAX`](Self::SIDE_MAX).
     pub(crate) fn parse(text: &str) -> Option<FrameSize> {
         let side = |text: &str| {
             let is_whole = text.bytes().all(|byte| byte.is_ascii_digit());
@@ -32,17 +32,17 @@ impl FrameSize {
         })
     }
 
-    /// Whether a model can look at so many cells of a frame of this size.
+    /// True if the frame has at least this many columns and rows.
     pub const fn holds(self, [width, height]: [u32; 2]) -> bool {
         width <= self.width && height <= self.height
     }
 
-    /// Whether frames of `info` can be reduced to this size.
+    /// True if frames of `info` can be reduced to this size.
     pub(crate) fn is_within(self, info: FrameInfo) -> bool {
         self.width <= info.width && self.height <= info.height
     }
 
-    /// What is kept of frames of `info`: this size, in 8 bits.
+    /// Format of the frames that are stored: this size, in 8 bits.
     pub fn kept(self, info: FrameInfo) -> FrameInfo {
         FrameInfo {
             width: self.width,

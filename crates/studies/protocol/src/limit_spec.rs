@@ -4,23 +4,23 @@ use serde::Deserialize;
 
 use crate::text::Setting;
 
-/// Limits as written; one that is absent leaves that of the device.
+/// Limits as written; an absent one leaves the limit of the device.
 ///
 /// # Units
 /// mm, N and mm/s; `Pz` is the indentation depth, `Fz` the normal force, `Fxy` the magnitude of the shear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table of limits")]
 pub struct LimitSpec {
-    /// The deepest indentation.
+    /// Deepest indentation.
     #[serde(rename = "Pz_max_mm")]
     pub depth_max_mm: Option<Setting<f64>>,
-    /// The greatest normal force.
+    /// Greatest normal force.
     #[serde(rename = "Fz_max_N")]
     pub normal_max_n: Option<Setting<f64>>,
-    /// The greatest shear force.
+    /// Greatest shear force.
     #[serde(rename = "Fxy_max_N")]
     pub shear_max_n: Option<Setting<f64>>,
-    /// The greatest speed of the tip out of contact.
+    /// Greatest speed of the tip out of contact.
     pub speed_max_mm_s: Option<Setting<f64>>,
 }
 
@@ -35,7 +35,7 @@ impl LimitSpec {
         ]
     }
 
-    /// The limits of this table where it has them, else those of `outer`.
+    /// Merges the limits of this table with those of `outer` as defaults.
     pub(crate) fn or(self, outer: LimitSpec) -> LimitSpec {
         LimitSpec {
             depth_max_mm: self.depth_max_mm.or(outer.depth_max_mm),

@@ -1,4 +1,4 @@
-//! The limits of a rig: the tightest that scene, study or device states. They cannot be switched off or loosened.
+//! Limits of a rig: the tightest that scene, rig file or device states. They cannot be switched off or loosened.
 
 mod signals;
 
@@ -11,72 +11,71 @@ use crate::scene::{Scene, Study};
 use crate::source::RigInfo;
 use crate::text::{SceneError, SceneProblem, Setting, Text};
 
-/// What must not be passed, and by how much a stop may come late.
+/// Limits of motion and force, and the greatest overshoot of a stop.
 ///
 /// # Units
 /// mm, N and mm/s.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RigLimits {
-    /// The deepest indentation, from the first contact.
+    /// Deepest indentation, from the first contact.
     pub depth_max: Millimetre,
-    /// The greatest normal force.
+    /// Greatest normal force.
     pub normal_max: Newton,
-    /// The greatest shear force; that of the normal force where nobody states one.
+    /// Greatest shear force; the limit of the normal force if none is stated.
     pub shear_max: Newton,
-    /// The force beyond which the transducer cannot measure, if it is known.
+    /// Greatest force that the transducer measures; `None` if it states none.
     pub saturation: Option<Newton>,
-    /// The greatest speed out of contact, in mm/s.
+    /// Greatest speed out of contact, in mm/s.
     pub speed_max_mm_s: f64,
-    /// How far the tip may go on beyond a limit before it rests: see [`Overshoot`].
+    /// Travel of the tip beyond a limit before it rests: see [`Overshoot`].
     pub overshoot: Overshoot,
-    /// Whether all devices are simulated.
+    /// True if all devices are simulated.
     pub simulated: bool,
-    /// What the signals of the rig are worth.
+    /// Noise, freshness and freeze detection of the signals.
     #[serde(skip_serializing_if = "Signals::is_default")]
     pub signals: Signals,
 }
 
-/// How far the tip goes on after a limit was passed.
+/// Travel of the tip after it passes a limit.
 ///
-/// A tip that moves at v while force is read every t_sample, sent in t_link and answered in t_react goes on by
-/// v·(t_sample + t_link + t_react) + v²/2a. Here it moves in segments of length s = v·15 ms and rests after each until it has seen a force
-/// and a pose that were true no earlier, so that no latency is in the way that it makes: a link may take until the force counts as silent,
-/// and the tip goes no further.
+/// A tip moves at v. Force is read every t_sample, sent in t_link and answered in t_react. Without segments the tip travels on by
+/// v·(t_sample + t_link + t_react) + v²/2a. Here the tip moves in segments of length s = v·15 ms. After each it rests until force and pose
+/// are stamped later than the stop, so latency adds no travel. A link may delay a force until it counts as stale; the tip does not move
+/// meanwhile.
 ///
-/// - With healthy signals the look before a segment showed no limit passed, and the look after it does: s + b + m.
-/// - A force that froze was true before the first segment that it hides, and
-///   [`FROZEN_READINGS`](crate::FROZEN_READINGS) = n equal readings later it halts: n·s + b + m.
+/// - With healthy signals a limit is passed within one segment: s + b + m.
+/// - A frozen force hides later segments, until [`FROZEN_READINGS`](crate::FROZEN_READINGS) = n equal readings halt the rig: n·s + b + m.
 ///
-/// b is the way in which the robot stops, v·t where it states that it stops within t, else v²/2a. m = 3·√2·σ is what the noise σ of a
-/// reported pose hides: depth is the difference of two. No segment is shorter than 4·σ, so that each is seen to be made.
+/// b is the braking distance: v·t for a robot that states a stop time t, else v²/2a. m = 3·√2·σ is the margin for the pose noise σ, since
+/// depth is the difference of two poses. No segment is shorter than 4·σ, so that each one is visible in the pose.
 ///
-/// In force it is that length times the stiffness of the gel, and what the noise of the transducer hides.
+/// The overshoot in force is this length times the stiffness of the gel, plus the noise of the transducer.
 ///
 /// # Units
 /// mm.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Overshoot {
-    /// The length of a segment.
+    /// Length of a segment.
     pub segment_mm: f64,
-    /// With all signals healthy: one segment, the way in which the robot stops, and the noise of the pose.
+    /// Overshoot with healthy signals: one segment, the braking distance and the margin for pose noise.
     pub healthy_mm: f64,
-    /// With a force signal that froze.
+    /// Overshoot with a frozen force signal.
     pub frozen_mm: f64,
 }
 
-/// Time of a segment in contact, in s: a limit that is passed within it is seen at its end.
+/// Duration of a segment in contact, in s: a limit passed within it is detected at its end.
 pub const SEGMENT_S: f64 = 0.015;
-/// Readings that are equal to the last bit, each after a motion, that are believed before the signal counts as frozen.
+/// Readings equal to the last bit, each after a motion, at which the signal counts as frozen.
 pub const FROZEN_READINGS: u32 = 8;
-/// The deceleration of a robot that states none, in mm/s²; an arm of 1 m/s² stops from 5 mm/s within 0.0125 mm.
+/// Assumed deceleration of a robot that states none, in mm/s²; an arm of 1 m/s² stops from 5 mm/s within 0.0125 mm.
 const DECELERATION_MM_S2: f64 = 1_000.0;
-/// A segment is at least as long as so many standard deviations of a reported pose.
+/// Least length of a segment, in standard deviations of a reported pose.
 const SEGMENT_NOISES: f64 = 4.0;
-/// Of a normal distribution less than 3 in 1,000 lie farther out, in standard deviations.
+/// Margin in standard deviations: less than 3 in 1,000 normally distributed values exceed it.
 const NOISE_SPREAD: f64 = 3.0;
 
 impl Overshoot {
-    /// The overshoot at the speed of contact, of a robot that reports its pose with this noise.
+    /// Overshoot at the speed of contact, for a robot with this pose noise.
     pub(crate) fn at(speed_mm_s: f64, robot: &RobotFacts, pose_noise_mm: f64) -> Overshoot {
         let segment_mm = (speed_mm_s * SEGMENT_S).max(SEGMENT_NOISES * pose_noise_mm);
         let deceleration_mm_s2 = robot.deceleration_mm_s2.unwrap_or(DECELERATION_MM_S2);
@@ -93,13 +92,13 @@ impl Overshoot {
     }
 }
 
-/// What the noise of a reported pose hides of a depth, which is the difference of two poses, in mm.
+/// Margin of a depth for pose noise, in mm; a depth is the difference of two poses.
 fn margin_mm(pose_noise_mm: f64) -> f64 {
     NOISE_SPREAD * std::f64::consts::SQRT_2 * pose_noise_mm
 }
 
 impl RigLimits {
-    /// The way in which the robot stops once it is halted, in mm.
+    /// Braking distance of a halted robot, in mm.
     pub(crate) fn braking_mm(&self) -> f64 {
         let Overshoot {
             segment_mm,
@@ -109,7 +108,7 @@ impl RigLimits {
         (healthy_mm - segment_mm - margin_mm(self.signals.pose_noise_mm)).max(0.0)
     }
 
-    /// Whether a tip may rest at this depth under this force.
+    /// True if a tip may rest at this depth under this force.
     pub(crate) fn hold(&self, depth_mm: f64, wrench: &Wrench) -> bool {
         let [x, y, z] = wrench.force.map(|force| force.0);
         depth_mm <= self.depth_max.0 + self.overshoot.healthy_mm
@@ -118,13 +117,13 @@ impl RigLimits {
     }
 }
 
-/// A limit that a device states, and who it is.
+/// A limit and the name of the device or file that states it.
 struct Stated {
     limit: f64,
     who: String,
 }
 
-/// The limits of `study` on `rig`.
+/// Limits of `study` on `rig`.
 pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<RigLimits, SceneError> {
     let LimitSpec {
         depth_max_mm,
@@ -198,7 +197,7 @@ struct Tighten<'a> {
 }
 
 impl Tighten<'_> {
-    /// The least of what is stated; a scene that states more than a device is refused.
+    /// The least of the stated limits; a scene that states more than a device is rejected.
     fn least(
         &self,
         key: &'static str,
@@ -254,7 +253,10 @@ impl Tighten<'_> {
     }
 }
 
-/// The limit that `written` makes of the `tightest` that stood before it, which it may not loosen.
+/// The stated limit after `written` tightens it.
+///
+/// # Errors
+/// `LimitLoosened` if `written` exceeds `tightest`.
 fn tightened(
     key: &'static str,
     written: Option<Setting<f64>>,

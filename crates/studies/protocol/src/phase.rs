@@ -1,4 +1,4 @@
-//! The parts of a protocol: each is the presses it wants, as values, and nothing that moves.
+//! Phases of a protocol: each yields its presses as values and moves nothing.
 
 mod calibration;
 mod gratings;
@@ -17,23 +17,23 @@ use crate::press::{Motion, Press, Waypoint};
 use crate::scene::Protocol;
 use crate::scene::spacings;
 
-/// What presses are drawn from.
+/// Inputs from which presses are drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct PhaseInputs<'a> {
     pub(crate) protocol: &'a Protocol,
     pub(crate) footprint: Footprint,
     pub(crate) depth_max: Nanometre,
-    /// Never empty; the first is the one that everything but the surface map is measured on.
+    /// Units of the sensor, never empty. All phases but the surface map measure the first.
     pub(crate) units: &'a [String],
-    /// The scenes of light, that of calibration first; empty where the light cannot be set.
+    /// Scenes of light, that of calibration first; empty if the light cannot be set.
     pub(crate) lights: &'a [String],
-    /// Whether shear leaves a trace that can be seen.
+    /// False if the gel has no markers, so shear leaves no visible trace.
     pub(crate) markers: bool,
     pub(crate) seed: u64,
 }
 
 impl PhaseInputs<'_> {
-    /// The presses that `kind` wants, in order.
+    /// Presses of phase `kind`, in order.
     pub(crate) fn presses(&self, kind: PhaseKind) -> Vec<Press> {
         match kind {
             PhaseKind::Idle => idle::presses(self),
@@ -47,7 +47,7 @@ impl PhaseInputs<'_> {
         }
     }
 
-    /// How many presses [`presses`](PhaseInputs::presses) gives, counted without drawing one.
+    /// Number of presses that [`presses`](PhaseInputs::presses) returns, computed without drawing one.
     pub(crate) fn count(&self, kind: PhaseKind) -> u64 {
         let protocol = self.protocol;
         match kind {
@@ -77,7 +77,7 @@ impl PhaseInputs<'_> {
         Draws::new(self.seed, kind.name())
     }
 
-    /// A press of the indenter on the first unit in the light of calibration.
+    /// A press of the indenter on the first unit, in the light of calibration.
     fn press(&self, place: [Nanometre; 2], motion: Motion) -> Press {
         let radius = self.protocol.contact.indenter_radius_mm.value;
         Press {
@@ -93,7 +93,7 @@ impl PhaseInputs<'_> {
         }
     }
 
-    /// Depths from `step_mm` to the greatest in steps of `step_mm`.
+    /// Depths from `step_mm` to the greatest depth, in steps of `step_mm`.
     fn staircase(&self, step_mm: f64) -> Vec<Nanometre> {
         let step = nanometres(step_mm).0.max(1);
         (1..=self.depth_max.0 / step)
@@ -101,7 +101,8 @@ impl PhaseInputs<'_> {
             .collect()
     }
 
-    /// A depth from `least_mm` to the greatest: one of `parts` equal parts of that range, so that no point has all its depths in one.
+    /// Draws a depth between `least_mm` and the greatest depth, within one of `parts` equal parts of that range. This spreads the depths of
+    /// a point.
     fn depth(&self, draws: Draws, least_mm: f64, part: DepthPart) -> Nanometre {
         let least = nanometres(least_mm).0.min(self.depth_max.0);
         let span = self.depth_max.0 - least;
@@ -114,7 +115,7 @@ impl PhaseInputs<'_> {
         ))
     }
 
-    /// A shear of at most `greatest_mm` along each axis.
+    /// Draws a shear of at most `greatest_mm` along each axis.
     fn shear(&self, draws: Draws, greatest_mm: f64, part: DepthPart) -> [Nanometre; 2] {
         let greatest = nanometres(greatest_mm).0;
         [0, 1].map(|axis| {
@@ -124,7 +125,7 @@ impl PhaseInputs<'_> {
     }
 }
 
-/// Which depth of which point.
+/// Index of a depth among the depths of one point.
 #[derive(Clone, Copy, Debug)]
 struct DepthPart {
     point: u64,
@@ -132,16 +133,16 @@ struct DepthPart {
     parts: u32,
 }
 
-/// Counters of a point: its place takes those below; depths and shears have ranges of their own.
+/// Counters of random draws of a point. Its place takes lower ones; depths and shears have ranges of their own.
 const DEPTH_AXIS: u64 = 1 << 32;
 const SHEAR_AXIS: u64 = 1 << 40;
 
-/// A length that was checked when the scene was read.
+/// Converts a length in mm that was checked when the scene was read.
 fn nanometres(millimetres: f64) -> Nanometre {
     Nanometre::from_millimetres(millimetres).expect("lengths of a scene are at most 1000 mm")
 }
 
-/// A waypoint straight below the first contact, on the way in.
+/// A waypoint straight below the first contact, while loading.
 fn straight(depth: Nanometre) -> Waypoint {
     Waypoint {
         depth,

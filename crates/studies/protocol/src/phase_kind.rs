@@ -5,26 +5,26 @@ use std::fmt;
 /// A part of a protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PhaseKind {
-    /// Pictures without contact: how fast the sensor is.
+    /// Pictures without contact, for the frame rate and the latency of the sensor.
     Idle,
-    /// The height of the surface, felt on every unit at the same points.
+    /// Height of the surface, felt at the same points on every unit.
     SurfaceMap,
-    /// What a model is fitted and tested on, straight and sheared.
+    /// Presses for fitting and testing a model, straight and sheared.
     Calibration,
     /// Held-out presses all over the surface.
     Spatial,
-    /// Held-out presses again in every scene of light.
+    /// Held-out presses, repeated in every scene of light.
     LightSweep,
-    /// Points approached, pressed and left again and again.
+    /// Points pressed repeatedly.
     Repeatability,
-    /// Into the gel and out again.
+    /// Loading into the gel and unloading.
     LoadUnload,
     /// Boards of every spacing.
     Gratings,
 }
 
 impl PhaseKind {
-    /// Every kind, in the order in which they are visited.
+    /// All kinds, in the order of their execution.
     pub const ALL: [PhaseKind; 8] = [
         PhaseKind::Idle,
         PhaseKind::SurfaceMap,
@@ -36,7 +36,7 @@ impl PhaseKind {
         PhaseKind::Gratings,
     ];
 
-    /// How the phase is written in plans.
+    /// Name of the phase in plans.
     pub const fn name(self) -> &'static str {
         match self {
             PhaseKind::Idle => "idle",

@@ -1,4 +1,4 @@
-//! From what is wanted to what is done: pure passes that remove and merge, never add, and leave a reason each time.
+//! Plans a study by pure passes, which remove and merge, never add, and store a reason each time.
 //!
 //! `collect → resolve → applicability → phases → merge → fields → check → cost`, one pass a file.
 
@@ -35,49 +35,49 @@ use collect::Collected;
 pub(crate) use collect::{MetricNeeds, SURFACE};
 use study_facts::{Gather, StudyFacts};
 
-/// What is done for one sensor, what is not, and why. [`Display`](std::fmt::Display) explains it.
+/// Plan of one sensor: its metrics, presses and models, and what is skipped with reasons. [`Display`](std::fmt::Display) explains it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The name of the study.
     pub name: String,
-    /// The metrics that are computed.
+    /// Metrics that are computed.
     pub metrics: Vec<PlannedMetric>,
-    /// The parts of the protocol that are visited, in order; none of a recording.
+    /// Phases of the protocol, in order; empty for a recording.
     pub phases: Vec<PhaseKind>,
-    /// The presses, in the order in which they are made.
+    /// Presses, in the order of their execution.
     pub presses: Vec<PlannedPress>,
-    /// The models that are fitted.
+    /// Models that are fitted.
     pub fits: Vec<Fit>,
-    /// The fields of samples that something reads.
+    /// Fields of samples that a metric reads.
     pub fields: FieldSet,
-    /// The channels of the truth.
+    /// Channels of the truth.
     pub channels: Vec<String>,
-    /// The units that are measured, in order.
+    /// Units that are measured, in order.
     pub units: Vec<String>,
-    /// The scenes of light that are visited, that of calibration first.
+    /// Scenes of light, that of calibration first.
     pub lights: Vec<String>,
-    /// What is left out, and why.
+    /// Skipped metrics, phases, models, fields and channels, with reasons.
     pub skipped: Vec<PlanSkip>,
-    /// The limits of every motion; absent where nothing moves.
+    /// Limits of every motion; `None` if nothing moves.
     pub limits: Option<RigLimits>,
-    /// How contact is searched for and held.
+    /// Settings for finding and holding contact.
     pub contact: Contact,
-    /// The outline of the surface that senses.
+    /// Outline of the sensing surface.
     pub footprint: Option<Footprint>,
-    /// Whether ambient light cannot reach the camera, if it is known.
+    /// True if ambient light cannot reach the camera; `None` if unknown.
     pub opaque: Option<bool>,
-    /// Size and format of the frames, if they are known.
+    /// Size and format of the frames, if known.
     pub frame: Option<FrameInfo>,
-    /// The size to which frames are reduced before they are kept, if they are.
+    /// Size to which frames are reduced before they are stored; `None` keeps them whole.
     pub kept_frames: Option<FrameSize>,
-    /// What it will cost.
+    /// Estimated cost.
     pub cost: Cost,
 }
 
 impl Plan {
-    /// The name of what is acquired: a recording begun under another digest is not continued.
+    /// Digest of the acquisition: a recording begun under another digest is not continued.
     ///
-    /// Metrics are not in it, so that a finished acquisition serves a scene that wants fewer of them from the same presses.
+    /// It excludes metrics, so a finished acquisition serves a scene that wants fewer metrics from the same presses.
     pub fn digest(&self) -> ContentId {
         let contact = &self.contact;
         let hasher = Hasher::new("taceva.plan/1")
@@ -99,7 +99,7 @@ impl Plan {
             .finish()
     }
 
-    /// The channels of the truth of every sample, in order.
+    /// Channels of the truth of every sample, in order.
     pub fn truth_channels(&self) -> Channels {
         let channels = self.channels.iter().filter_map(|name| {
             let of_six = Channel::SIX
@@ -110,7 +110,7 @@ impl Plan {
         Channels::new(channels).unwrap_or_default()
     }
 
-    /// The facts of the sensor that metrics read; the scene of light that others are compared with is that of calibration.
+    /// Facts of the sensor that metrics read. The reference scene of light is that of calibration.
     pub fn sensor_facts(&self) -> SensorFacts {
         let depth_max_mm = self.limits.as_ref().map(|limits| limits.depth_max.0);
         let footprint = self
@@ -138,18 +138,21 @@ impl Plan {
             .with_frame_size(self.frame.map(|frame| [frame.width, frame.height]))
     }
 
-    /// The presses of one part of the protocol, in order.
+    /// Presses of one phase, in order.
     pub fn presses_of(&self, kind: PhaseKind) -> impl Iterator<Item = &PlannedPress> {
         let presses = self.presses.iter();
         presses.filter(move |press| press.phases.contains(&kind))
     }
 }
 
-/// The plans of the studies of `scene`, each fed from what `source` says of it. No device is opened.
+/// Plans the studies of `scene`, each with the facts that `source` returns for it. Opens no device.
 ///
 /// # Errors
-/// [`SceneError`] with the line: a limit that is loosened or absent, a depth beyond the limit, two statements that exclude each other,
-/// more presses than any gel survives, or a metric asked for by its own name that applies to no study of the scene.
+/// [`SceneError`] with the line:
+///
+/// - a limit is loosened or absent, or a depth exceeds its limit;
+/// - two statements contradict each other, or there are too many presses;
+/// - a metric requested by name applies to no study of the scene.
 pub fn plan(
     scene: &Scene,
     mut source: impl FnMut(&Study) -> SourceInfo,
@@ -164,7 +167,7 @@ pub fn plan(
     Ok(plans)
 }
 
-/// The plan of one study, of metrics that need `needs`.
+/// Plans one study for metrics with these `needs`.
 pub(crate) fn plan_study(
     scene: &Scene,
     study: &Study,
@@ -216,7 +219,7 @@ fn refine(collected: Collected, facts: &StudyFacts<'_>) -> Result<Collected, Sce
     check::pass(collected, facts)
 }
 
-/// Refuses a metric that somebody named by itself and that no study can give.
+/// Rejects a metric that the scene requests by name and no study can compute.
 fn refuse_the_impossible(scene: &Scene, plans: &[Plan]) -> Result<(), SceneError> {
     let named = scene.metrics.want.iter().flatten();
     for name in named.filter(|name| catalogue::find(&name.value).is_some()) {

@@ -1,55 +1,55 @@
-//! One visit of the tip: where, with what, how deep; a value with a name derived from its content.
+//! A press: its place, specimen and depths; a value with an id derived from its content.
 
 use taceva_core::{Nanometre, Phase, Specimen};
 
 use crate::content_id::{ContentId, Hasher};
 
-/// One approach, what is done in contact, and the retreat.
+/// One approach, the waypoints in contact, and the retreat.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Press {
-    /// The unit of the sensor model.
+    /// Unit of the sensor model.
     pub unit: String,
-    /// The scene of light; `None` where the light cannot be set.
+    /// Scene of light; `None` if the light cannot be set.
     pub light: Option<String>,
-    /// What touches the gel.
+    /// Specimen that touches the gel.
     pub specimen: Specimen,
-    /// Where, along x and y of the sensor's frame.
+    /// Place along x and y of the sensor's frame.
     pub place: [Nanometre; 2],
-    /// How far the specimen is turned about z, in thousandths of a degree.
+    /// Turn of the specimen about z, in thousandths of a degree.
     pub turn_millidegrees: i32,
-    /// The number of the trial, where presses are repeated.
+    /// Number of the trial, if presses are repeated.
     pub repeat: Option<u32>,
-    /// What is done there.
+    /// Motion at this place.
     pub motion: Motion,
 }
 
-/// What is done at a place.
+/// Motion at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// Pictures from above the gel, touching nothing.
     Rest {
-        /// How many.
+        /// Number of pictures.
         frames: u32,
     },
-    /// The first contact alone: how high the surface is.
+    /// First contact alone, for the height of the surface.
     Touch,
     /// First contact, then these waypoints in order.
     Indent(Vec<Waypoint>),
 }
 
-/// A place of the tip at which it rests and a sample is taken, seen from the first contact.
+/// Position at which the tip rests for a sample, relative to the first contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Waypoint {
-    /// How deep, from the first contact.
+    /// Depth below the first contact.
     pub depth: Nanometre,
-    /// How far along x and y, from the place of the press.
+    /// Offset along x and y from the place of the press.
     pub shear: [Nanometre; 2],
-    /// On the way in or out.
+    /// Loading or unloading.
     pub phase: Phase,
 }
 
 impl Press {
-    /// Its name; equal presses have equal names.
+    /// Digest of the press; equal presses have equal ids.
     pub fn id(&self) -> ContentId {
         let hasher = Hasher::new("taceva.press/1")
             .text(&self.unit)
@@ -80,7 +80,7 @@ impl Press {
         .finish()
     }
 
-    /// The contact point that its samples share with all others there: the board of a grating, else the place in mm.
+    /// Contact point that its samples share with all others there: the board of a grating, else the place in mm.
     pub fn point_id(&self) -> String {
         match self.specimen {
             Specimen::Grating { kind, spacing } => format!("{kind} {}", spacing.to_millimetres()),
@@ -91,7 +91,7 @@ impl Press {
         }
     }
 
-    /// How many samples it gives if nothing ends it early.
+    /// Number of samples if no limit ends the press early.
     pub fn samples(&self) -> usize {
         match &self.motion {
             Motion::Rest { frames } => usize::try_from(*frames).unwrap_or(usize::MAX),
@@ -100,7 +100,7 @@ impl Press {
         }
     }
 
-    /// Its waypoints; none unless it indents.
+    /// Waypoints; empty unless the press indents.
     pub fn waypoints(&self) -> &[Waypoint] {
         match &self.motion {
             Motion::Indent(waypoints) => waypoints,

@@ -1,4 +1,4 @@
-//! Why a plan leaves something out or joins it with something else.
+//! Reasons for which a plan skips or merges parts.
 
 use std::fmt;
 
@@ -6,21 +6,21 @@ use taceva_core::{Field, SkipReason};
 
 use crate::phase_kind::PhaseKind;
 
-/// Something that a plan does not do, and why.
+/// A skipped part of a plan, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanSkip {
-    /// What is left out.
+    /// Skipped part.
     pub subject: Subject,
-    /// Why it is left out.
+    /// Reason.
     pub reason: PlanReason,
 }
 
-/// What a plan can leave out.
+/// Parts that a plan can skip.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Subject {
-    /// A metric by its id, or some of its channels: `repeatability (Fx, Fy)`.
+    /// Metric by its id, or some of its channels: `repeatability (Fx, Fy)`.
     Metric(String),
-    /// A part of the protocol, or some of its presses.
+    /// Phase of the protocol, or some of its presses.
     Phase(PhaseKind),
     /// A model that predicts this field.
     Fit(Field),
@@ -31,7 +31,7 @@ pub enum Subject {
 }
 
 impl Subject {
-    /// How it is written in data: `metric:r_light`.
+    /// Key in data, such as `metric:r_light`.
     pub fn key(&self) -> String {
         match self {
             Subject::Metric(id) => format!("metric:{id}"),
@@ -55,40 +55,40 @@ impl fmt::Display for Subject {
     }
 }
 
-/// Why a plan leaves something out.
+/// Reason for which a plan skips a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlanReason {
     /// A reason that any stream of samples may have.
     Skip(SkipReason),
-    /// A field without a source, and what its source would need.
+    /// A field without a source.
     Unresolved {
         /// The field.
         field: Field,
-        /// What is missing.
+        /// Missing source.
         cause: Cause,
     },
     /// A channel that no device of the rig measures.
     Unmeasured {
         /// The channel.
         channel: String,
-        /// What is missing.
+        /// Missing device.
         cause: Cause,
     },
-    /// The gel has no markers: shear leaves no trace that repeats.
+    /// The gel has no markers: shear leaves no repeatable trace.
     NoMarkers,
-    /// No metric that is computed needs it.
+    /// No computed metric needs it.
     NoMetricNeeds,
-    /// Presses that another phase makes too: they are visited once.
+    /// Presses shared with another phase, which are made once.
     VisitedBy {
         /// The other phase.
         phase: PhaseKind,
-        /// How many presses are shared.
+        /// Number of shared presses.
         presses: usize,
     },
 }
 
-/// What is missing for a field or channel to have a source.
+/// Missing source of a field or channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Cause {
@@ -146,7 +146,7 @@ impl fmt::Display for Cause {
 }
 
 impl PlanReason {
-    /// One of each kind, so that tests can visit every line.
+    /// One reason of each kind, for tests of every line.
     pub fn all() -> Vec<PlanReason> {
         let skips = SkipReason::all().into_iter().map(PlanReason::Skip);
         let causes = Cause::ALL.into_iter().map(|cause| PlanReason::Unresolved {
@@ -196,7 +196,7 @@ mod tests {
 
     use super::*;
 
-    /// The place of a kind of reason; a kind without a place does not compile.
+    /// Index of a kind of reason; a kind without an index does not compile.
     fn place(reason: &PlanReason) -> usize {
         match reason {
             PlanReason::Skip(_) => 0,
@@ -208,7 +208,7 @@ mod tests {
         }
     }
 
-    /// The place of a cause among all; a cause without a place does not compile.
+    /// Index of a cause; a cause without an index does not compile.
     fn place_of_cause(cause: Cause) -> usize {
         match cause {
             Cause::NoSensor => 0,
@@ -235,7 +235,7 @@ mod tests {
         }
     }
 
-    /// The reasons of samples are declared in another crate, which may add to them: its text is asked, for no match can be.
+    /// Another crate declares the reasons of samples as a non-exhaustive enum, so no match can cover them. The test parses its source.
     #[test]
     fn every_reason_that_a_stream_may_have_is_among_all() {
         let source = concat!(
@@ -262,7 +262,7 @@ mod tests {
         assert!(listed.len() >= 7, "{listed:?}");
     }
 
-    /// The letters with which `text` begins.
+    /// Leading ASCII letters and digits of `text`.
     fn word(text: &str) -> &str {
         let end = text.find(|letter: char| !letter.is_ascii_alphanumeric());
         &text[..end.unwrap_or(text.len())]

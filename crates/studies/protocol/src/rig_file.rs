@@ -1,4 +1,4 @@
-//! A rig file: which drivers reach the devices of a rig, how these stand to one another, and what they may not pass.
+//! A rig file: the drivers of the devices, their orientation and place, and the limits of the rig.
 
 mod axes;
 mod changers;
@@ -20,17 +20,17 @@ use crate::content_id::ContentId;
 use crate::limit_spec::LimitSpec;
 use crate::text::{SceneError, SceneProblem, Setting, Text};
 
-/// The greatest coordinate of an origin, in mm.
+/// Greatest coordinate of an origin, in mm.
 const GREATEST_PLACE_MM: f64 = 10_000.0;
-/// How long a run waits for somebody to hold the enabling switch where the file does not say, in s, and the longest that it may say.
+/// Default and greatest wait for a held enabling switch, in s.
 const USUAL_PATIENCE_S: f64 = 60.0;
 const GREATEST_PATIENCE_S: f64 = 86_400.0;
-/// The greatest latency that is believed, in ms.
+/// Greatest accepted latency, in ms.
 const GREATEST_LATENCY_MS: f64 = 1_000.0;
-/// The greatest limit that is written, as in a scene, in mm, N or mm/s.
+/// Greatest accepted limit, as in a scene, in mm, N or mm/s.
 const GREATEST_LIMIT: f64 = 1_000.0;
 
-/// A rig as a TOML text says it: where a scene is carried out, and not what is done there.
+/// A rig, read from TOML: where a scene is executed. The scene says what is done there.
 ///
 /// ```
 /// use taceva_protocol::RigFile;
@@ -47,7 +47,7 @@ const GREATEST_LIMIT: f64 = 1_000.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigFile {
-    /// Whether what answers is emulated, so that nothing that is recorded there was measured.
+    /// True if the devices are emulated, so that recordings are not measurements.
     pub simulated: bool,
     /// The robot.
     pub robot: Option<RigRobot>,
@@ -55,69 +55,68 @@ pub struct RigFile {
     pub force: Option<RigForce>,
     /// The sensor.
     pub sensor: Option<RigSensor>,
-    /// The enabling switch and whoever holds it, where the rig has one.
+    /// Enabling switch and its operator, if the rig has one.
     pub operator: Option<RigOperator>,
-    /// What changes things there instead of hands.
+    /// Devices that change things without a person.
     pub changers: RigChangers,
-    /// Limits of the rig, which only tighten those of its devices.
+    /// Limits of the rig, which may only tighten those of its devices.
     pub limits: LimitSpec,
     pub(crate) text: Text,
 }
 
-/// A robot and how it stands to the sensor.
+/// A robot and its mounting relative to the sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigRobot {
-    /// The selector of its driver.
+    /// Selector of its driver.
     pub driver: Setting<String>,
-    /// What it moves.
+    /// Body that it moves.
     pub carries: Carried,
-    /// Where it stands in its base frame when the tip is at the middle of the untouched gel, in mm.
+    /// Position in its base frame at which the tip is at the middle of the untouched gel, in mm.
     pub origin_mm: Setting<[f64; 3]>,
-    /// Which axis of the base each axis of the sensor is.
+    /// Axis of the base for each axis of the sensor.
     pub axes: Setting<SignedAxes>,
-    /// How its tool is turned in the base frame when the tip counts as not turned: about x, y and z, in degrees. Where it is not written, as
-    /// it stands when it is opened.
+    /// Rotation of its tool in the base frame for an unturned tip: about x, y and z, in degrees. `None` means the rotation at opening.
     pub turned_deg: Option<[f64; 3]>,
-    /// How long after it was true a pose is stamped, in ms; what its driver states where it is not written.
+    /// Delay between a pose and its stamp, in ms; `None` means the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
 }
 
-/// What a robot moves.
+/// Body that a robot moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Carried {
-    /// The indenter, over a sensor that rests.
+    /// Indenter, over a sensor at rest.
     Indenter,
-    /// The sensor, over an indenter that rests.
+    /// Sensor, over an indenter at rest.
     Sensor,
 }
 
-/// A force transducer and how it stands to the sensor.
+/// A force transducer and its mounting relative to the sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigForce {
-    /// The selector of its driver.
+    /// Selector of its driver.
     pub driver: Setting<String>,
-    /// Which of its axes each axis of the sensor is: Fz above 0 presses into the gel.
+    /// Axis of the transducer for each axis of the sensor: Fz above 0 presses into the gel.
     pub axes: Setting<SignedAxes>,
-    /// How long after it was true a reading is stamped, in ms; what its driver states where it is not written.
+    /// Delay between a reading and its stamp, in ms; `None` means the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
 }
 
 /// A sensor of a rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigSensor {
-    /// The selector of its driver.
+    /// Selector of its driver.
     pub driver: Setting<String>,
-    /// How long after it was true a frame is stamped, in ms; what its driver states where it is not written.
+    /// Delay between a frame and its stamp, in ms; `None` means the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
 }
 
-/// The person at a rig, and what that person holds.
+/// Operator of a rig, with the enabling switch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigOperator {
-    /// The selector of the enabling switch: released, the robot is halted.
+    /// Selector of the enabling switch: released, it halts the robot.
     pub enable: Setting<String>,
-    /// How long a run waits for somebody to hold it, in s.
+    /// Longest wait for a held switch, in s.
     pub patience_s: f64,
 }
 
@@ -171,11 +170,14 @@ struct WrittenOperator {
 }
 
 impl RigFile {
-    /// The rig that `text` says; `source_name` is what errors call it.
+    /// Parses the rig file `text`; errors call it `source_name`.
     ///
     /// # Errors
-    /// [`SceneError`] with the line: no TOML, an unknown key with the nearest known one, axes that are no right-handed frame, a place or
-    /// a latency that is none, a limit that is none.
+    /// [`SceneError`] with the line:
+    ///
+    /// - invalid TOML, or an unknown key, with the nearest known one;
+    /// - axes that form no right-handed frame;
+    /// - a place, latency, patience or limit out of range.
     pub fn parse(source_name: &str, text: &str) -> Result<RigFile, SceneError> {
         let text = Text::new(source_name, text)?;
         let written: WrittenRig = text.read()?;
@@ -208,23 +210,23 @@ impl RigFile {
         })
     }
 
-    /// The name by which errors call it.
+    /// Name of the file in errors.
     pub fn name(&self) -> &str {
         self.text.source_name()
     }
 
-    /// The digest of its text: a file with another text counts as another rig.
+    /// Digest of the text: a changed file counts as another rig.
     pub fn digest(&self) -> ContentId {
         ContentId::of_text(self.text.whole())
     }
 
-    /// How long a run waits for somebody to hold the enabling switch, in s; nothing is waited for where there is none.
+    /// Longest wait for a held enabling switch, in s; 0 if the rig has none.
     pub fn patience_s(&self) -> f64 {
         let operator = self.operator.as_ref();
         operator.map_or(0.0, |operator| operator.patience_s)
     }
 
-    /// `problem`, at the byte `at` of it.
+    /// Error for `problem` at the byte `at` of the file.
     pub fn error(&self, at: Option<usize>, problem: SceneProblem) -> SceneError {
         self.text.error(at, problem)
     }

@@ -1,9 +1,9 @@
 //! Runs a plan on borrowed devices: safely, resumably, and without a clock or a file of its own.
 //!
-//! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms, in longer ones
-//! where threads look on and no limit is near; after each, force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on. Signals that are silent
-//! break a press off, which is made again. Anything else stops the run: the tip leaves the gel if its signals can be trusted and the robot
-//! reports no fault of its own, and the same call resumes the run.
+//! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms, or in longer
+//! ones if guard threads run and no limit is near. After each segment force and pose are read and shown to the [`Supervisor`]. A limit of
+//! the gel ends the way in, and the run continues. A press interrupted by stale signals is repeated. Any other cause stops the run, and the
+//! same call resumes it. The tip leaves the gel if its signals can be trusted and the robot reports no fault.
 
 mod align;
 mod bounds;
@@ -62,23 +62,23 @@ use taceva_core::Millimetre;
 use crate::plan::Plan;
 use session::Run;
 
-/// Which plan is run, on which unit, and whether for real.
+/// Plan, unit and mode of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct RunSpec<'a> {
     /// The plan.
     pub plan: &'a Plan,
-    /// The unit that is on the rig; presses of others are left for another run.
+    /// Unit on the rig; presses of other units are left for another run.
     pub unit: &'a str,
-    /// For real, or in the air.
+    /// Acquisition or rehearsal.
     pub mode: Mode,
 }
 
-/// For real, or in the air.
+/// Acquisition or rehearsal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode {
     /// Presses are made and recorded.
     Acquire,
-    /// Every place is visited this much above the height of travel, with the same loop and the same supervisor; nothing is recorded.
+    /// Every place is visited at this height above the height of travel, with the same loop and supervisor. Nothing is recorded.
     Rehearse {
         /// Added to the clearance.
         height: Millimetre,
@@ -87,41 +87,41 @@ pub enum Mode {
 
 /// Clock, cancellation and the receiver of events.
 pub struct Controls<'a> {
-    /// The clock that the stamps of the devices are of.
+    /// Clock of the stamps of the devices.
     pub clock: &'a mut dyn Timekeeper,
-    /// Ends the run before its next motion.
+    /// Stops the run before its next motion.
     pub cancel: &'a Cancel,
-    /// Is called with each event.
+    /// Callback for events.
     pub events: &'a mut dyn FnMut(&Event),
-    /// Does what no device can; where absent, a plan that needs hands stops there.
+    /// Operator for manual steps; without one, a plan that needs such a step stops there.
     pub operator: Option<&'a mut dyn Operator>,
 }
 
-/// What a run did, in counts.
+/// Counts of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RunReport {
-    /// Presses of this unit that were finished before.
+    /// Presses of this unit finished in earlier runs.
     pub resumed: usize,
-    /// Presses that were made and are durable; in a rehearsal, places visited.
+    /// Durable presses of this run; in a rehearsal, places visited.
     pub made: usize,
-    /// Times that a press was broken off because signals were silent, and made again.
+    /// Interrupted presses that were repeated, after stale signals or a released enabling switch.
     pub redone: u32,
-    /// Of those made, ended by a limit of the gel.
+    /// Presses of this run that a limit of the gel ended.
     pub limited: usize,
-    /// Of those made, without contact.
+    /// Presses of this run without contact.
     pub without_contact: usize,
-    /// Samples that were recorded.
+    /// Samples recorded in this run.
     pub samples: usize,
-    /// Presses that were left for another run, because somebody skipped what they need.
+    /// Presses left for another run, because the operator skipped a step that they need.
     pub skipped: usize,
 }
 
-/// Makes the presses of `spec` that `log` does not have yet, each durable before the next begins.
+/// Makes the presses of `spec` that are not yet in `log`, each durable before the next begins.
 ///
-/// Sensor and transducer are started and stopped, the robot is left above the gel.
+/// Starts and stops sensor and transducer; leaves the robot above the gel.
 ///
 /// # Errors
-/// [`RunError`]: what stopped it, which press must be made again, and where the tip was left.
+/// [`RunError`] with the cause, the press to repeat, and the place of the tip.
 pub fn run<'a>(
     spec: &RunSpec<'a>,
     devices: Devices<'a>,
@@ -131,11 +131,10 @@ pub fn run<'a>(
     run_under(spec, devices, log, controls, None)
 }
 
-/// Makes the presses of `spec` under `guard`, which threads of the caller show readings to.
+/// Makes the presses of `spec` under `guard`, to which threads of the caller show readings.
 ///
 /// # Errors
-/// As [`run`]; of a session also [`StopCause::Rig`], [`StopCause::SlowGuard`] and [`StopCause::Touch`] where the rig is not as it should be.
-/// Then nothing was pressed.
+/// As [`run`]; a session also fails with [`StopCause::Rig`], [`StopCause::SlowGuard`] or [`StopCause::Touch`] before its first press.
 pub fn run_guarded<'a>(
     spec: &RunSpec<'a>,
     devices: Devices<'a>,

@@ -1,4 +1,4 @@
-//! A scene: which sensors, on which rig, measured how, as a TOML text says it.
+//! A scene in TOML: the sensors, their rigs, and the measurements.
 
 mod boards;
 mod builtin;
@@ -28,7 +28,7 @@ use taceva_core::DriverKind;
 use crate::rig_file::RigFile;
 use crate::text::{SceneError, SceneProblem, Setting, Text};
 
-/// Who says which devices there are.
+/// Source of the names of devices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NamedBy {
     /// The scene.
@@ -37,7 +37,7 @@ enum NamedBy {
     Rig,
 }
 
-/// A scene that was read and is whole in itself: what devices can do is asked by [`plan`](crate::plan).
+/// A checked scene. [`plan`](crate::plan) checks it against the abilities of the devices.
 ///
 /// ```
 /// use taceva_protocol::Scene;
@@ -54,34 +54,37 @@ enum NamedBy {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// What the scene is called.
+    /// Name of the scene.
     pub name: String,
-    /// The seed of every draw.
+    /// Seed of all random draws.
     pub seed: u64,
-    /// Its sensors, each with the rig it is measured on; never empty.
+    /// Sensors, each with its rig; never empty.
     pub studies: Vec<Study>,
-    /// What is to be computed, and how.
+    /// Metrics and their settings.
     pub metrics: MetricsSpec,
-    /// The rig file that it is carried out on, if it names one; relative to the scene.
+    /// Path of the rig file, relative to the scene, if it names one.
     pub rig: Option<Setting<String>>,
-    /// How many presses of which kind.
+    /// Counts of presses by phase.
     pub protocol: Protocol,
-    /// How results are written.
+    /// Formats of the report.
     pub report: ReportSpec,
     pub(crate) text: Text,
 }
 
 impl Scene {
-    /// The scene that `text` says; `source_name` is what errors call it.
+    /// Parses the scene `text`; errors call it `source_name`.
     ///
     /// # Errors
-    /// [`SceneError`] with the line: no TOML, an unknown key or name with the nearest known one, a count of nothing, a number that
-    /// is none, two statements that exclude each other, a limit of a study above that of its scene.
+    /// [`SceneError`] with the line:
+    ///
+    /// - invalid TOML, or an unknown key or name, with the nearest known one;
+    /// - a count or number out of range, or two contradictory statements;
+    /// - a limit of a study above that of its scene.
     pub fn parse(source_name: &str, text: &str) -> Result<Scene, SceneError> {
         check::checked(Text::new(source_name, text)?, NamedBy::Scene)
     }
 
-    /// The scene that `text` says, to be put on a rig: whether it names devices or not.
+    /// Parses a scene that a rig file will complete: it need not name devices.
     ///
     /// # Errors
     /// As [`parse`](Scene::parse).
@@ -89,7 +92,7 @@ impl Scene {
         check::checked(Text::new(source_name, text)?, NamedBy::Rig)
     }
 
-    /// Puts every study that presses on `rig`, whose devices stand in the place of those that the scene names.
+    /// Replaces the devices of every study that presses by those of `rig`.
     ///
     /// # Errors
     /// [`SceneError`] of the rig file, if it has no sensor.
@@ -114,12 +117,12 @@ impl Scene {
         Ok(())
     }
 
-    /// The drivers it names, study by study.
+    /// Drivers named by the scene, study by study.
     pub fn drivers(&self) -> impl Iterator<Item = (DriverKind, &Setting<String>)> {
         self.studies.iter().flat_map(Study::drivers)
     }
 
-    /// Refuses a driver that is not among `known`, pairs of a kind and a key such as `sim/gelsight`.
+    /// Rejects a driver that is not in `known`, pairs of a kind and a key such as `sim/gelsight`.
     ///
     /// # Errors
     /// [`SceneProblem::UnknownName`] with the line and the nearest key.

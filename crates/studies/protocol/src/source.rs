@@ -1,8 +1,8 @@
-//! What a study can be fed from, as data: the descriptors of its devices, or what a recording holds. Planning opens nothing.
+//! Sources of a study as data: descriptors of its devices, or the contents of a recording. Planning opens nothing.
 
 use taceva_core::{Channels, Descriptor, FieldSet, Footprint, FrameInfo};
 
-/// Where the samples of a study come from.
+/// Source of the samples of a study.
 #[derive(Clone, Debug)]
 pub enum SourceInfo {
     /// Devices.
@@ -11,7 +11,7 @@ pub enum SourceInfo {
     Recording(RecordingInfo),
 }
 
-/// The descriptors of the devices of a rig; absent ones are not there.
+/// Descriptors of the devices of a rig; `None` for missing ones.
 #[derive(Clone, Debug, Default)]
 pub struct RigInfo {
     /// The sensor.
@@ -20,20 +20,20 @@ pub struct RigInfo {
     pub robot: Option<Descriptor>,
     /// The force transducer.
     pub force: Option<Descriptor>,
-    /// The light around the sensor, if a driver of its own sets it.
+    /// Light around the sensor, if it has its own driver.
     pub lighting: Option<Descriptor>,
 }
 
-/// What a recording holds.
+/// Contents of a recording.
 #[derive(Clone, Debug)]
 pub struct RecordingInfo {
-    /// The fields that its samples carry; predictions never, a model makes them.
+    /// Fields of its samples; never predictions, which a model makes.
     pub fields: FieldSet,
     /// The channels of the truth.
     pub channels: Channels,
-    /// Whether ambient light cannot reach the camera, if anybody wrote it down.
+    /// True if ambient light cannot reach the camera; `None` if unknown.
     pub opaque: Option<bool>,
-    /// Where the sensor senses, if anybody wrote it down.
+    /// Sensing area, if known.
     pub footprint: Option<Footprint>,
     /// Size and format of the frames, if there are any.
     pub frame: Option<FrameInfo>,

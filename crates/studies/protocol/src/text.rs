@@ -1,4 +1,4 @@
-//! Text of a scene or a rig file: read strictly, with the line of whatever is refused.
+//! Text of a scene or a rig file: parsed strictly; errors name the line.
 
 mod error;
 mod setting;
@@ -9,10 +9,10 @@ use taceva_core::{nearest, shown};
 pub use error::{SceneError, SceneProblem};
 pub use setting::Setting;
 
-/// The largest text that is read as a scene, in bytes.
+/// Greatest length of a scene, in bytes.
 pub const GREATEST_SCENE: usize = 1 << 20;
 
-/// The text of a scene and the name that errors call it by.
+/// Text of a scene or rig file, with its name in errors.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Text {
     source_name: String,
@@ -35,17 +35,17 @@ impl Text {
         Ok(whole)
     }
 
-    /// What errors call it.
+    /// Name of the text in errors.
     pub(crate) fn source_name(&self) -> &str {
         &self.source_name
     }
 
-    /// What was written.
+    /// Whole text.
     pub(crate) fn whole(&self) -> &str {
         &self.text
     }
 
-    /// The text as a `T`.
+    /// Parses the text as a `T`.
     pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T, SceneError> {
         toml::from_str(&self.text).map_err(|error| {
             let at = error.span().map(|span| span.start);
@@ -53,7 +53,7 @@ impl Text {
         })
     }
 
-    /// `problem`, at the line of the byte `at`.
+    /// Error for `problem` at the line of the byte `at`.
     pub(crate) fn error(&self, at: Option<usize>, problem: SceneProblem) -> SceneError {
         SceneError {
             source_name: self.source_name.clone(),
@@ -62,7 +62,7 @@ impl Text {
         }
     }
 
-    /// A name that is not among `known`.
+    /// Error for a name that is not in `known`.
     pub(crate) fn unknown_name(
         &self,
         at: Option<usize>,
@@ -85,7 +85,7 @@ impl Text {
     }
 }
 
-/// The parser's message as a problem: foreign text is shown without its control characters.
+/// Converts a message of the parser to a problem; escapes control characters of foreign text.
 fn explained(message: &str) -> SceneProblem {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {

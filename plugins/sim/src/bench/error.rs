@@ -1,4 +1,4 @@
-//! Presses that are refused.
+//! Errors of rejected presses.
 
 use thiserror::Error;
 
@@ -8,23 +8,23 @@ use crate::parameters::Outline;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PressError {
-    /// A number that is no number.
+    /// A number is not finite.
     #[error("`{name}` of a press is {value}, expected a finite number of mm")]
     NotFinite {
-        /// Which number.
+        /// Name of the number.
         name: &'static str,
-        /// Its value.
+        /// Value.
         value: f64,
     },
-    /// A place beside the probed surface.
+    /// The place is outside the probed surface.
     #[error("a press at {} × {} mm, expected a place on {outline}", place_mm[0], place_mm[1])]
     Outside {
-        /// The place.
+        /// Place, in mm.
         place_mm: [f64; 2],
-        /// Where presses may be.
+        /// Probed surface.
         outline: Outline,
     },
-    /// A depth that the sensor does not bear.
+    /// The depth is out of range.
     #[error("a press {depth_mm} mm deep, expected 0 to {depth_max_mm} mm")]
     Depth {
         /// The depth.
@@ -32,12 +32,12 @@ pub enum PressError {
         /// The greatest depth.
         depth_max_mm: f64,
     },
-    /// A drag beyond all measure.
+    /// The shear is out of range.
     #[error("a shear of {shear_mm} mm, expected at most {shear_most_mm} mm either way")]
     Shear {
-        /// The drag along one axis.
+        /// Shear along one axis, in mm.
         shear_mm: f64,
-        /// The greatest one.
+        /// Greatest shear, in mm.
         shear_most_mm: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! What the bench is asked to do.
+//! Presses of the bench.
 
 use super::PressError;
 use crate::parameters::{Outline, Parameters};
@@ -7,24 +7,24 @@ use crate::specimen::Indenter;
 /// A press as the rig is commanded to make it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Press {
-    /// Its name: random numbers of this press alone go by it.
+    /// Id of the press: its own random numbers are drawn by it.
     pub id: u64,
-    /// The point it belongs to: presses at one point share one search for contact and one zero of the transducer.
+    /// Id of its point: presses at one point share one first contact and one zero of the transducer.
     pub point: u64,
-    /// Where the ball comes down, along x and y.
+    /// Place of the ball, along x and y.
     pub place_mm: [f64; 2],
-    /// How far the robot travels into the gel after it has found contact.
+    /// Travel of the robot after first contact.
     pub depth_mm: f64,
-    /// How far it then drags the ball along the gel.
+    /// Shear of the ball along the gel, after the travel.
     pub shear_mm: [f64; 2],
-    /// On the way out: how far it had travelled before it turned. `None` on the way in.
+    /// Travel at the turning point, while unloading; `None` while loading.
     pub turned_mm: Option<f64>,
-    /// The ball.
+    /// Ball of the press.
     pub indenter: Indenter,
 }
 
 impl Press {
-    /// The greatest travel of this press so far.
+    /// Greatest travel of this press so far.
     pub(super) fn deepest_mm(&self) -> f64 {
         self.turned_mm
             .map_or(self.depth_mm, |turned| turned.max(self.depth_mm))
@@ -75,5 +75,5 @@ impl Press {
     }
 }
 
-/// No rig drags a ball further, and a dome would be missed.
+/// Greatest shear along one axis, in mm; beyond it a ball would miss a dome.
 const SHEAR_MOST: f64 = 5.0;

@@ -1,17 +1,17 @@
-//! A flat board on a gel: its force follows from its outline alone, its relief is seen only in pictures.
+//! A flat board on a gel: its outline alone sets the force; its relief appears only in pictures.
 
 use std::f64::consts::{PI, TAU};
 
 use crate::elastic::kernel::Kernel;
 use crate::parameters::Layer;
 
-/// The side of every board.
+/// Side of every board, mm.
 pub(crate) const SIDE_MM: f64 = 10.0;
 
-/// Force a depth of a flat board on a bonded layer, N/mm, before a lattice closes.
+/// Stiffness of a bonded layer under a flat board, N/mm, before a lattice closes.
 ///
-/// The board is taken as a disc of equal area under the pressure P/(2π a √(a² − r²)), which is exact on a half-space; the layer's kernel
-/// gives the mean depth under it: at ν = 1/2, c E a = 3/8 + (1/2π) ∫ (sin x/x)² (3/2) (L(x h/a) − 1) dx.
+/// The board counts as a disc of equal area under the pressure P/(2π a √(a² − r²)), which is exact on a half-space. The kernel of the layer
+/// gives the mean depth: at ν = 1/2, c E a = 3/8 + (1/2π) ∫ (sin x/x)² (3/2) (L(x h/a) − 1) dx.
 pub(super) fn layer_stiffness_n_per_mm(layer: &Layer) -> f64 {
     let radius = SIDE_MM / PI.sqrt();
     let thickness = layer.thickness_mm / radius;
@@ -28,13 +28,13 @@ pub(super) fn layer_stiffness_n_per_mm(layer: &Layer) -> f64 {
     layer.young_modulus_mpa * radius / (0.375 + correction / TAU)
 }
 
-/// A board hangs on a holder that lets it level itself on the gel and gives way by so much, N/mm; a rigid one would pass the force limit
-/// of any flat gel within a tenth of a millimetre.
+/// Stiffness of the holder of a board, N/mm, which levels itself on the gel. A rigid holder would exceed the force limit of any flat gel
+/// within a tenth of a millimetre.
 const HOLDER_N_PER_MM: f64 = 1.0;
 /// Halvings of a depth: far below a nanometre.
 const BISECTIONS: u32 = 40;
 
-/// How deep a board stands in the gel when its holder stands `travel_mm` below touching; `force_n` is the gel's at a depth.
+/// Depth of a board in the gel, mm, for a holder `travel_mm` below first touch; `force_n` is the force of the gel at a depth.
 pub(super) fn depth_under_holder_mm(travel_mm: f64, force_n: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0, travel_mm);
     for _ in 0..BISECTIONS {
@@ -48,7 +48,7 @@ pub(super) fn depth_under_holder_mm(travel_mm: f64, force_n: impl Fn(f64) -> f64
     low
 }
 
-/// Where the layer's correction has died away.
+/// Upper end of the integral, at which the correction of the layer has decayed.
 const ZETA_MAX: f64 = 14.0;
 /// Intervals of the midpoint rule; the integrand is smooth and even.
 const INTERVALS: u32 = 2000;

@@ -1,8 +1,7 @@
 //! A ball on a skin over a soft hemisphere.
 //!
-//! F(d) = k₁ d + k₂ d^(3/2) along the line through both centres: the skin's buckled point stiffness and Hertz's law of the gel. A ball
-//! that comes down beside the apex meets the dome at a slant, presses less along the normal and slides along the surface: that alone
-//! makes the rim look softer.
+//! F(d) = k₁ d + k₂ d^(3/2) along the line through both centres: the buckled point stiffness of the skin, and Hertz's law of the gel. A
+//! ball beside the apex meets the dome at a slant. It presses less along the normal and slides, which alone makes the rim look softer.
 
 use super::indentation::Indentation;
 use super::stand::{Answer, Stand, dot};
@@ -12,11 +11,11 @@ use crate::parameters::Dome;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DomeLaw {
     dome: Dome,
-    /// 1 / √R of the ball that the gel's stiffness was stated for.
+    /// 1 / √R of the ball for which the stiffness of the gel is stated.
     inverse_root_stated: f64,
 }
 
-/// The ball that the gel's stiffness is stated for.
+/// Radius of the ball for which the stiffness of the gel is stated, mm.
 const STATED_INDENTER_MM: f64 = 2.0;
 
 impl DomeLaw {
@@ -46,12 +45,12 @@ impl DomeLaw {
         }
     }
 
-    /// Where the lowest point of a ball is when it just touches, over the apex.
+    /// Height of the lowest point of a touching ball, relative to the apex.
     pub(super) fn touch_height_mm(&self, place_mm: [f64; 2], indenter_radius_mm: f64) -> f64 {
         self.rise(place_mm, indenter_radius_mm) - self.dome.radius_mm - indenter_radius_mm
     }
 
-    /// How high a touching ball's centre is over the dome's.
+    /// Height of the centre of a touching ball over that of the dome.
     fn rise(&self, [x, y]: [f64; 2], indenter_radius_mm: f64) -> f64 {
         let reach = self.dome.radius_mm + indenter_radius_mm;
         (reach * reach - x * x - y * y).max(0.0).sqrt()

@@ -3,17 +3,17 @@
 //! # Reference
 //! Cattaneo (1938), Mindlin (1949) for the first loading; Mindlin and Deresiewicz (1953) for its reversal at constant normal force.
 
-/// A contact that resists being dragged: k₀ at first, μF at most.
+/// Tangential resistance of a contact: stiffness k₀ at first, force μF at most.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    /// μF, the force at which everything slides.
+    /// μF, the force at which the whole contact slides.
     pub limit_n: f64,
-    /// k₀, force a displacement before anything slides; above 0.
+    /// k₀, the stiffness before any sliding; above 0.
     pub stiffness_n_per_mm: f64,
 }
 
 impl Friction {
-    /// The displacement at which everything slides: 3 μF / (2 k₀).
+    /// Displacement at which the whole contact slides: 3 μF / (2 k₀).
     pub fn sliding_begins_mm(&self) -> f64 {
         1.5 * self.limit_n / self.stiffness_n_per_mm
     }
@@ -29,12 +29,12 @@ impl Friction {
         (self.load(turned_mm) - 2.0 * self.resist(back)).max(-self.limit_n)
     }
 
-    /// The radius that sticks over the contact radius: (1 − |Q|/μF)^(1/3).
+    /// Stick radius over the contact radius: (1 − |Q|/μF)^(1/3).
     pub fn stick_ratio(&self, force_n: f64) -> f64 {
         libm::cbrt((1.0 - force_n.abs() / self.limit_n).max(0.0))
     }
 
-    /// The force at `share` of the displacement at which everything slides.
+    /// Force at `share` of the displacement of full sliding.
     fn resist(&self, share: f64) -> f64 {
         let rest = (1.0 - share).max(0.0);
         self.limit_n * (1.0 - rest * rest.sqrt())

@@ -1,18 +1,18 @@
 //! The movement of a ball into a body.
 
-/// Where a ball goes, from the place where it would just touch.
+/// Displacement of a ball from first touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Indentation {
-    /// Where it comes down.
+    /// Place of first touch.
     pub place_mm: [f64; 2],
-    /// How far below touching it stands.
+    /// Depth below first touch.
     pub depth_mm: f64,
-    /// How far below touching it has been: more than `depth_mm` on the way out.
+    /// Greatest depth so far: more than `depth_mm` while unloading.
     pub deepest_mm: f64,
-    /// How far it is dragged along the surface, once deep.
+    /// Shear along the surface, at depth.
     pub shear_mm: [f64; 2],
-    /// Its radius.
+    /// Radius of the ball.
     pub indenter_radius_mm: f64,
-    /// How stiff the gel is here over its nominal stiffness.
+    /// Stiffness of the gel here, relative to its nominal stiffness.
     pub stiffness: f64,
 }

@@ -5,7 +5,7 @@ use super::stand::Answer;
 use crate::elastic::layer;
 use crate::parameters::Layer;
 
-/// F = (16/9) E √R d^(3/2) ψ(χ) (1 + d/d₀), with the stiffening of a lattice that closes in d₀.
+/// F = (16/9) E √R d^(3/2) ψ(χ) (1 + d/d₀), with the stiffening of a lattice that closes over d₀.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LayerLaw {
     layer: Layer,
@@ -23,7 +23,7 @@ impl LayerLaw {
         }
     }
 
-    /// The force of a flat board and the modulus that the gel shows it.
+    /// Force of a flat board, and the effective modulus of the gel.
     pub(super) fn board(&self, depth_mm: f64) -> (f64, f64) {
         let stiffening = 1.0 + self.layer.stiffening_per_mm * depth_mm;
         (

@@ -1,12 +1,12 @@
-//! A gel that forgets part of its force: one term of a Prony series.
+//! Relaxation of a gel: one term of a Prony series.
 //!
-//! F(t) = (1 − g) F₀(d(t)) + h(t), dh/dt = −h/τ + g dF₀/dt. A step in which F₀ is linear is exact whatever its length:
-//! h ← h e^(−Δt/τ) + g ΔF₀ (τ/Δt) (1 − e^(−Δt/τ)). The force is never below zero: a gel that recovers too slowly loses contact.
+//! F(t) = (1 − g) F₀(d(t)) + h(t), dh/dt = −h/τ + g dF₀/dt. A step with linear F₀ is exact at any length: h ← h e^(−Δt/τ) + g ΔF₀ (τ/Δt) (1
+//! − e^(−Δt/τ)). The force is never below zero: a gel that recovers too slowly loses contact.
 //!
 //! # Reference
 //! Standard linear solid; Lee and Radok (1960) for a growing contact. On unloading, where the contact shrinks, it is an approximation.
 
-/// The memory of a gel.
+/// Relaxation state of a gel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relaxation {
     fraction: f64,
@@ -15,7 +15,7 @@ pub struct Relaxation {
     fading_n: f64,
 }
 
-/// How much a memory fades in a step of one length; worked out once for steps alike.
+/// Decay of the relaxation state in a step of one length, computed once for equal steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decay {
     kept: f64,
@@ -23,7 +23,7 @@ pub struct Decay {
 }
 
 impl Relaxation {
-    /// A gel at rest that relaxes by `fraction` of its force in the time `time_s`.
+    /// Creates a gel at rest that relaxes by `fraction` of its force in the time `time_s`.
     pub fn new(fraction: f64, time_s: f64) -> Relaxation {
         Relaxation {
             fraction,
@@ -33,12 +33,12 @@ impl Relaxation {
         }
     }
 
-    /// Whether it forgets nothing.
+    /// True if the gel does not relax.
     pub fn is_elastic(&self) -> bool {
         self.fraction <= 0.0
     }
 
-    /// What a step of `step_s` does to it.
+    /// Decay in a step of `step_s`.
     pub fn decay(&self, step_s: f64) -> Decay {
         let share = step_s / self.time_s;
         if share <= 0.0 {
@@ -54,19 +54,19 @@ impl Relaxation {
         }
     }
 
-    /// Goes one step on, to where a gel without memory would press with `elastic_n`.
+    /// Advances one step, to the force `elastic_n` of a gel without relaxation.
     pub fn step(&mut self, elastic_n: f64, decay: Decay) {
         let grown = self.fraction * (elastic_n - self.elastic_n);
         self.fading_n = self.fading_n * decay.kept + grown * decay.gained;
         self.elastic_n = elastic_n;
     }
 
-    /// The force now.
+    /// Current force.
     pub fn force_n(&self) -> f64 {
         ((1.0 - self.fraction) * self.elastic_n + self.fading_n).max(0.0)
     }
 
-    /// The force now over that of a gel without memory; 1 where that one is zero.
+    /// Current force relative to that of a gel without relaxation; 1 if that is zero.
     pub fn ratio(&self) -> f64 {
         if self.elastic_n > 0.0 {
             self.force_n() / self.elastic_n

@@ -1,4 +1,4 @@
-//! A body, and what is asked of it.
+//! A body and its contacts.
 
 use super::board;
 use super::dome_law::DomeLaw;
@@ -8,7 +8,7 @@ use super::stand::{Answer, Stand, dot};
 use super::{Contact, Friction, Relaxation};
 use crate::parameters::{Body, Parameters};
 
-/// A sensor's body as the solver of contacts sees it.
+/// Body of a sensor, as the contact solver sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid {
     law: Law,
@@ -23,19 +23,19 @@ enum Law {
     Dome(DomeLaw),
 }
 
-/// How a flat board stands in a gel.
+/// State of a flat board in a gel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BoardStand {
-    /// How deep.
+    /// Depth.
     pub depth_mm: f64,
-    /// How hard it is pressed.
+    /// Normal force.
     pub force_n: f64,
-    /// The modulus that the gel shows it.
+    /// Effective modulus of the gel.
     pub young_modulus_mpa: f64,
 }
 
 impl Solid {
-    /// The body of a sensor with these parameters, pressed at the speed of its rig.
+    /// Creates the body of a sensor with these parameters, pressed at the speed of its rig.
     pub fn new(parameters: &Parameters) -> Solid {
         Solid {
             law: match parameters.body {
@@ -51,7 +51,7 @@ impl Solid {
         }
     }
 
-    /// The height at which the lowest point of a ball just touches the undeformed body, over the apex.
+    /// Height of the lowest point of a ball that just touches the undeformed body, relative to the apex.
     pub fn touch_height_mm(&self, place_mm: [f64; 2], indenter_radius_mm: f64) -> f64 {
         match &self.law {
             Law::Layer(_) => 0.0,
@@ -59,7 +59,7 @@ impl Solid {
         }
     }
 
-    /// The force along the sensor's axis of a gel that has had no time to relax: what a search for contact meets.
+    /// Force along the sensor's axis without relaxation, as in a search for contact.
     pub fn swift_force_n(&self, indentation: &Indentation) -> f64 {
         let stand = self.stand(indentation, indentation.depth_mm, indentation.shear_mm);
         let answer = self.answer(&stand, indentation);
@@ -71,7 +71,7 @@ impl Solid {
         (answer.force_n * stand.normal[2] - shear_n * tangent[2]) * indentation.stiffness
     }
 
-    /// The contact after `indentation`, reached at the rig's speed and read at once.
+    /// Contact after `indentation` at the speed of the rig, read at once.
     pub fn contact(&self, indentation: &Indentation) -> Contact {
         let stand = self.stand(indentation, indentation.depth_mm, indentation.shear_mm);
         let answer = self.answer(&stand, indentation);
@@ -79,20 +79,20 @@ impl Solid {
         self.settle(indentation, &stand, &answer, relaxed)
     }
 
-    /// The contact after `indentation` where the force is `relaxed` times that of a gel without time to relax.
+    /// Contact after `indentation`, with a force of `relaxed` times the unrelaxed one.
     pub fn contact_at(&self, indentation: &Indentation, relaxed: f64) -> Contact {
         let stand = self.stand(indentation, indentation.depth_mm, indentation.shear_mm);
         let answer = self.answer(&stand, indentation);
         self.settle(indentation, &stand, &answer, relaxed)
     }
 
-    /// The normal force of an unrelaxed gel at `depth_mm` of the indentation's own shear: what its memory is fed with.
+    /// Normal force of an unrelaxed gel at `depth_mm` with the shear of `indentation`: the input of the relaxation.
     pub fn elastic_force_n(&self, indentation: &Indentation, depth_mm: f64) -> f64 {
         let stand = self.stand(indentation, depth_mm, indentation.shear_mm);
         self.answer(&stand, indentation).force_n * indentation.stiffness
     }
 
-    /// A flat board whose holder stands `travel_mm` below touching at the apex, on a gel of nominal stiffness without time to relax.
+    /// State of a flat board whose holder is `travel_mm` below first touch at the apex, on an unrelaxed gel of nominal stiffness.
     pub fn board(&self, travel_mm: f64) -> BoardStand {
         if travel_mm <= 0.0 {
             return BoardStand::default();
@@ -113,7 +113,7 @@ impl Solid {
         }
     }
 
-    /// The memory of this body.
+    /// Relaxation of this body, at rest.
     pub fn relaxation(&self) -> Relaxation {
         self.relaxation
     }
@@ -145,7 +145,7 @@ impl Solid {
         }
     }
 
-    /// The force over the unrelaxed one: a ramp in to the deepest, and perhaps out again, along the normal.
+    /// Force relative to the unrelaxed one after a ramp to the greatest depth, and back if unloading, along the normal.
     fn relaxed(&self, indentation: &Indentation, normal_depth_mm: f64) -> f64 {
         let unrelaxed = |depth: f64| {
             self.answer_at(depth, indentation.indenter_radius_mm)
@@ -185,7 +185,7 @@ impl Solid {
         }
     }
 
-    /// Friction, directions and forces of an answer.
+    /// Computes friction, directions and forces of a contact.
     fn settle(
         &self,
         indentation: &Indentation,
@@ -230,13 +230,13 @@ impl Solid {
     }
 }
 
-/// A ball so large that it is flat.
+/// Radius of a ball that counts as flat, mm.
 const FLAT_MM: f64 = 1e9;
 
-/// Steps in which a ramp is remembered; the force is taken as linear in each.
+/// Steps of a ramp; the force is linear in each.
 const RAMP_STEPS: u32 = 12;
 
-/// The length and the direction of a vector.
+/// Length and direction of a vector.
 fn unit(vector: [f64; 3]) -> (f64, [f64; 3]) {
     let length = dot(vector, vector).sqrt();
     if length > 0.0 {

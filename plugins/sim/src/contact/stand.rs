@@ -1,17 +1,17 @@
-//! What a contact law is given and what it returns.
+//! Input and output of a contact law.
 
-/// The position of a ball in a body, as both laws need it.
+/// Position of a ball in a body, for both laws.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stand {
     /// Indentation along the normal.
     pub(super) normal_depth_mm: f64,
     /// Outward normal.
     pub(super) normal: [f64; 3],
-    /// Displacement along the surface since touching.
+    /// Displacement along the surface since first touch.
     pub(super) slide: [f64; 3],
 }
 
-/// What a law says of a normal indentation.
+/// Response to a normal indentation.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Answer {
     /// Normal force.
@@ -20,9 +20,9 @@ pub(super) struct Answer {
     pub(super) shear_n_per_mm: f64,
     /// Contact radius.
     pub(super) radius_mm: f64,
-    /// Modulus shown.
+    /// Effective modulus.
     pub(super) young_modulus_mpa: f64,
-    /// The skin's part of the force.
+    /// Share of the skin in the force.
     pub(super) skin_share: f64,
 }
 

@@ -1,30 +1,30 @@
-//! What earlier presses did to a gel: conditioning, also called the Mullins effect.
+//! Conditioning of a gel by earlier presses, also called the Mullins effect.
 //!
-//! Below a depth to which it was pressed before, a gel presses back with 1 − m (1 − e^(−n/n₀)) of its force after n presses. The
-//! history is a function of the set of finished presses, not of their order: a run that was interrupted meets the same gel.
+//! Below a depth of earlier presses, a gel has 1 − m (1 − e^(−n/n₀)) of its force after n presses. The history is a function of the set of
+//! finished presses, not of their order: an interrupted run meets the same gel.
 
 use std::collections::BTreeMap;
 
 use crate::parameters::Material;
 
-/// How a gel is conditioned.
+/// Conditioning law of a gel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conditioning {
     fraction: f64,
     presses: f64,
 }
 
-/// What one place has gone through.
+/// Wear of one point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wear {
-    /// How often it was pressed.
+    /// Number of presses.
     pub presses: u32,
-    /// How deep at most.
+    /// Greatest depth, mm.
     pub deepest_mm: f64,
 }
 
 impl Conditioning {
-    /// As the material says.
+    /// Reads the law from the material.
     pub fn new(material: &Material) -> Conditioning {
         Conditioning {
             fraction: material.conditioning_fraction,
@@ -32,7 +32,7 @@ impl Conditioning {
         }
     }
 
-    /// What is left of the force at `depth_mm` of a place with this wear.
+    /// Remaining part of the force at `depth_mm` of a place with this wear.
     pub fn remaining(&self, wear: Wear, depth_mm: f64) -> f64 {
         if wear.presses == 0 || depth_mm >= wear.deepest_mm {
             return 1.0;
@@ -42,26 +42,26 @@ impl Conditioning {
     }
 }
 
-/// The finished presses of a run, as far as the gel remembers them: by point.
+/// Wear of a gel by the finished presses of a run, by point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     points: BTreeMap<u64, Wear>,
 }
 
 impl History {
-    /// A gel that nobody has pressed.
+    /// Creates the history of a new gel.
     pub fn new() -> History {
         History::default()
     }
 
-    /// Notes a press to `depth_mm` at `point`.
+    /// Adds a press to `depth_mm` at `point`.
     pub fn finish(&mut self, point: u64, depth_mm: f64) {
         let wear = self.points.entry(point).or_default();
         wear.presses = wear.presses.saturating_add(1);
         wear.deepest_mm = wear.deepest_mm.max(depth_mm);
     }
 
-    /// What `point` has gone through.
+    /// Wear of `point`.
     pub fn wear(&self, point: u64) -> Wear {
         self.points.get(&point).copied().unwrap_or_default()
     }

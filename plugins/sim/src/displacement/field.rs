@@ -1,11 +1,11 @@
-//! A press's profile put in its place.
+//! A profile placed at its contact.
 
 use super::load::Load;
 use super::profile::Profile;
 use super::radial::Quantity;
 use crate::number::narrow;
 
-/// Where points go under one press.
+/// Displacements under one press.
 ///
 /// ```
 /// use taceva_sim::displacement::{Field, Load, Profile, Tables};
@@ -32,7 +32,7 @@ pub struct Field<'p> {
 }
 
 impl<'p> Field<'p> {
-    /// The field of `load`, whose profile is `profile`.
+    /// Places `profile` at the contact of `load`.
     pub fn new(profile: &'p Profile, load: &Load) -> Field<'p> {
         Field {
             profile,
@@ -41,7 +41,7 @@ impl<'p> Field<'p> {
         }
     }
 
-    /// The displacement of the point that lay at `x_mm`, `y_mm`: along x, along y and upwards, out of the gel, in mm.
+    /// Displacement of the point at `x_mm`, `y_mm`: along x, along y and upwards, out of the gel, in mm.
     pub fn at(&self, x_mm: f32, y_mm: f32) -> [f32; 3] {
         let [x, y] = [x_mm - self.centre[0], y_mm - self.centre[1]];
         let [shear_x, shear_y] = self.shear;
@@ -57,7 +57,7 @@ impl<'p> Field<'p> {
         ]
     }
 
-    /// The gradient of the height at `x_mm`, `y_mm`: by x and by y, mm/mm.
+    /// Gradient of the height at `x_mm`, `y_mm`: by x and by y, mm/mm.
     pub fn slope(&self, x_mm: f32, y_mm: f32) -> [f32; 2] {
         let [x, y] = [x_mm - self.centre[0], y_mm - self.centre[1]];
         let [shear_x, shear_y] = self.shear;

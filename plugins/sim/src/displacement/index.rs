@@ -1,34 +1,34 @@
-//! Where a radius lies in a table: fine near the contact, coarser in proportion further out.
+//! Index of a radius in a table: fine near the contact, proportionally coarser farther out.
 //!
-//! Tables are indexed by t = 1 + (r/a)², each octave of t cut into equal cells, out to 64 contact radii. The place in the octave is
-//! read off the bits of the number: no logarithm, no square root. The contact's rim, t = 2, is a node, so a kink there stays one.
+//! Tables are indexed by t = 1 + (r/a)². Each octave of t is cut into equal cells, out to 64 contact radii. The bits of the number give the
+//! place in the octave, without logarithm or square root. The rim of the contact, t = 2, is a node, so a kink there stays exact.
 
-/// Cells an octave; a power of two.
+/// Cells in an octave; a power of two.
 const CELLS: usize = 1 << CELL_BITS;
 const CELL_BITS: u32 = 6;
 /// Octaves of t.
 const OCTAVES: usize = 12;
-/// Values a table: one a node, from the centre to 64 contact radii.
+/// Values in a table: one at each node, from the centre to 64 contact radii.
 pub const NODES: usize = OCTAVES * CELLS + 1;
 
-/// A function of r², a value a [`node`].
+/// A function of r², with a value at each [`node`].
 pub type Radial = [f32; NODES];
 
 /// Bits of the fraction in a binary32.
 const FRACTION_BITS: u32 = f32::MANTISSA_DIGITS - 1;
 const CELL_SHIFT: u32 = FRACTION_BITS - CELL_BITS;
 
-/// A place between two nodes of a table.
+/// A position between two nodes of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// The node below, at most `NODES - 2`.
+    /// Lower node, at most `NODES - 2`.
     pub cell: usize,
-    /// How far towards the next node: 0 to 1.
+    /// Fraction of the way to the next node: 0 to 1.
     pub fraction: f32,
 }
 
 impl Place {
-    /// The value of `table` here, linear in r² between nodes.
+    /// Value of `table` here, linear in r² between nodes.
     #[inline(always)]
     pub fn of(self, table: &Radial) -> f32 {
         let below = table[self.cell];
@@ -36,7 +36,7 @@ impl Place {
     }
 }
 
-/// The place of t = 1 + (r/a)²; places further out than the table are its end.
+/// Position of t = 1 + (r/a)²; values beyond the table map to its end.
 ///
 /// ```
 /// use taceva_sim::displacement::{locate, node};
@@ -61,7 +61,7 @@ pub fn locate(t: f32) -> Place {
     }
 }
 
-/// t at a node.
+/// Value of t at a node.
 pub fn node(position: usize) -> f64 {
     let octave = i32::try_from(position / CELLS).expect("tables have few octaves");
     #[expect(

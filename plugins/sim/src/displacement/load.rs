@@ -1,17 +1,17 @@
-//! What a press does to a gel, as far as displacements go.
+//! Load on a gel, as input of displacements.
 
-/// A round contact that presses and drags.
+/// A round contact with pressure and shear.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load {
-    /// The centre of the contact on the surface.
+    /// Centre of the contact on the surface.
     pub centre_mm: [f64; 2],
     /// The contact radius a.
     pub contact_radius_mm: f64,
-    /// How deep the ball stands in the gel, along its normal.
+    /// Depth of the ball along its normal.
     pub depth_mm: f64,
     /// The radius of the ball.
     pub indenter_radius_mm: f64,
-    /// The modulus that the gel shows here, at this depth.
+    /// Effective modulus of the gel at this depth.
     pub young_modulus_mpa: f64,
     /// Force along the normal, positive into the gel.
     pub normal_force_n: f64,
@@ -20,13 +20,13 @@ pub struct Load {
 }
 
 impl Load {
-    /// The size of the shear force.
+    /// Magnitude of the shear force.
     pub fn shear_n(&self) -> f64 {
         let [x, y] = self.shear_force_n;
         (x * x + y * y).sqrt()
     }
 
-    /// The direction of the shear force: a unit vector, x where there is no shear.
+    /// Direction of the shear force: a unit vector, along x without shear.
     pub fn shear_direction(&self) -> [f64; 2] {
         let size = self.shear_n();
         if size > 0.0 {

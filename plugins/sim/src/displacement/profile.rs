@@ -1,11 +1,11 @@
-//! The radial functions of one press.
+//! Radial functions of one press.
 
 use super::index::{NODES, Place, Radial, locate, node};
 use super::load::Load;
 use super::radial::Quantity;
 use crate::number::narrow;
 
-/// The radial functions of one press, in mm and plain numbers; reuse one for press after press.
+/// Radial functions of one press, in mm and plain numbers; reusable for later presses.
 #[derive(Clone, Debug)]
 pub struct Profile {
     radius_mm: f64,
@@ -20,7 +20,7 @@ impl Default for Profile {
 }
 
 impl Profile {
-    /// The profile of no press: nothing moves.
+    /// Creates a profile without displacement.
     pub fn new() -> Profile {
         Profile {
             radius_mm: 1.0,
@@ -29,24 +29,24 @@ impl Profile {
         }
     }
 
-    /// One of its functions, a value a [`node`]: in mm for [`Quantity::Sink`] and [`Quantity::Along`], over mm for each r they are
-    /// divided by.
+    /// Table of one function, with a value at each [`node`]: in mm for [`Quantity::Sink`] and [`Quantity::Along`], else divided by mm for
+    /// each factor r.
     pub fn table(&self, quantity: Quantity) -> &Radial {
         &self.tables[quantity as usize]
     }
 
-    /// 1/a² in 1/mm²: t = 1 + r² times this is what [`locate`] takes.
+    /// 1/a² in 1/mm²: [`locate`] takes t = 1 + r² times this value.
     pub fn inverse_radius_squared(&self) -> f32 {
         self.inverse_radius_squared
     }
 
-    /// The place of a squared radius in its tables.
+    /// Position of a squared radius in the tables.
     #[inline(always)]
     pub fn locate(&self, radius_squared_mm2: f32) -> Place {
         locate(1.0 + radius_squared_mm2 * self.inverse_radius_squared)
     }
 
-    /// How far out it moves or tilts anything by more than `least`, in mm; 0 if nothing moves that far.
+    /// Radius beyond which the function stays at or below `least` in magnitude, in mm; 0 if it never exceeds it.
     pub fn reach(&self, quantity: Quantity, least: f32) -> f64 {
         let table = self.table(quantity);
         let last = table.iter().rposition(|value| value.abs() > least);
@@ -70,14 +70,14 @@ impl Profile {
         &mut self.tables[quantity as usize]
     }
 
-    /// Lays the gel on the ball inside the contact and scales the sink outside to meet it.
+    /// Fits the sink to the ball inside the contact and scales it outside to match at the rim.
     pub(super) fn follow_ball(&mut self, load: &Load) {
         let curvature = 1.0 / load.indenter_radius_mm;
         let squared = self.radius_mm * self.radius_mm;
         let at_rim = load.depth_mm - 0.5 * squared * curvature;
         let rim = RIM;
         let scale = at_rim / f64::from(self.table(Quantity::Sink)[rim]);
-        // Ball and layer agree to some per cent; a pressure far from Hertz's has no rim to scale to.
+        // Ball and layer agree to some per cent; a pressure far from Hertz's gives no usable ratio at the rim.
         let scale = if (0.5..2.0).contains(&scale) {
             narrow(scale)
         } else {
@@ -97,7 +97,7 @@ impl Profile {
     }
 }
 
-/// The node of the contact's rim, t = 2.
+/// Node of the contact's rim, t = 2.
 const RIM: usize = (NODES - 1) / 12;
 
 #[cfg(test)]

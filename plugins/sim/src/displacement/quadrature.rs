@@ -1,7 +1,7 @@
-//! The Hankel integrals of a bonded layer under a round contact, everything in units of the contact radius.
+//! Hankel integrals of a bonded layer under a round contact, in units of the contact radius.
 //!
-//! On the surface the half-space's part is known in closed form and only the layer's correction, which dies away like
-//! e^(−2kh), is integrated. Below the surface the answer is smooth and is integrated whole.
+//! On the surface the half-space has a closed form; only the correction of the layer, which decays like e^(−2kh), is integrated. Below the
+//! surface the whole, smooth response is integrated.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,7 +9,7 @@ use super::radial::Quantity;
 use crate::elastic::hertz;
 use crate::elastic::kernel::Kernel;
 
-/// A layer seen from its contact: lengths over the contact radius, unit modulus, ν = 1/2.
+/// A layer in units of its contact: lengths over the contact radius, unit modulus, ν = 1/2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Layer {
     /// Thickness.
@@ -18,26 +18,27 @@ pub(super) struct Layer {
     pub(super) depth: f64,
 }
 
-/// A value of each [`Quantity`], in its order.
+/// A value for each [`Quantity`], in its order.
 pub(super) type Values = [f64; Quantity::ALL.len()];
 
-/// Incompressible: what the force laws are fitted for.
+/// Incompressible, as assumed by the force laws.
 const POISSON_RATIO: f64 = 0.5;
 /// 2(1 − ν²)/E and 1/G at unit modulus.
 const NORMAL_COMPLIANCE: f64 = 1.5;
 const SHEAR_COMPLIANCE: f64 = 3.0;
-/// Where the correction of the layer has died away: 2·14 powers of e.
+/// Upper end of the integral on the surface, at which the correction of the layer has decayed by e^(−28).
 const ZETA_MAX: f64 = 14.0;
-/// Where the attenuation of depth has died away.
+/// Upper end of the integral below the surface, at which the response has decayed.
 const ATTENUATION_MAX: f64 = 30.0;
-/// Panels that follow the decay of the integrand where it does not swing.
+/// Least number of panels, which resolve the decay of an integrand that does not oscillate.
 const LEAST_PANELS: f64 = 10.0;
-/// Far out the field varies over lengths like r itself: a blur of 3 % of r changes 5·10⁻⁴ of it and ends the integral at k r = 150.
+/// Relative blur far out, where the field varies over lengths like r. A blur of 3 % of r changes it by 5·10⁻⁴ and ends the integral at k r
+/// = 150.
 const BLUR: f64 = 0.03;
 const ARGUMENT_MAX: f64 = 150.0;
 
 impl Layer {
-    /// What has to be integrated at `rho` contact radii from the centre.
+    /// Integrates the numerical part at `rho` contact radii from the centre.
     pub(super) fn integral(&self, rho: f64) -> Values {
         let on_surface = self.depth <= 0.0;
         let natural = if on_surface {
@@ -66,7 +67,7 @@ impl Layer {
         sum
     }
 
-    /// The integrand at wave number `k`.
+    /// Adds the integrand at wave number `k`.
     fn add(&self, sum: &mut Values, k: f64, rho: f64, weight: f64) {
         let mut kernel = Kernel::of_layer(k * self.thickness, POISSON_RATIO);
         let mut outward = kernel.coupling;
@@ -99,13 +100,13 @@ impl Layer {
         sum[Quantity::BulgeSlope as usize] -= bulge * k * j2_over;
     }
 
-    /// What the half-space adds in closed form at `rho`.
+    /// Closed-form part of the half-space at `rho`.
     pub(super) fn closed_form(&self, rho: f64) -> Values {
         let mut values = Values::default();
         if self.depth > 0.0 {
             return values;
         }
-        // A unit force: d = 9/(16 E a).
+        // Unit force: d = 9/(16 E a).
         let depth = 0.5625;
         values[Quantity::Sink as usize] = depth * hertz::profile(rho);
         values[Quantity::SinkSlope as usize] = depth * hertz::profile_slope(rho);
@@ -120,7 +121,7 @@ impl Layer {
     }
 }
 
-/// J₀(kρ), J₁(kρ)/ρ and J₂(kρ)/ρ², finite in the centre.
+/// J₀(kρ), J₁(kρ)/ρ and J₂(kρ)/ρ², finite at the centre.
 fn bessel(k: f64, rho: f64) -> [f64; 3] {
     let x = k * rho;
     if x < 1e-3 {
@@ -141,7 +142,7 @@ fn bessel(k: f64, rho: f64) -> [f64; 3] {
     [j0, j1 / rho, j2 / (rho * rho)]
 }
 
-/// Hertz's pressure of unit force as a function of the wave number: 3 (sin k − k cos k)/k³.
+/// Spectrum of Hertz's pressure of unit force: 3 (sin k − k cos k)/k³.
 fn hertz_spectrum(k: f64) -> f64 {
     if k < 0.05 {
         return 1.0 - k * k / 10.0 * (1.0 - k * k / 28.0);
@@ -150,7 +151,7 @@ fn hertz_spectrum(k: f64) -> f64 {
     3.0 * (sin - k * cos) / (k * k * k)
 }
 
-/// The shear of a contact that does not slip, of unit force: sin k / k.
+/// Spectrum of the shear of unit force without slip: sin k / k.
 fn punch_spectrum(k: f64) -> f64 {
     if k < 1e-4 { 1.0 } else { libm::sin(k) / k }
 }
@@ -159,7 +160,7 @@ fn gauss_bell(x: f64) -> f64 {
     libm::exp(-0.5 * x * x)
 }
 
-/// Gauss and Legendre's six points on 0 to 1: half a period of the integrand to ten digits.
+/// Gauss-Legendre nodes and weights of order six on 0 to 1: half a period of the integrand to ten digits.
 const GAUSS: [(f64, f64); 6] = [
     (0.033_765_242_898_423_99, 0.085_662_246_189_585_18),
     (0.169_395_306_766_867_74, 0.180_380_786_524_069_3),

@@ -1,6 +1,6 @@
-//! The radial functions that a table holds.
+//! Radial functions in a table.
 
-/// What a radial function tells; the unit is that of a unit force on a unit modulus at unit contact radius.
+/// Radial functions, in the units of a unit force on a unit modulus at unit contact radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub enum Quantity {
@@ -8,9 +8,9 @@ pub enum Quantity {
     Sink,
     /// Derivative of the depth by r, over r.
     SinkSlope,
-    /// Displacement outwards under pressure, over r.
+    /// Outward displacement under pressure, over r.
     Outward,
-    /// Displacement along the shear, the part that does not turn with the place: A₀ + A₂.
+    /// Displacement along the shear that is independent of the angle: A₀ + A₂.
     Along,
     /// Displacement towards the shear's axis, over r²: 2 A₂/r².
     Radial,
@@ -21,7 +21,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Every quantity, in the order of its number.
+    /// All quantities, in order of their numbers.
     pub const ALL: [Quantity; 7] = [
         Quantity::Sink,
         Quantity::SinkSlope,
@@ -32,7 +32,7 @@ impl Quantity {
         Quantity::BulgeSlope,
     ];
 
-    /// Whether it answers the shear rather than the pressure.
+    /// True for responses to the shear, false for those to the pressure.
     pub(super) const fn is_of_shear(self) -> bool {
         !matches!(
             self,
@@ -40,7 +40,7 @@ impl Quantity {
         )
     }
 
-    /// How often its unit has the contact radius in the denominator.
+    /// Power of the contact radius in the denominator of its unit.
     pub(super) const fn radius_power(self) -> u8 {
         match self {
             Quantity::Sink | Quantity::Along => 1,

@@ -1,4 +1,4 @@
-//! The radial functions of one layer at one depth, for every contact radius.
+//! Radial functions of one layer at one depth, for every contact radius.
 
 use super::index::{NODES, Radial, node};
 use super::load::Load;
@@ -7,15 +7,15 @@ use super::quadrature::{Layer, Values};
 use super::radial::Quantity;
 use crate::number::narrow;
 
-/// Contact radii a table has rows for: from 0.1 mm, three an octave, to 5 mm.
+/// Rows of a table, one for each contact radius: from 0.1 mm, three an octave, to 5 mm.
 const ROWS: usize = 18;
 const SMALLEST_RADIUS_MM: f64 = 0.1;
-/// Nodes between those where the integral is worked out; between them it is interpolated by a cubic.
+/// Step between nodes at which the integral is computed; a cubic interpolates between them.
 const STRIDE: usize = 4;
 
-/// The radial functions of a bonded incompressible layer at one depth below its surface.
+/// Radial functions of a bonded incompressible layer at one depth below its surface.
 ///
-/// Making one takes some hundred thousand Bessel functions, a tenth of a second; make it once a sensor.
+/// Construction evaluates some hundred thousand Bessel functions, in a tenth of a second; do it once a sensor.
 #[derive(Clone, Debug)]
 pub struct Tables {
     depth_mm: f64,
@@ -24,7 +24,7 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// The tables of a layer `thickness_mm` thick, `depth_mm` below its surface; 0 is the surface.
+    /// Computes the tables of a layer `thickness_mm` thick, `depth_mm` below its surface; 0 is the surface.
     pub fn new(thickness_mm: f64, depth_mm: f64) -> Tables {
         let radii_mm = std::array::from_fn(|row| {
             #[expect(clippy::cast_precision_loss, reason = "a row is a small number")]
@@ -47,15 +47,15 @@ impl Tables {
         }
     }
 
-    /// The depth below the surface that the tables are for, in mm.
+    /// Depth below the surface, in mm.
     pub fn depth_mm(&self) -> f64 {
         self.depth_mm
     }
 
-    /// Makes `profile` the row of `load`. No allocation.
+    /// Computes the row of `load` into `profile`, without allocation.
     ///
-    /// On the surface, inside the contact, the gel follows the ball exactly; outside, the sink is scaled to meet it at the rim, by less
-    /// than 1 % for a ball of 2 mm.
+    /// On the surface, the gel follows the ball exactly inside the contact. Outside, the sink is scaled to match at the rim, by less than 1
+    /// % for a ball of 2 mm.
     pub fn profile(&self, load: &Load, profile: &mut Profile) {
         profile.clear();
         if load.normal_force_n <= 0.0 || load.contact_radius_mm <= 0.0 {
@@ -83,7 +83,7 @@ impl Tables {
         }
     }
 
-    /// The row below `radius_mm`, and how far towards the next one.
+    /// Row below `radius_mm`, and the fraction towards the next one.
     fn row(&self, radius_mm: f64) -> (usize, f64) {
         let above = self.radii_mm.partition_point(|row| *row <= radius_mm);
         let row = above.clamp(1, ROWS - 1) - 1;
@@ -92,7 +92,7 @@ impl Tables {
     }
 }
 
-/// Every radial function of `layer`: the integral at each fourth node, cubics between, the closed form on top.
+/// All radial functions of `layer`: the integral at each fourth node, cubics between, plus the closed form.
 fn fill(layer: &Layer) -> [Radial; Quantity::ALL.len()] {
     let radius = |position: usize| (node(position) - 1.0).sqrt();
     let coarse: Vec<(f64, Values)> = (0..NODES)
@@ -100,7 +100,7 @@ fn fill(layer: &Layer) -> [Radial; Quantity::ALL.len()] {
         .map(|position| (node(position), layer.integral(radius(position))))
         .collect();
     let mut tables = [[0.0; NODES]; Quantity::ALL.len()];
-    // The last node stays zero: there the field ends.
+    // The last node stays zero: the field ends there.
     for position in 0..NODES - 1 {
         let smooth = interpolate(&coarse, position / STRIDE, node(position));
         let closed = layer.closed_form(radius(position));
@@ -111,7 +111,7 @@ fn fill(layer: &Layer) -> [Radial; Quantity::ALL.len()] {
     tables
 }
 
-/// Lagrange's cubic through the four points around the cell that starts at `cell`.
+/// Lagrange's cubic through the four points around the cell `cell`.
 fn interpolate(points: &[(f64, Values)], cell: usize, at: f64) -> Values {
     let first = cell.saturating_sub(1).min(points.len() - 4);
     let four = &points[first..first + 4];

@@ -1,23 +1,23 @@
-//! What the devices have in common: the argument that names their bench, and how their errors are made.
+//! Shared parts of the devices: the argument that names their bench, and their errors.
 
 use taceva_core::{ArgSpec, ArgValue, Args, DriverError, DriverKey, ErrorKind};
 
-/// The key of the robot, which the bench names too where it cannot exchange the specimen.
+/// Key of the robot, which also reports failed mounts of specimens.
 pub(super) const ROBOT: DriverKey = DriverKey::fixed("sim/robot");
 
-/// The argument by which devices find each other.
+/// Argument by which devices find each other.
 pub(super) fn rig_argument() -> ArgSpec {
     ArgSpec::text("rig")
         .default(ArgValue::Text("bench".to_owned()))
         .help("the name of the bench; devices of one name work on one gel")
 }
 
-/// The name of the bench in `args`.
+/// Name of the bench in `args`.
 pub(super) fn rig_name(args: &Args) -> &str {
     args.text("rig")
 }
 
-/// An error of a device with its reason.
+/// Creates an error of a device with its reason.
 pub(super) fn failed(
     kind: ErrorKind,
     driver: &DriverKey,

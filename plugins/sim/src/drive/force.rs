@@ -13,10 +13,10 @@ use super::rig::SimulatedRig;
 use crate::parameters::Model;
 
 const KEY: DriverKey = DriverKey::fixed("sim/force-transducer");
-/// Readings a second; each averages over the time since the last.
+/// Reading rate, Hz; each reading averages over the time since the last.
 const RATE_HZ: f64 = 200.0;
 const READING: Duration = Duration::from_millis(5);
-/// Readings whose mean becomes zero.
+/// Readings averaged for the tare.
 const TARE_READINGS: u32 = 16;
 
 /// Opens simulated force transducers.
@@ -26,7 +26,7 @@ pub struct ForceTransducerFactory {
 }
 
 impl ForceTransducerFactory {
-    /// The factory of `sim/force-transducer`.
+    /// Creates the factory of `sim/force-transducer`.
     ///
     /// # Errors
     /// [`DescriptorError`] if its description contradicts itself.
@@ -69,7 +69,7 @@ struct SimulatedTransducer {
 }
 
 impl SimulatedTransducer {
-    /// Lets the time of some readings pass.
+    /// Advances the clock by some readings.
     fn wait(
         &self,
         doing: &'static str,

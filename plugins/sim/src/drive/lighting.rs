@@ -18,7 +18,7 @@ pub struct LightingFactory {
 }
 
 impl LightingFactory {
-    /// The factory of `sim/lighting`.
+    /// Creates the factory of `sim/lighting`.
     ///
     /// # Errors
     /// [`DescriptorError`] if its description contradicts itself.
@@ -51,7 +51,7 @@ impl Factory<dyn Lighting> for LightingFactory {
 
 taceva_core::submit_builtin!(dyn Lighting, || Ok(Box::new(LightingFactory::new()?)));
 
-/// The lamps of a rig; an opaque gel does not see them.
+/// Lamps of a rig; they do not affect an opaque gel.
 pub(super) struct Lamps {
     rig: SimulatedRig,
     driver: DriverKey,
@@ -89,7 +89,7 @@ impl Lighting for Lamps {
     }
 }
 
-/// The names of the scenes, that of the calibration first.
+/// Names of the scenes, that of calibration first.
 pub(super) fn scenes() -> Vec<String> {
     AmbientLight::ALL
         .map(|light| light.name().to_owned())

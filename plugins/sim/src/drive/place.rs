@@ -1,4 +1,4 @@
-//! Places and visits, as the random numbers of the bench name them.
+//! Keys of places and visits for the random numbers of the bench.
 
 use std::collections::BTreeMap;
 
@@ -6,13 +6,13 @@ use taceva_core::Nanometre;
 
 use crate::random::{Purpose, Random, Stream};
 
-/// How often each place was visited.
+/// Number of visits to each place.
 #[derive(Debug, Default)]
 pub(super) struct Visits {
     counts: BTreeMap<[Nanometre; 2], u64>,
 }
 
-/// The names of a place and of one visit to it, for random numbers.
+/// Keys of a place and of one visit to it, for random numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct VisitKey {
     pub(super) place: [Nanometre; 2],
@@ -21,7 +21,7 @@ pub(super) struct VisitKey {
 }
 
 impl Visits {
-    /// The next visit to a place in mm.
+    /// Key of the next visit to a place in mm.
     pub(super) fn next(&mut self, place_mm: [f64; 2]) -> VisitKey {
         let place = nanometres(place_mm);
         let count = self.counts.entry(place).or_default();
@@ -35,18 +35,18 @@ impl Visits {
     }
 }
 
-/// The name of a place.
+/// Key of a place.
 pub(super) fn point_of(place_mm: [f64; 2]) -> u64 {
     names(nanometres(place_mm)).bits(0)
 }
 
-/// The names of a place and of its visits, in order.
+/// Stream of the keys of a place and of its visits, in order.
 fn names(place: [Nanometre; 2]) -> Stream {
     let [x, y] = place.map(|side| side.0.cast_unsigned());
     Random::new(x).stream(Purpose::Draws, y)
 }
 
-/// A place in whole nanometres, 0 for a coordinate beyond all measure.
+/// Converts a place to whole nanometres; a coordinate out of range becomes 0.
 pub(super) fn nanometres(place_mm: [f64; 2]) -> [Nanometre; 2] {
     place_mm.map(|side| Nanometre::from_millimetres(side).unwrap_or_default())
 }

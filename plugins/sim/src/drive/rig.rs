@@ -1,4 +1,4 @@
-//! The bench that devices share, for whoever conducts a run on it.
+//! The simulated rig, for the conduct of a run.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -30,7 +30,7 @@ pub struct SimulatedRig {
 }
 
 impl SimulatedRig {
-    /// The simulated rig called `name` among the devices of `rig`, made if there is none and offered there as the bench `sim <name>`.
+    /// Gets or creates the simulated rig `name` of `rig`, and offers it as the bench `sim <name>`.
     pub fn of(rig: &mut Rig, name: &str) -> SimulatedRig {
         let state = rig
             .share(&format!("taceva-sim {name}"), || {
@@ -42,17 +42,17 @@ impl SimulatedRig {
         bench
     }
 
-    /// The time of the rig's clock: that of every stamp of its devices.
+    /// Time of the rig's clock: that of the stamps of its devices.
     pub fn now(&self) -> Duration {
         self.state().now()
     }
 
-    /// Lets time pass.
+    /// Advances the clock.
     pub fn rest(&self, rest: Duration) {
         self.state().rest(rest);
     }
 
-    /// Exchanges what the robot carries.
+    /// Changes the specimen on the robot.
     ///
     /// # Errors
     /// [`MountError::InContact`] while the tip is in the gel.
@@ -66,37 +66,37 @@ impl SimulatedRig {
         Ok(())
     }
 
-    /// Calls the press that begins now by `name`: from the next tare in the air on, all that is random in it is a function of the name and
-    /// the place. So a run that was interrupted and resumed meets the errors it would have met anyway.
+    /// Names the next press: from the next tare in the air on, all its random numbers are a function of the name and the place. An
+    /// interrupted and resumed run therefore meets the same errors.
     ///
     /// Without names, visits to a place are counted.
     pub fn name_press(&self, name: u64) {
         self.state().name_visits(name);
     }
 
-    /// Lets the next tare in the air wait until `at` on the rig's clock, unless it is later already: with a schedule of its own, a run that
-    /// was interrupted and resumed takes place at the hour at which it would have taken place anyway.
+    /// Delays the next tare in the air until `at` on the rig's clock, unless it is later already. With a schedule, an interrupted and
+    /// resumed run takes place at the original times.
     pub fn schedule(&self, at: Duration) {
         self.state().schedule(at);
     }
 
-    /// Notes a press that an earlier session finished, for gels that are conditioned by use.
+    /// Adds a press of an earlier session, for gels that are conditioned by use.
     pub fn remember(&self, place_mm: [f64; 2], deepest_mm: f64) {
         self.state().remember(place_mm, deepest_mm);
     }
 
-    /// What it says of itself; `None` before a sensor was opened in it.
+    /// Provenance of the bench; `None` before a sensor or gel is installed.
     pub fn provenance(&self) -> Option<Provenance> {
         let state = self.state();
         state.bench.as_ref().map(|bench| bench.provenance())
     }
 
-    /// The contact of a ball, as it truly is now; `None` under a board, or before a sensor was opened.
+    /// True contact of a ball now; `None` under a board or without a gel.
     pub fn truth(&self) -> Option<Contact> {
         self.state().contact()
     }
 
-    /// The state, whole whatever happened to another thread: every change of it is finished before it can be interrupted.
+    /// Locks the state and ignores poisoning: every change is complete before it can be interrupted.
     pub(super) fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -15,7 +15,7 @@ use super::state::{Ended, Motion};
 use crate::bench::Bench;
 use crate::parameters::Model;
 
-/// The box in which the tip may be, mm, z into the gel.
+/// Workspace of the tip, mm, z into the gel.
 const LEAST_MM: [f64; 3] = [-40.0, -40.0, -60.0];
 const GREATEST_MM: [f64; 3] = [40.0, 40.0, 25.0];
 const SPEED_MAX_MM_PER_S: f64 = 100.0;
@@ -27,7 +27,7 @@ pub struct RobotFactory {
 }
 
 impl RobotFactory {
-    /// The factory of `sim/robot`.
+    /// Creates the factory of `sim/robot`.
     ///
     /// # Errors
     /// [`DescriptorError`] if its description contradicts itself.
@@ -82,7 +82,7 @@ impl Factory<dyn Robot> for RobotFactory {
     }
 }
 
-/// Its arguments. A gel of its own is for sensors that are not of this bench: their pictures do not show it, the forces are its.
+/// Arguments. `gel` is for a sensor outside this bench: the forces come from that gel, the pictures do not show it.
 fn arguments() -> [ArgSpec; 3] {
     let gels = Model::ALL.map(Model::key);
     [
@@ -96,10 +96,10 @@ fn arguments() -> [ArgSpec; 3] {
     ]
 }
 
-/// The specimen of that gel.
+/// Unit number of that gel.
 const NOMINAL: u32 = 0;
 
-/// The gel that `args` ask for.
+/// Gel that `args` name; `None` without one.
 fn gel(args: &Args) -> Option<Model> {
     Model::from_key(args.get("gel")?.as_text()?)
 }
@@ -111,7 +111,7 @@ struct SimulatedRobot {
     latch: Arc<Latch>,
 }
 
-/// A halt that stays until it is cleared; each robot has its own.
+/// A halt that remains until it is cleared; each robot has its own.
 #[derive(Debug, Default)]
 struct Latch {
     is_halted: AtomicBool,
@@ -146,7 +146,7 @@ impl SimulatedRobot {
             let why = format!("{speed}, expected at most {SPEED_MAX_MM_PER_S} mm/s");
             return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
         }
-        // On the grid on which motions cross the plugin boundary, so that they are the same however the bench is delivered.
+        // Rounded to the grid of the plugin boundary, so that a built-in bench and a plugin move alike.
         let speed = Speed::from_metres_per_second(speed.metres_per_second()).unwrap_or(speed);
         let is_halted = || self.latch.is_halted.load(Ordering::Acquire);
         let mut state = self.rig.state();

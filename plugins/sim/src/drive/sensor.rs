@@ -30,7 +30,7 @@ pub struct SensorFactory {
 }
 
 impl SensorFactory {
-    /// The factory of a compiled-in model: `sim/gelsight` for one.
+    /// Creates the factory of a built-in model, such as `sim/gelsight`.
     ///
     /// # Errors
     /// [`DescriptorError`] if its description contradicts itself.
@@ -43,7 +43,7 @@ impl SensorFactory {
         })
     }
 
-    /// The parameters that `args` ask for: those of the model, or the table they hold; quiet, if they say so.
+    /// Parameters by `args`: those of the model or of the table in `table`; without noise for `quiet`.
     fn parameters(&self, args: &Args) -> Result<Parameters, String> {
         let table = args.get("table").and_then(ArgValue::as_text);
         let table = table.unwrap_or(self.model.table());
@@ -61,7 +61,7 @@ impl Factory<dyn Sensor> for SensorFactory {
     }
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
-        // A table that does not read is refused when it is opened, in its own words.
+        // An invalid table is rejected at opening, with its own message.
         let parameters = self
             .parameters(args)
             .unwrap_or_else(|_| self.model.parameters());
@@ -135,7 +135,7 @@ impl Sensor for SimulatedSensor {
         self.camera.frame_info()
     }
 
-    /// Makes what pictures need, so that the first one keeps its deadline as the later ones do.
+    /// Prepares the camera, so that the first picture meets its deadline like later ones.
     fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
         self.camera.prepare();
         self.is_running = true;
@@ -187,7 +187,7 @@ impl Drop for SimulatedSensor {
     }
 }
 
-/// What the camera sees now.
+/// Current view of the camera.
 pub(super) fn view(state: &mut State, is_transparent: bool) -> View {
     let stimulus = match state.mounted {
         Mounted::Ball(_) => match state.contact() {

@@ -1,11 +1,11 @@
-//! The specimen that the robot carries.
+//! Specimen on the robot.
 
 use taceva_core::{GratingKind, Nanometre};
 use thiserror::Error;
 
 use crate::specimen::{Grating, GratingError, Indenter};
 
-/// What the robot of a simulated rig carries.
+/// Specimen on the robot of a simulated rig.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mounted {
     /// A ball.
@@ -15,20 +15,20 @@ pub enum Mounted {
 }
 
 impl Mounted {
-    /// A ball of `radius`.
+    /// Creates a ball of `radius`.
     ///
     /// # Errors
-    /// [`MountError::Ball`] if the bench has none.
+    /// [`MountError::Ball`] if the bench has no such ball.
     pub fn ball(radius: Nanometre) -> Result<Mounted, MountError> {
         Indenter::from_radius(radius)
             .map(Mounted::Ball)
             .ok_or(MountError::Ball { radius })
     }
 
-    /// A board of the catalogue.
+    /// Creates a board of the catalogue.
     ///
     /// # Errors
-    /// [`MountError::Board`] if the catalogue has none.
+    /// [`MountError::Board`] if the catalogue has no such board.
     pub fn board(kind: GratingKind, spacing: Nanometre) -> Result<Mounted, MountError> {
         Ok(Mounted::Board(Grating::new(kind, spacing)?))
     }
@@ -40,17 +40,17 @@ impl Default for Mounted {
     }
 }
 
-/// Why a specimen was not mounted.
+/// Reasons for which a specimen was not mounted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum MountError {
-    /// A ball that the bench does not have.
+    /// The bench has no such ball.
     #[error("no ball of {radius} radius, expected 2, 4 or 10 mm")]
     Ball {
-        /// Its radius.
+        /// Radius of the ball.
         radius: Nanometre,
     },
-    /// A board that the catalogue does not have.
+    /// The catalogue has no such board.
     #[error(transparent)]
     Board(#[from] GratingError),
     /// The tip is in the gel.

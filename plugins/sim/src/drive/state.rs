@@ -1,4 +1,4 @@
-//! The state of a simulated rig: a tip that moves, a gel with a memory, and a clock that both advance.
+//! State of a simulated rig: a moving tip, a gel with history, and a clock.
 
 mod course;
 mod travel;
@@ -22,7 +22,7 @@ use crate::parameters::{Model, Robot, Transducer};
 use crate::random::{Purpose, Random};
 use crate::rig::TransducerModel;
 
-/// The state behind the devices of one rig.
+/// State behind the devices of one rig.
 #[derive(Debug)]
 pub(super) struct State {
     now: Ticks,
@@ -30,11 +30,11 @@ pub(super) struct State {
     pub(super) sensor_is_open: bool,
     pub(super) mounted: Mounted,
     pub(super) light: AmbientLight,
-    /// Where the robot believes it stands.
+    /// Pose that the robot reports.
     sent: Pose,
-    /// Where the tip is: its lowest point, z into the gel.
+    /// True position of the lowest point of the tip, z into the gel.
     tip_mm: [f64; 3],
-    /// The motion that goes on as time passes, if one does.
+    /// Motion in progress, if any.
     course: Option<Course>,
     robot: Robot,
     transducer: Transducer,
@@ -43,14 +43,14 @@ pub(super) struct State {
     tare_n: [f64; 3],
     visits: Visits,
     visit: Visit,
-    /// What the visits to come are called, if anybody named them.
+    /// Name of the coming visits, if given.
     name: Option<u64>,
-    /// The time before which the next visit does not begin.
+    /// Earliest start of the next visit.
     appointment: Ticks,
     history: History,
 }
 
-/// Where the tip begins: out of every gel.
+/// Initial position of the tip, above every gel.
 pub(super) const HOME_MM: [f64; 3] = [0.0, 0.0, -20.0];
 impl State {
     pub(super) fn new() -> State {
@@ -85,13 +85,13 @@ impl State {
         state
     }
 
-    /// Puts a sensor under the tip, in the place of the last one.
+    /// Installs a sensor under the tip, in place of the last one.
     pub(super) fn install(&mut self, bench: Bench) {
         self.lay(bench);
         self.sensor_is_open = true;
     }
 
-    /// Puts a gel under the tip, in the place of the last one.
+    /// Installs a gel under the tip, in place of the last one.
     pub(super) fn lay(&mut self, bench: Bench) {
         self.robot = bench.parameters().robot;
         self.transducer = bench.parameters().transducer;
@@ -111,26 +111,26 @@ impl State {
         self.transducer.range_n
     }
 
-    /// The visit and the number of the next picture in it.
+    /// Key of the visit and number of its next picture.
     pub(super) fn next_picture(&mut self) -> (u64, u32) {
         let number = self.visit.pictures;
         self.visit.pictures = number.wrapping_add(1);
         (self.visit.key.visit, number)
     }
 
-    /// The time.
+    /// Current time.
     pub(super) fn now(&self) -> Duration {
         self.now.duration()
     }
 
-    /// Lets time pass; the tip rests.
+    /// Advances the clock; the tip rests.
     pub(super) fn rest(&mut self, rest: Duration) {
         let rest = Ticks::of(rest);
         self.now = self.now.after(rest);
         self.follow(rest.seconds());
     }
 
-    /// How long it is to the next beat of a camera that began to count with the visit.
+    /// Time to the next frame of a camera that started with the visit.
     pub(super) fn to_next_beat(&self, period: Duration) -> Duration {
         self.now
             .since(self.visit.began)
@@ -138,28 +138,28 @@ impl State {
             .duration()
     }
 
-    /// Calls the visits to come by `name`, in the place of a number.
+    /// Uses `name` instead of a count for coming visits.
     pub(super) fn name_visits(&mut self, name: u64) {
         self.name = Some(name);
     }
 
-    /// Lets the next tare in the air wait until `at`.
+    /// Delays the next tare in the air until `at`.
     pub(super) fn schedule(&mut self, at: Duration) {
         self.appointment = Ticks::of(at);
     }
 
-    /// Notes a press that was made before this rig was set up.
+    /// Adds a press made before this rig was set up.
     pub(super) fn remember(&mut self, place_mm: [f64; 2], deepest_mm: f64) {
         self.history.finish(point_of(place_mm), deepest_mm);
     }
 
-    /// What the transducer says next.
+    /// Next reading of the transducer, in N, after the tare.
     pub(super) fn read(&mut self) -> [f64; 3] {
         let raw = self.raw_reading();
         std::array::from_fn(|axis| raw[axis] - self.tare_n[axis])
     }
 
-    /// Calls the mean of some readings zero; in the air, over a gel that was touched or in a visit with a name, this begins a new visit.
+    /// Sets the tare to the mean of `readings` readings. In the air this begins a new visit if the gel was touched or visits are named.
     pub(super) fn tare(&mut self, readings: u32) {
         let is_over = self.visit.has_touched || self.name.is_some();
         if self.visit.touch.is_none() {
@@ -178,7 +178,7 @@ impl State {
         self.tare_n = sum.map(|sum| sum / f64::from(readings));
     }
 
-    /// The contact of a ball, as it truly is; `None` under a board or without a gel.
+    /// True contact of a ball; `None` under a board or without a gel.
     pub(super) fn contact(&self) -> Option<Contact> {
         let bench = self.bench.as_ref()?;
         let Mounted::Ball(ball) = self.mounted else {
@@ -194,7 +194,7 @@ impl State {
         })
     }
 
-    /// How a board stands in the gel now.
+    /// Current state of a board in the gel.
     pub(super) fn board(&self) -> BoardStand {
         match (&self.bench, &self.visit.touch) {
             (Some(bench), Some(touch)) => touch.board(bench, self.tip_mm),
@@ -206,7 +206,7 @@ impl State {
         self.tip_mm
     }
 
-    /// Forgets the contact, because the specimen was exchanged.
+    /// Ends the contact after a change of the specimen.
     pub(super) fn release(&mut self) {
         self.visit.touch = None;
     }
@@ -231,12 +231,12 @@ impl State {
             .read(self.force_n(), zero_n, noise, self.visit.readings)
     }
 
-    /// What robot and transducer err by in the visit that goes on.
+    /// Errors of robot and transducer in the current visit.
     fn visit_errors(&self) -> VisitErrors {
         VisitErrors::of(self.visit.key, self.robot, &self.errors, self.random)
     }
 
-    /// In the air over another place a new visit begins.
+    /// Begins a new visit in the air over another place.
     fn arrive(&mut self) {
         let place = coordinates(&self.sent);
         let moved = nanometres([place[0], place[1]]) != self.visit.key.place;
@@ -245,7 +245,7 @@ impl State {
         }
     }
 
-    /// Begins a visit in the air. The robot errs in a new way from here on, so that nothing of what follows depends on how it came.
+    /// Begins a visit in the air. Draws a new position error, so that later results do not depend on the path.
     fn begin_visit(&mut self) {
         let sent = coordinates(&self.sent);
         let mut key = self.visits.next([sent[0], sent[1]]);
@@ -262,7 +262,7 @@ impl State {
         self.tip_mm = std::array::from_fn(|axis| sent[axis] + error[axis]);
     }
 
-    /// Follows the tip into the gel, `step_s` after the last step.
+    /// Updates the contact with the gel, `step_s` after the last step.
     fn follow(&mut self, step_s: f64) {
         let Some(bench) = &self.bench else {
             return;
@@ -272,7 +272,7 @@ impl State {
             Some(touch) => touch,
             None => {
                 let [x, y, z] = self.tip_mm;
-                // No place of the gel is so high: where it begins just here need not be worked out.
+                // Above the highest place of the gel, its surface need not be computed.
                 if z < -bench.unit().height_max_mm() {
                     return;
                 }

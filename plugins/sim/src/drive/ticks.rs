@@ -1,15 +1,15 @@
-//! The clock of a rig.
+//! Clock of a rig.
 
 use std::time::Duration;
 
-/// A time or a span in whole nanoseconds, as stamps count them on every way out of the bench.
+/// A time or a span in whole nanoseconds, like the stamps of the bench.
 ///
-/// So a span is the same whenever it begins, and a run that is resumed at another hour records what it would have recorded.
+/// A span is therefore equal at every start time, and a run resumed at another hour records the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Ticks(u64);
 
 impl Ticks {
-    /// A span; the last of 584 years for one that is longer.
+    /// Converts a span, saturating at 584 years.
     pub(super) fn of(span: Duration) -> Ticks {
         Ticks(u64::try_from(span.as_nanos()).unwrap_or(u64::MAX))
     }
@@ -22,17 +22,17 @@ impl Ticks {
         self.duration().as_secs_f64()
     }
 
-    /// The time a span after this one.
+    /// Time `span` after this one.
     pub(super) fn after(self, span: Ticks) -> Ticks {
         Ticks(self.0.saturating_add(span.0))
     }
 
-    /// The span since a time before this one.
+    /// Span since an earlier time; 0 for a later one.
     pub(super) fn since(self, then: Ticks) -> Ticks {
         Ticks(self.0.saturating_sub(then.0))
     }
 
-    /// How long it is to the next whole number of periods: never nothing.
+    /// Time to the next multiple of `period`, from 1 ns to `period`.
     pub(super) fn to_next(self, period: Ticks) -> Ticks {
         let period = period.0.max(1);
         Ticks(period - self.0 % period)

@@ -1,10 +1,10 @@
-//! An indentation under way.
+//! An indentation in progress.
 
 use super::specimen::Mounted;
 use crate::bench::Bench;
 use crate::contact::{BoardStand, Contact, Indentation, Relaxation, Wear};
 
-/// What a gel remembers from when a tip touched it until it leaves.
+/// State of a gel from first touch until the tip leaves.
 #[derive(Debug)]
 pub(super) struct Touch {
     place_mm: [f64; 2],
@@ -16,7 +16,7 @@ pub(super) struct Touch {
 }
 
 impl Touch {
-    /// A tip that is about to touch the gel, which begins at `surface_mm` there and went through `wear`.
+    /// Creates the state of a tip about to touch the gel at `surface_mm`, with the `wear` of the point.
     pub(super) fn above(bench: &Bench, place_mm: [f64; 2], surface_mm: f64, wear: Wear) -> Touch {
         Touch {
             place_mm,
@@ -28,12 +28,12 @@ impl Touch {
         }
     }
 
-    /// How deep the tip has been.
+    /// Greatest depth of the tip.
     pub(super) fn deepest_mm(&self) -> f64 {
         self.deepest_mm
     }
 
-    /// Takes the tip to where it is `step_s` later; whether it is in the gel there.
+    /// Advances to the position of the tip `step_s` later; returns true if it is in the gel.
     pub(super) fn follow(
         &mut self,
         bench: &Bench,
@@ -59,7 +59,7 @@ impl Touch {
         true
     }
 
-    /// The contact of a ball.
+    /// Contact of a ball.
     pub(super) fn contact(&self, bench: &Bench, radius_mm: f64, tip_mm: [f64; 3]) -> Contact {
         let indentation = self.indentation(bench, radius_mm, tip_mm);
         let contact = bench.solid().contact_at(&indentation, self.memory.ratio());
@@ -69,7 +69,7 @@ impl Touch {
         }
     }
 
-    /// How a board stands in the gel.
+    /// State of a board in the gel.
     pub(super) fn board(&self, bench: &Bench, tip_mm: [f64; 3]) -> BoardStand {
         let travel_mm = self.depth_mm(tip_mm);
         let stand = bench.solid().board(travel_mm);
@@ -97,13 +97,13 @@ impl Touch {
         }
     }
 
-    /// How stiff the gel is here, after what it has gone through.
+    /// Relative stiffness of the gel here, after its wear.
     fn stiffness(&self, bench: &Bench, depth_mm: f64) -> f64 {
         self.stiffness * bench.conditioning().remaining(self.wear, depth_mm)
     }
 }
 
-/// Where a tip begins to touch, z into the gel.
+/// Height of first touch, z into the gel, mm.
 pub(super) fn surface_mm(bench: &Bench, mounted: Mounted, place_mm: [f64; 2]) -> f64 {
     match mounted {
         Mounted::Ball(ball) => {

@@ -1,4 +1,4 @@
-//! The time over one place.
+//! A visit: the time over one place.
 
 use super::place::VisitKey;
 use super::specimen::Mounted;
@@ -9,7 +9,7 @@ use crate::parameters::Robot;
 use crate::random::{Purpose, Random};
 use crate::rig::TransducerModel;
 
-/// The time over one place.
+/// State of one visit.
 #[derive(Debug, Default)]
 pub(super) struct Visit {
     pub(super) key: VisitKey,
@@ -22,17 +22,17 @@ pub(super) struct Visit {
     pub(super) surface: Option<SurfaceBelow>,
 }
 
-/// What robot and transducer err by throughout a visit: drawn once.
+/// Errors of robot and transducer in a visit: drawn once.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct VisitErrors {
-    /// How far beside its targets the robot stands: it errs from visit to visit, and repeats itself within one.
+    /// Position error of the robot, which differs between visits and is constant within one.
     pub(super) position_mm: [f64; 3],
-    /// Where the transducer's zero has drifted to.
+    /// Drift of the transducer's zero.
     pub(super) zero_n: [f64; 3],
 }
 
 impl VisitErrors {
-    /// Those of the visit called `key`.
+    /// Draws the errors of the visit `key`.
     pub(super) fn of(
         key: VisitKey,
         robot: Robot,
@@ -49,7 +49,7 @@ impl VisitErrors {
     }
 }
 
-/// Where the gel begins under a place: worked out once, however often the tip is still above it.
+/// Height of the gel below a place, computed once a visit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SurfaceBelow {
     mounted: Mounted,
@@ -58,7 +58,7 @@ pub(super) struct SurfaceBelow {
 }
 
 impl SurfaceBelow {
-    /// The surface below `place_mm`: `known`, if it was worked out for that place and specimen.
+    /// Surface below `place_mm`; reuses `known` if place and specimen match.
     pub(super) fn at(
         bench: &Bench,
         mounted: Mounted,

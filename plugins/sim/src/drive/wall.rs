@@ -1,7 +1,7 @@
-//! A rig whose time is that of a clock on the wall: it passes whether anybody waits or not.
+//! A rig on wall-clock time, which passes without anybody waiting.
 //!
-//! Devices that are opened from a rig turn its clock themselves. An emulated controller cannot: its clients come and go while time
-//! passes. Here time is a value, [`advance`](SimulatedRig::advance), and everything else is as it is at that moment.
+//! Devices of a rig advance its clock themselves. An emulated controller cannot: its clients come and go while time passes. Here the caller
+//! sets the time by [`advance`](SimulatedRig::advance), and all else follows.
 
 use std::time::Duration;
 
@@ -13,12 +13,12 @@ use crate::bench::Bench;
 use crate::optics::{AmbientLight, Camera, Luma, OpticsError};
 
 impl SimulatedRig {
-    /// Puts the gel of `bench` under the tip, in the place of the last one; no sensor is opened for it.
+    /// Installs the gel of `bench` under the tip, in place of the last one; opens no sensor.
     pub fn lay(&self, bench: Bench) {
         self.state().lay(bench);
     }
 
-    /// Begins to move the tip to `target` along a straight line, from where it is; [`advance`](SimulatedRig::advance) makes the way.
+    /// Begins a straight motion of the tip to `target`; [`advance`](SimulatedRig::advance) executes it.
     ///
     /// ```
     /// use std::time::Duration;
@@ -39,37 +39,37 @@ impl SimulatedRig {
         self.state().set_out(target.on_grid(), speed.mm_per_s());
     }
 
-    /// Ends the motion that is under way, where the tip is at this moment.
+    /// Stops the motion in progress at the current place.
     pub fn stand(&self) {
         self.state().stand();
     }
 
-    /// Whether the tip is on its way.
+    /// True while the tip moves.
     pub fn is_moving(&self) -> bool {
         self.state().is_moving()
     }
 
-    /// Lets time pass until `until` on the rig's clock, and the tip go on along its way; a time that has passed changes nothing.
+    /// Advances the clock to `until` and the tip along its motion; a time in the past changes nothing.
     pub fn advance(&self, until: Duration) {
         self.state().advance(until);
     }
 
-    /// Where the robot believes that the tip is at this moment.
+    /// Pose that the robot reports now.
     pub fn pose_now(&self) -> Pose {
         self.state().sent()
     }
 
-    /// Where the lowest point of the tip truly is at this moment, in mm, z into the gel.
+    /// True position of the lowest point of the tip, in mm, z into the gel.
     pub fn tip_mm(&self) -> [f64; 3] {
         self.state().tip_mm()
     }
 
-    /// What the transducer says at this moment, in N: a reading, which takes no time.
+    /// Reads the transducer now, in N, without advancing the clock.
     pub fn read_now(&self) -> [f64; 3] {
         self.state().read()
     }
 
-    /// Calls the mean of `readings` of this moment zero: see [`Tare`](taceva_core::Tare). It takes no time.
+    /// Sets the tare to the mean of `readings` current readings, without advancing the clock: see [`Tare`](taceva_core::Tare).
     pub fn tare_now(&self, readings: u32) {
         self.state().tare(readings.max(1));
     }
@@ -79,7 +79,7 @@ impl SimulatedRig {
         self.state().light = light;
     }
 
-    /// Draws what `camera` sees at this moment, and says how bright it is.
+    /// Renders the current view of `camera`; returns its brightness.
     ///
     /// # Errors
     /// [`OpticsError`] if `into` is not a frame of that camera.

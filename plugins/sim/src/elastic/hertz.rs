@@ -1,8 +1,8 @@
 //! A rigid ball on an elastic half-space.
 //!
 //! # Reference
-//! Hertz (1882); Johnson, *Contact Mechanics* (1985), chapters 3 and 4. The ball is taken as a paraboloid, which holds for contact
-//! radii up to a third of the ball's; at half the ball's radius the exact sphere presses about 10 % less hard.
+//! Hertz (1882); Johnson, *Contact Mechanics* (1985), chapters 3 and 4. The ball counts as a paraboloid, which holds for contact radii up
+//! to a third of the ball's. At half the radius of the ball the exact sphere presses about 10 % less hard.
 
 use std::f64::consts::PI;
 
@@ -11,7 +11,7 @@ pub fn reduced_modulus(young_modulus: f64, poisson_ratio: f64) -> f64 {
     young_modulus / (1.0 - poisson_ratio * poisson_ratio)
 }
 
-/// The radius of the ball that presses a plane as these two press each other: 1/R = 1/R₁ + 1/R₂.
+/// Relative radius of two balls, for an equivalent ball on a plane: 1/R = 1/R₁ + 1/R₂.
 pub fn relative_radius(first_mm: f64, second_mm: f64) -> f64 {
     first_mm * second_mm / (first_mm + second_mm)
 }
@@ -26,7 +26,7 @@ pub fn force(reduced_modulus_mpa: f64, radius_mm: f64, depth_mm: f64) -> f64 {
     4.0 / 3.0 * reduced_modulus_mpa * radius_mm.sqrt() * depth_mm * depth_mm.sqrt()
 }
 
-/// How far the surface lies down at `rho` contact radii from the centre, a unit of depth.
+/// Depth of the surface at `rho` contact radii from the centre, per unit of indentation.
 ///
 /// Inside the contact 1 − ρ²/2; outside [(2 − ρ²) asin(1/ρ) + √(ρ² − 1)] / π.
 pub fn profile(rho: f64) -> f64 {
@@ -37,7 +37,7 @@ pub fn profile(rho: f64) -> f64 {
     ((2.0 - squared) * libm::asin(1.0 / rho) + (squared - 1.0).sqrt()) / PI
 }
 
-/// The derivative of [`profile`] by ρ, over ρ: finite in the centre.
+/// Derivative of [`profile`] by ρ, over ρ: finite at the centre.
 pub fn profile_slope(rho: f64) -> f64 {
     if rho <= 1.0 {
         return -1.0;

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4, FRAC_PI_8};
 /// Euler's constant γ.
 const EULER: f64 = 0.577_215_664_901_532_9;
 
-/// Up to here the power series loses no digit that is asked for; beyond it the asymptotic series has ten.
+/// Argument up to which the power series keeps the required digits; beyond it the asymptotic series has ten.
 const CROSSOVER: f64 = 12.0;
 
 /// kei(x) = Im K₀(x e^(iπ/4)) for x ≥ 0, to 10⁻⁹.
@@ -48,7 +48,7 @@ fn series(x: f64) -> f64 {
     sum
 }
 
-/// The imaginary part of √(π/2z) e^(−z) Σ aₖ z^(−k) at z = x e^(iπ/4), aₖ = −aₖ₋₁ (2k−1)² / 8k.
+/// Imaginary part of √(π/2z) e^(−z) Σ aₖ z^(−k) at z = x e^(iπ/4), aₖ = −aₖ₋₁ (2k−1)² / 8k.
 fn asymptotic(x: f64) -> f64 {
     let along = x * FRAC_1_SQRT_2;
     let (mut coefficient, mut sum) = (1.0, 0.0);

@@ -1,4 +1,4 @@
-//! How an elastic layer bonded to a rigid plate answers a wave of pressure or shear on its surface.
+//! Response of an elastic layer, bonded to a rigid plate, to a wave of pressure or shear on its surface.
 //!
 //! With ζ = k h the wave number times the thickness, κ = 3 − 4ν and D = 2κ cosh 2ζ + 4ζ² + 1 + κ²:
 //!
@@ -7,12 +7,12 @@
 //! * shear across the wave → across it: T/(G k),  T = tanh ζ;
 //! * pressure → displacement along the wave, and shear → normal: N/(G k),  N = [2ζ² − κ(κ−1)/2 (cosh 2ζ − 1)]/D.
 //!
-//! Numerators and D are multiplied by e^(−2ζ), so that no wave is too short.
+//! Numerators and D are multiplied by e^(−2ζ), so that short waves do not overflow.
 //!
 //! # Reference
 //! Plane-strain solution of a layer without displacement at its base; derived here, checked against numerical integration.
 
-/// The four answers of the layer; all without unit.
+/// Four dimensionless responses of the layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kernel {
     /// L: pressure to normal displacement.
@@ -26,7 +26,7 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// The answers at ζ = `zeta` ≥ 0 of a layer with the given Poisson's ratio.
+    /// Responses at ζ = `zeta` ≥ 0 of a layer with the given Poisson's ratio.
     pub fn of_layer(zeta: f64, poisson_ratio: f64) -> Kernel {
         let kappa = 3.0 - 4.0 * poisson_ratio;
         let decay = libm::exp(-2.0 * zeta);
@@ -53,7 +53,7 @@ mod tests {
     fn a_very_thick_layer_answers_as_a_half_space() {
         for poisson_ratio in [0.3, 0.45, 0.5] {
             let thick = Kernel::of_layer(400.0, poisson_ratio);
-            // The answers of a layer without end: ζ → ∞.
+            // Responses of a half-space: ζ → ∞.
             assert!((thick.normal - 1.0).abs() < 1e-12);
             assert!((thick.along - 1.0).abs() < 1e-12);
             assert!((thick.coupling - (poisson_ratio - 0.5)).abs() < 1e-12);

@@ -6,12 +6,12 @@
 use super::kelvin;
 use std::f64::consts::FRAC_PI_4;
 
-/// The length over which a dimple dies away: l = √(R t) / (12 (1 − ν²))^(1/4), in mm.
+/// Decay length of a dimple: l = √(R t) / (12 (1 − ν²))^(1/4), in mm.
 pub fn decay_length(radius_mm: f64, thickness_mm: f64, poisson_ratio: f64) -> f64 {
     (radius_mm * thickness_mm).sqrt() / (12.0 * (1.0 - poisson_ratio * poisson_ratio)).sqrt().sqrt()
 }
 
-/// The depth of the dimple at `arc` decay lengths from the load, a unit of depth under it.
+/// Depth of the dimple at `arc` decay lengths from the load, relative to the depth under it.
 pub fn dimple(arc: f64) -> f64 {
     -kelvin::kei(arc) / FRAC_PI_4
 }
@@ -20,7 +20,7 @@ pub fn dimple(arc: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Force a depth under a point load, in N/mm, for depths up to about the shell's thickness.
+    /// Stiffness under a point load, in N/mm, for depths up to about the thickness of the shell.
     fn point_stiffness(
         young_modulus_mpa: f64,
         radius_mm: f64,

@@ -1,14 +1,14 @@
-//! Light from outside, which a transparent gel lets in.
+//! Ambient light, which a transparent gel admits.
 
 use std::fmt;
 
-/// A scene of light from outside, as the paper sets them up.
+/// A scene of ambient light, as in the paper.
 ///
 /// # Reference
 /// TacEva (2025), robustness to lighting, scenes S1 to S4.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum AmbientLight {
-    /// The light under which the sensor was calibrated: its own.
+    /// Own light of the sensor, as in calibration.
     #[default]
     Normal,
     /// S1: a diffuse ceiling.
@@ -22,7 +22,7 @@ pub enum AmbientLight {
 }
 
 impl AmbientLight {
-    /// Every scene, the normal one first.
+    /// All scenes, the normal one first.
     pub const ALL: [AmbientLight; 5] = [
         AmbientLight::Normal,
         AmbientLight::Ceiling,
@@ -31,7 +31,7 @@ impl AmbientLight {
         AmbientLight::Spot,
     ];
 
-    /// The word used in tables.
+    /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             AmbientLight::Normal => "normal",
@@ -42,7 +42,7 @@ impl AmbientLight {
         }
     }
 
-    /// The scene written as `name`.
+    /// Finds a scene by its name.
     pub fn from_name(name: &str) -> Option<AmbientLight> {
         AmbientLight::ALL
             .into_iter()

@@ -1,24 +1,24 @@
-//! How many bits a sample of a frame has.
+//! Bits of a sample of a frame.
 
 use taceva_core::{FrameInfo, PixelFormat};
 
-/// Bits of a sample: 8, a count a DN; or 16, 256 counts a DN.
+/// Bits of a sample: 8, one count a DN; or 16, 256 counts a DN.
 ///
-/// Eight are enough where the noise of a pixel is a good part of a DN, and take a fifth of the room when they are stored without loss:
-/// what sixteen hold beyond is mostly noise.
+/// Eight bits suffice if the noise of a pixel is a good part of a DN. They take a fifth of the space in lossless storage. The additional
+/// bits of sixteen are mostly noise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bits {
-    /// 8.
+    /// 8 bits.
     Eight,
-    /// 16.
+    /// 16 bits.
     Sixteen,
 }
 
 impl Bits {
-    /// Both.
+    /// Both depths.
     pub const ALL: [Bits; 2] = [Bits::Eight, Bits::Sixteen];
 
-    /// As it is written.
+    /// Name in arguments.
     pub const fn name(self) -> &'static str {
         match self {
             Bits::Eight => "8",
@@ -26,7 +26,7 @@ impl Bits {
         }
     }
 
-    /// A frame as `info` says, with samples of so many bits.
+    /// Changes the samples of `info` to this number of bits.
     pub fn of(self, info: FrameInfo) -> FrameInfo {
         let is_gray = info.format.samples() == 1;
         let format = match (self, is_gray) {

@@ -1,4 +1,4 @@
-//! The camera inside a tactile sensor.
+//! Camera of a tactile sensor.
 
 use taceva_core::{FrameInfo, FrameMut};
 
@@ -17,11 +17,11 @@ use super::view::View;
 use crate::number::narrow;
 use crate::random::{Purpose, Random};
 
-/// The camera inside one unit of a tactile sensor, at one frame size.
+/// Camera of one unit of a tactile sensor, at one frame size.
 ///
-/// A picture is a function of the sensor, the unit, the seed and the [`View`]: not of pictures taken before, of the thread or of the
-/// processor. At full size samples have 8 bits; at a reduced size they have 16, 256 counts a DN, with the noise of the pixels they
-/// stand for averaged and never rounded to whole DN.
+/// A picture is a function of the sensor, the unit, the seed and the [`View`] only; earlier pictures, thread and processor do not matter.
+/// At full size samples have 8 bits. At a reduced size they have 16, 256 counts a DN, with averaged pixel noise that is not rounded to
+/// whole DN.
 ///
 /// ```
 /// use taceva_core::FrameMut;
@@ -42,22 +42,22 @@ pub struct Camera {
     binning: f64,
     random: Random,
     is_transparent: bool,
-    /// What the gel is made from, and the gel once it was asked for: who takes no picture need not wait for its tables.
+    /// Inputs of the gel, and the gel once it is needed: its tables are expensive.
     unmade: (GelSpec, Raster, u32),
     gel: Option<Gel>,
-    /// Rows painted at a time, and the room for them.
+    /// Rows of a band, and its buffer.
     band_rows: usize,
     light: Vec<f32>,
 }
 
-/// Numbers painted at a time: they stay in the processor's first cache.
+/// Values in a band, which fits the first cache of the processor.
 const BAND: usize = 6144;
 
 impl Camera {
-    /// The camera of unit `unit` of a sensor, giving frames of `size` pixels, width first; `seed` is that of the noise.
+    /// Creates the camera of unit `unit` of a sensor, with frames of `size` pixels, width first, and the noise of `seed`.
     ///
     /// # Errors
-    /// [`OpticsError::Size`] for a frame of no pixels or of more than the sensor has.
+    /// [`OpticsError::Size`] for an empty frame or one larger than that of the sensor.
     pub fn new(
         spec: &OpticsSpec,
         size: [u32; 2],
@@ -82,7 +82,7 @@ impl Camera {
         })
     }
 
-    /// The same camera with samples of so many bits: what it sees and its noise stay, only the step of its numbers is another.
+    /// Changes the bits of a sample; view and noise stay, only the quantisation changes.
     pub fn with_bits(mut self, bits: Bits) -> Camera {
         self.info = bits.of(self.info);
         self
@@ -93,23 +93,22 @@ impl Camera {
         self.info
     }
 
-    /// Whether light from outside reaches it.
+    /// True if ambient light reaches the camera.
     pub fn is_transparent(&self) -> bool {
         self.is_transparent
     }
 
-    /// Makes the tables that pictures are painted from, a second's work at most; without it the first picture waits for them.
+    /// Computes the tables of the gel, within a second; otherwise the first picture does.
     pub fn prepare(&mut self) {
         noise::prepare();
         self.gel();
     }
 
-    /// Takes a picture.
+    /// Renders a picture.
     ///
     /// # Errors
-    /// [`OpticsError::Frame`] for a buffer of another frame, [`OpticsError::Opaque`] for light that the gel keeps out, and
-    /// [`OpticsError::Value`] for numbers that are none.
-    /// The buffer is then as it was.
+    /// [`OpticsError::Frame`] for a buffer of another frame, [`OpticsError::Opaque`] for a scene of light that an opaque gel blocks, and
+    /// [`OpticsError::Value`] for values out of range. The buffer is then unchanged.
     pub fn render(&mut self, view: &View, mut into: FrameMut<'_>) -> Result<Luma, OpticsError> {
         if into.info() != self.info {
             return Err(OpticsError::Frame {
@@ -131,7 +130,7 @@ impl Camera {
             .get_or_insert_with(|| Gel::new(spec, *raster, *unit))
     }
 
-    /// Paints the view taken in and reads it out; made twice, see [`simd::expose`].
+    /// Renders the posed view and reads it out; compiled twice, see [`simd::expose`].
     #[inline(always)]
     pub(super) fn expose(&mut self, view: &View, bytes: &mut [u8]) -> Luma {
         let readout = self.readout(view);
@@ -145,7 +144,7 @@ impl Camera {
         for rows in bytes.chunks_mut(self.band_rows * row_length * sample_bytes) {
             let length = rows.len() / sample_bytes;
             let light = &mut self.light[..length];
-            // It was made to take in the view.
+            // The gel was created when the view was posed.
             if let Some(gel) = &self.gel {
                 gel.paint(&mut Band {
                     first_row,
@@ -190,7 +189,7 @@ impl Camera {
     }
 }
 
-/// Counts of a 16-bit frame that are one DN of the sensor's own 8 bits.
+/// Counts of a 16-bit frame in one DN of the sensor's own 8 bits.
 pub(super) const COUNTS_PER_DN: u64 = 256;
 
 #[cfg(test)]
@@ -252,7 +251,7 @@ mod tests {
             };
             for (fine, coarse) in fine.iter().zip(&coarse) {
                 let fine = f64::from(u16::from_le_bytes(*fine)) / 256.0;
-                // A half, and what the finer step was rounded by.
+                // Rounding to a half, plus the rounding of the finer step.
                 let off = (fine.min(255.0) - f64::from(*coarse)).abs();
                 assert!(off <= 0.5 + 1.0 / 256.0, "{model}: {fine} {coarse}");
             }

@@ -1,8 +1,8 @@
-//! How much of the light a grating takes away.
+//! Contrast of a grating in the light.
 
 use crate::parameters::Parameters;
 
-/// A grating's contrast as a part of the light, from its contrast over the noise of a pixel as parameters state it.
+/// Contrast of a grating relative to the light; the parameters state it relative to the noise of a pixel.
 pub(super) fn grating_contrast(parameters: &Parameters) -> f64 {
     let camera = &parameters.camera;
     let variance = camera.shot_gain * camera.mean_gray + camera.read_noise * camera.read_noise;

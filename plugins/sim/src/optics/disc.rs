@@ -4,32 +4,32 @@ use super::band::Band;
 use super::raster::Raster;
 use crate::number::{count, narrow};
 
-/// How a disc darkens what lies behind it, by the square of the distance from its middle.
+/// Attenuation by a disc, by the squared distance from its centre.
 #[derive(Clone, Debug)]
 pub(super) struct Disc {
-    /// What is left of the light, from the middle to the reach.
+    /// Remaining light, from the centre to the reach.
     left: [f32; BINS + 1],
     bins_per_square: f32,
     reach: f32,
 }
 
-/// A disc's figures, in the field's unit.
+/// Parameters of a disc, in the field's unit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DiscSpec {
-    /// Its radius, where half of its darkness is reached.
+    /// Radius, at which half of its darkness is reached.
     pub(super) radius: f64,
-    /// The part of the light it takes in its middle: 0 to 1.
+    /// Absorbed part of the light at its centre: 0 to 1.
     pub(super) darkness: f64,
-    /// The scale of its logistic edge.
+    /// Scale of its logistic edge.
     pub(super) edge: f64,
 }
 
 const BINS: usize = 256;
-/// Edge scales after which a disc has ended: it is 7·10⁻³ dark there, which is taken off so that it ends without a step.
+/// Reach of a disc beyond its radius, in edge scales. Its darkness there, 7·10⁻³, is subtracted so that it ends without a step.
 const EDGES: f64 = 5.0;
 
 impl Disc {
-    /// A disc seen in pixels of `raster`: its edge is never sharper than a quarter of a pixel.
+    /// Creates a disc for pixels of `raster`; its edge is at least a quarter of a pixel wide.
     pub(super) fn new(spec: DiscSpec, raster: &Raster) -> Disc {
         let pixel = 0.5 * f64::from(raster.pitch[0] + raster.pitch[1]);
         let edge = (spec.edge * spec.edge + pixel * pixel / 16.0).sqrt();

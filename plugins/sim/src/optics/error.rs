@@ -1,50 +1,50 @@
-//! Why there is no picture.
+//! Errors of the camera.
 
 use taceva_core::FrameInfo;
 use thiserror::Error;
 
 use super::ambient::AmbientLight;
 
-/// Why a camera cannot be made, or cannot take a picture.
+/// Reasons for which a camera cannot be made, or cannot take a picture.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OpticsError {
-    /// A frame that the sensor cannot give.
+    /// The size of the frame is out of range.
     #[error(
         "a frame of {width}×{height}: expected 1×1 up to the sensor's {native_width}×{native_height}"
     )]
     Size {
-        /// Pixels a row asked for.
+        /// Requested width, pixels.
         width: u32,
-        /// Rows asked for.
+        /// Requested height, pixels.
         height: u32,
-        /// Pixels a row at full size.
+        /// Full width, pixels.
         native_width: u32,
-        /// Rows at full size.
+        /// Full height, pixels.
         native_height: u32,
     },
-    /// A buffer for another frame than the camera gives.
+    /// The buffer does not match the frames of the camera.
     #[error("a buffer for {found}: this camera gives {expected}")]
     Frame {
-        /// What the buffer is for.
+        /// Frame of the buffer.
         found: FrameInfo,
-        /// What the camera gives.
+        /// Frame of the camera.
         expected: FrameInfo,
     },
-    /// Light from outside on a gel that lets none in.
+    /// The gel is opaque to the requested scene of light.
     #[error("lighting scene {scene}: the gel is opaque, only `normal` reaches the camera")]
     Opaque {
-        /// The scene asked for.
+        /// Requested scene.
         scene: AmbientLight,
     },
-    /// A number outside what can be pictured.
+    /// A value is out of range.
     #[error("{quantity} = {value}: expected {expected}")]
     Value {
-        /// The quantity, as its field is called.
+        /// Name of the quantity's field.
         quantity: &'static str,
-        /// What it was.
+        /// Value.
         value: f64,
-        /// What would be accepted.
+        /// Accepted values.
         expected: &'static str,
     },
 }

@@ -1,4 +1,4 @@
-//! The gel in front of the camera, whichever it is.
+//! Gel in front of the camera.
 
 use super::band::Band;
 use super::error::OpticsError;
@@ -10,7 +10,7 @@ use super::view::View;
 use super::vitactip::Vitactip;
 use crate::random::Random;
 
-/// One unit of a gel, seen at one frame size.
+/// One unit of a gel at one frame size.
 #[derive(Clone, Debug)]
 pub(super) enum Gel {
     Gelsight(Box<Gelsight>),
@@ -27,7 +27,7 @@ impl Gel {
         }
     }
 
-    /// Takes in what is touched, once a frame; `random` gives what happens to the gel by chance.
+    /// Sets the view of a frame; `random` supplies random effects in the gel.
     pub(super) fn pose(&mut self, view: &View, random: &Random) -> Result<(), OpticsError> {
         match self {
             Gel::Gelsight(gel) => gel.pose(view),
@@ -36,7 +36,7 @@ impl Gel {
         }
     }
 
-    /// Paints the light of some rows of the view last taken in.
+    /// Renders some rows of the current view.
     #[inline(always)]
     pub(super) fn paint(&self, band: &mut Band<'_>) {
         match self {

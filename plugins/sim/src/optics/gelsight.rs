@@ -33,25 +33,25 @@ pub(super) struct Gelsight {
     markers: Vec<[f32; 2]>,
 }
 
-/// What stays the same from frame to frame.
+/// Constant data of all frames.
 #[derive(Debug)]
 struct Scene {
     raster: Raster,
     spec: GelsightSpec,
     lamps: Vec<Lamp>,
     ambient: [f32; 3],
-    /// Slope of the untouched surface a mm, towards the camera.
+    /// Slope of the untouched surface per mm, towards the camera.
     sag: [f32; 2],
-    /// What the coating throws back, a pixel each.
+    /// Reflectance of the coating at each pixel.
     reflectance: Vec<f32>,
     tables: Tables,
-    /// The untouched gel without markers.
+    /// Untouched gel without markers.
     background: Vec<f32>,
     disc: Option<Disc>,
     markers: Vec<[f32; 2]>,
 }
 
-/// What touches the gel in this frame.
+/// Stimulus of this frame.
 #[derive(Clone, Debug)]
 enum Touch {
     Nothing,
@@ -218,7 +218,7 @@ impl Scene {
         }
     }
 
-    /// Shades the pixels of a row of the frame, with what `press` adds to the slopes of the untouched gel.
+    /// Shades the pixels of a row of the frame; `press` adds to the slopes of the untouched gel.
     #[inline(always)]
     fn shade(
         &self,
@@ -255,12 +255,12 @@ impl Scene {
     }
 }
 
-/// A texel of the coating: six are the standard deviation of its unevenness, 1.1 mm.
+/// Texel of the coating, mm; six texels, 1.1 mm, are the standard deviation of its smoothing.
 const TEXEL_MM: f64 = 0.18;
-/// The scale of a marker's edge.
+/// Scale of a marker's edge, mm.
 const MARKER_EDGE_MM: f64 = 0.045;
 
-/// Where the markers of a unit lie.
+/// Places of the markers of a unit.
 fn places(grid: &MarkerGrid, random: &Random) -> Vec<[f32; 2]> {
     let jitter = random.stream(Purpose::MarkerJitter, 0);
     let [columns, rows] = grid.count;

@@ -1,6 +1,6 @@
-//! How bright a frame is.
+//! Brightness of a frame.
 
-/// The brightness of a frame, added up in whole numbers while it is made.
+/// Brightness of a frame, summed as integers while the frame is rendered.
 ///
 /// # Units
 /// Digital numbers (DN) of an 8-bit camera, 0 to 255, whatever the frame's format.
@@ -26,7 +26,7 @@ impl Luma {
         }
     }
 
-    /// Adds a row of `pixels` pixels; `sums` are those of lane after lane, lane i of colour i modulo 3.
+    /// Adds a row of `pixels` pixels from `sums` by lane; lane i has colour i modulo 3.
     pub(super) fn add_row(&mut self, sums: &[u32], channels: usize, pixels: usize) {
         for (lane, sum) in sums.iter().enumerate() {
             let weight = if channels == 1 {
@@ -39,7 +39,7 @@ impl Luma {
         self.pixels += pixels as u64;
     }
 
-    /// The mean over the frame, in DN; 0 of no pixels.
+    /// Mean over the frame, in DN; 0 for an empty frame.
     ///
     /// A frame at a reduced size is not rounded to whole DN, so its mean is that of the full-size frame within the noise.
     pub fn mean_dn(&self) -> f64 {

@@ -1,4 +1,4 @@
-//! MagicTac: a clear block in which three layers of a lattice are seen to move.
+//! MagicTac: a clear block that shows the motion of three layers of a lattice.
 
 mod glow;
 mod lattice;
@@ -32,11 +32,11 @@ pub(super) struct Magictac {
     profiles: [Profile; 3],
     touch: Touch,
     shift: Shift,
-    /// Which part of the buckling pattern this press looks at.
+    /// Offset of this press in the buckling pattern.
     buckling: [f32; 2],
 }
 
-/// What stays the same from frame to frame.
+/// Constant data of all frames.
 #[derive(Debug)]
 struct Scene {
     raster: Raster,
@@ -47,11 +47,11 @@ struct Scene {
     buckling_part: f32,
     refraction: f32,
     gloss: f32,
-    /// The lamps' light, red, green and blue of each pixel.
+    /// Light of the lamps at each pixel: red, green and blue.
     glow: Vec<[f32; 3]>,
 }
 
-/// The untouched block under one scene of light.
+/// Untouched block in one scene of light.
 #[derive(Debug)]
 struct Lighting {
     scene: AmbientLight,
@@ -66,7 +66,7 @@ enum Touch {
     Board(Relief),
 }
 
-/// Where the surface has to face for red, green and blue to grow: along x, along y.
+/// Facing of the surface that brightens red, green and blue: along x, along y.
 const FACING: [[f32; 4]; 2] = [[0.7, -0.8, 0.0, 0.0], [-0.5, -0.2, 0.9, 0.0]];
 
 impl Magictac {
@@ -125,7 +125,7 @@ impl Magictac {
         }
     }
 
-    /// The lattice moves smoothly: where it goes is worked out for every other pixel of a row, and between them lies in the middle.
+    /// Paints a ball. The lattice moves smoothly, so its shift is computed for every other pixel of a row and averaged between.
     #[inline(always)]
     fn paint_ball(&self, band: &mut Band<'_>) {
         let (scene, raster, shift) = (&*self.scene, &self.scene.raster, &self.shift);
@@ -155,13 +155,13 @@ impl Magictac {
         }
     }
 
-    /// A lattice under load gives way by chance: a part of how far it has moved, in a direction of its own.
+    /// Adds random buckling of the loaded lattice: a part of its shift, in a random direction.
     #[inline(always)]
     fn buckled(&self, mut moved: Moved, x: f32, y: f32) -> Moved {
         let [chance_x, chance_y] = (self.scene.buckling)
             .near(x + self.buckling[0], y + self.buckling[1])
             .map(|chance| chance * self.scene.buckling_part);
-        // The fourth lane is no layer's: the surface does not buckle.
+        // The fourth lane is the surface, which does not buckle.
         let size = moved.x.times(moved.x).plus(moved.y.times(moved.y)).root();
         let by = |chance: f32| size.times(Lanes::new([chance, chance, chance, 0.0]));
         moved.x = moved.x.plus(by(chance_x));
@@ -186,7 +186,7 @@ impl Magictac {
         }
     }
 
-    /// Some pixels of a row.
+    /// Pixels of a row.
     #[inline(always)]
     fn stretch<'a>(
         &'a self,
@@ -203,23 +203,23 @@ impl Magictac {
     }
 }
 
-/// Pixels beside each other.
+/// Adjacent pixels of a row.
 struct Stretch<'a> {
     light: &'a mut [[f32; 3]],
     source: &'a [Source],
 }
 
-/// What lights a pixel: red, green and blue.
+/// Light sources of a pixel: red, green and blue.
 #[derive(Clone, Copy, Debug)]
 struct Source {
-    /// The lamps' light as it is exposed.
+    /// Light of the lamps after exposure.
     glow: [f32; 3],
-    /// What comes in from outside.
+    /// Ambient light.
     outside: [f32; 3],
 }
 
 impl Source {
-    /// The light of a pixel whose lattice shows `pattern` and is brighter by a part.
+    /// Light of a pixel with the lattice `pattern`, brightened by the part `brighter`.
     #[inline(always)]
     fn under(&self, pattern: &[f32; 4], brighter: f32) -> [f32; 3] {
         [0, 1, 2].map(|colour: usize| {
@@ -229,7 +229,7 @@ impl Source {
 }
 
 impl Moved {
-    /// What happens where nothing touches.
+    /// No motion, as outside a contact.
     #[inline(always)]
     fn nowhere() -> Moved {
         Moved {
@@ -271,7 +271,7 @@ impl Scene {
         }
     }
 
-    /// What the lattice and the surface do to the light at `x`, `y`: parts of it, around 0, red, green and blue.
+    /// Relative change of the light by lattice and surface at `x`, `y`: red, green and blue, around 0.
     #[inline(always)]
     fn pattern(&self, moved: &Moved, x: f32, y: f32) -> [f32; 4] {
         let [slope_x, slope_y] = [moved.x.to_array()[3], moved.y.to_array()[3]];
@@ -318,7 +318,7 @@ impl Lighting {
     }
 }
 
-/// A field of light over the frame, a colour a pixel.
+/// A field of light over the frame, with one colour at each pixel.
 fn field(raster: &Raster, at: impl Fn(f64, f64) -> [f64; 3]) -> Vec<[f32; 3]> {
     (0..raster.width * raster.height)
         .map(|index| {

@@ -1,29 +1,29 @@
-//! Noise as a tile of normal numbers that every row enters at a place of its own.
+//! Noise from a tile of normal numbers, which every row enters at its own place.
 //!
-//! Drawing a normal number a pixel costs more than everything else in a frame. So 65,536 of them are drawn once, and a row is a
-//! stretch of the tile with a random start and a random sign. Within a row the numbers are independent; two rows that happen to
-//! overlap repeat each other shifted, which no statistic over a frame notices and which a test bounds.
+//! A normal number for each pixel would cost more than the rest of a frame. So 65,536 are drawn once, and a row is a stretch of the tile
+//! with a random start and sign. Numbers within a row are independent. Overlapping rows repeat each other shifted, which no statistic over
+//! a frame shows, as a test bounds.
 
 use std::sync::OnceLock;
 
 use crate::number::{count, narrow};
 use crate::random::{Purpose, Random, Stream};
 
-/// Numbers in the tile.
+/// Size of the tile.
 const TILE: usize = 1 << 16;
-/// The longest row: three colours of 16,384 pixels. The tile goes on so far past its end, with its start.
+/// Longest row: three colours of 16,384 pixels. The tile repeats its start by so much at its end.
 pub(super) const LONGEST_ROW: usize = 3 << 14;
-/// The tile is a constant of the model, so its seed is no choice.
+/// Fixed seed: the tile is a constant of the model.
 const TILE_SEED: u64 = 0x7411_e5ee_d0ff_0a15;
 
-/// The numbers of one row: a stretch of the tile, and whether to turn their sign.
+/// Noise of one row: a stretch of the tile, and its sign.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RowNoise {
     pub(super) normal: &'static [f32],
     pub(super) sign: f32,
 }
 
-/// The noise of a row of `length` samples.
+/// Noise of a row of `length` samples.
 pub(super) fn row(stream: &Stream, index: u64, length: usize) -> RowNoise {
     let bits = stream.bits(index);
     let start = usize::from(u16::try_from(bits & 0xffff).expect("masked to 16 bits"));
@@ -33,18 +33,18 @@ pub(super) fn row(stream: &Stream, index: u64, length: usize) -> RowNoise {
     }
 }
 
-/// Draws the tile, if nobody has.
+/// Draws the tile, once.
 pub(super) fn prepare() {
     tile();
 }
 
-/// 65,536 numbers of mean 0 and standard deviation 1, and the first ones again.
+/// 65,536 numbers of mean 0 and standard deviation 1, followed by the first ones again.
 fn tile() -> &'static [f32] {
     static NUMBERS: OnceLock<Vec<f32>> = OnceLock::new();
     NUMBERS.get_or_init(|| {
         let stream = Random::new(TILE_SEED).stream(Purpose::PixelNoise, 0);
         let drawn: Vec<f64> = (0..TILE as u64).map(|index| stream.normal(index)).collect();
-        // Standardised, so that the mean of a whole frame is not moved by the luck of one draw.
+        // Standardised, so that the draw does not shift the mean of a frame.
         let mean = drawn.iter().sum::<f64>() / count(TILE);
         let variance = drawn.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / count(TILE);
         let scale = 1.0 / variance.sqrt();

@@ -1,8 +1,8 @@
-//! The pixels of a frame, laid over the field of view.
+//! Pixel grid of a frame over the field of view.
 
 use crate::number::narrow;
 
-/// A grid of pixels over a field of view that is centred on the axis; x to the right, y up, row 0 on top.
+/// A pixel grid over a field of view centred on the axis; x to the right, y up, row 0 on top.
 ///
 /// A frame of another shape shows the same field, so its pixels need not be square.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +14,7 @@ pub(super) struct Raster {
 }
 
 impl Raster {
-    /// `size` pixels over `field`, width first.
+    /// Grid of `size` pixels over `field`, width first.
     pub(super) fn new(size: [usize; 2], field: [f64; 2]) -> Raster {
         let pitch = |axis: usize| narrow(field[axis] / crate::number::count(size[axis]));
         Raster {
@@ -36,13 +36,13 @@ impl Raster {
         self.pitch[1] * (0.5 * whole(self.height) - 0.5 - whole(row))
     }
 
-    /// The columns whose middles lie within `reach` of `x`: from, and up to but without.
+    /// Columns with centres within `reach` of `x`.
     pub(super) fn columns(&self, x: f32, reach: f32) -> std::ops::Range<usize> {
         let middle = x / self.pitch[0] + 0.5 * whole(self.width) - 0.5;
         span(middle, reach / self.pitch[0], self.width)
     }
 
-    /// The rows whose middles lie within `reach` of `y`.
+    /// Rows with centres within `reach` of `y`.
     pub(super) fn rows(&self, y: f32, reach: f32) -> std::ops::Range<usize> {
         let middle = 0.5 * whole(self.height) - 0.5 - y / self.pitch[1];
         span(middle, reach / self.pitch[1], self.height)

@@ -1,11 +1,11 @@
-//! From light to numbers: flicker, noise, rounding and clipping of one row.
+//! Readout of one row: flicker, noise, rounding and clipping.
 
 use super::noise::RowNoise;
 
-/// How the camera turns light into samples.
+/// Conversion of light to samples.
 ///
-/// I′ = I (1 + e) + N(0, g I + s²) with e the flicker of the frame, g the shot noise's gain and s the read noise; rounded to the
-/// nearest count, ties to even, and clipped to the sample's range.
+/// I′ = I (1 + e) + N(0, g I + s²). Here e is the flicker of the frame, g the gain of the shot noise and s the read noise. The result is
+/// rounded to the nearest count, ties to even, and clipped to the range of the sample.
 ///
 /// # Reference
 /// The linear camera model of EMVA 1288 without dark current.
@@ -17,20 +17,20 @@ pub(super) struct Readout {
     pub(super) shot: f32,
     /// s², DN².
     pub(super) read_variance: f32,
-    /// Counts a DN: 1 in 8 bit, 256 in 16 bit.
+    /// Counts of one DN: 1 in 8 bit, 256 in 16 bit.
     pub(super) counts_per_dn: f32,
     /// The greatest count.
     pub(super) full_counts: f32,
 }
 
-/// Samples worked on together: a multiple of three colours and of every vector's width.
+/// Samples in one vector step: a multiple of three colours and of every vector width.
 pub(super) const LANES: usize = 24;
 
-/// Added to a number from 0 to 2¹⁶, leaves its nearest whole number in the low bits: ties to even, no cast.
+/// Magic number: added to a value from 0 to 2¹⁶, it leaves the nearest integer in the low bits, ties to even, without a cast.
 const ROUND: f32 = 8_388_608.0;
 
 impl Readout {
-    /// Writes the samples of a row of `light` in DN, `BYTES` each, and returns the sums of their counts by lane.
+    /// Writes the samples of a row of `light` in DN, `BYTES` bytes each, and returns the sums of their counts by lane.
     #[inline(always)]
     pub(super) fn row<const BYTES: usize>(
         &self,
@@ -82,13 +82,13 @@ impl Readout {
     }
 }
 
-/// The greater of `value` and 0, as one instruction; `f32::max` must look for NaN first.
+/// The greater of `value` and 0 in one instruction; `f32::max` checks for NaN first.
 #[inline(always)]
 fn above_zero(value: f32) -> f32 {
     if value > 0.0 { value } else { 0.0 }
 }
 
-/// Writes the low `BYTES` bytes of each count, low byte first.
+/// Writes the low `BYTES` bytes of each count, little-endian.
 #[inline(always)]
 fn store<const BYTES: usize>(counts: &[u32], into: &mut [u8]) {
     let (samples, _) = into.as_chunks_mut::<BYTES>();

@@ -1,4 +1,4 @@
-//! What a sensor sees of a grating pressed into its gel.
+//! Visible relief of a grating pressed into a gel.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -9,10 +9,10 @@ use super::stimulus::Board;
 use crate::elastic::kernel::Kernel;
 use crate::number::narrow;
 
-/// What lies between a grating and a picture.
+/// Layer, lens and pixel between a grating and its picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
-    /// Thickness of the gel that has to follow the grating; none where the camera looks through the gel at the board.
+    /// Thickness of the gel that follows the grating; `None` if the camera sees the board through the gel.
     pub(super) layer_mm: Option<f64>,
     /// Standard deviation of the lens's blur, on the gel.
     pub(super) blur_mm: f64,
@@ -20,16 +20,17 @@ pub(super) struct Window {
     pub(super) pixel_mm: f64,
 }
 
-/// A grating as it is seen: the first harmonics of its square waves, each as much as layer, lens and pixel leave of it.
+/// Visible grating: the first harmonics of its square waves, each attenuated by layer, lens and pixel.
 ///
 /// Lines are sq(u), dots sq(u) sq(v), with sq the square wave of ±1 and period 2w, u and v along the board's sides.
 ///
-/// * The layer follows a wave of amplitude A and wave number k under a pressure A k E / (1.5 L(k h)); pressed less hard, in proportion.
-/// * The lens leaves exp(−k²σ²/2), which for harmonic m is exp(−2 (π σ m / 2w)²).
-/// * A pixel of side p leaves sin(k p/2) / (k p/2), taken alike in every direction.
+/// * The layer follows a wave of amplitude A and wave number k under a pressure A k E / (1.5 L(k h)). A lower pressure has a proportional
+///   effect.
+/// * The lens passes exp(−k²σ²/2), for harmonic m exp(−2 (π σ m / 2w)²).
+/// * A pixel of side p passes sin(k p/2) / (k p/2), the same in every direction.
 #[derive(Clone, Debug)]
 pub(super) struct Relief {
-    /// How much is left of harmonics 1, 3 and 5 along u, for each of those along v; only the first column for lines. Within ±1.
+    /// Amplitude of harmonics 1, 3 and 5 along u, for each of those along v; only the first row for lines. Within ±1.
     left: [[f32; 3]; 3],
     kind: GratingKind,
     wave_number: f32,
@@ -40,17 +41,17 @@ pub(super) struct Relief {
 
 /// Height of a board's relief above its middle, mm (literature).
 const AMPLITUDE_MM: f64 = 0.2;
-/// Half the side of a board (geometry).
+/// Half the side of a board, mm (geometry).
 const HALF_SIDE_MM: f32 = 5.0;
-/// Over which a board's edge fades.
+/// Width of the fading edge of a board, mm.
 const EDGE_MM: f32 = 0.15;
 const HARMONICS: [f64; 3] = [1.0, 3.0, 5.0];
 
 impl Relief {
-    /// What `window` leaves of the grating of `board`.
+    /// Visible part of the grating of `board` through `window`.
     ///
     /// # Errors
-    /// [`OpticsError::Value`] for a pressure or modulus that is not positive, or a place that is no number.
+    /// [`OpticsError::Value`] for a pressure or modulus that is not positive, or a place that is not finite.
     pub(super) fn new(board: &Board, window: Window) -> Result<Relief, OpticsError> {
         let kind = board.grating.kind();
         positive("pressure_mpa", board.pressure_mpa)?;
@@ -87,17 +88,17 @@ impl Relief {
         })
     }
 
-    /// The middle of the board.
+    /// Centre of the board.
     pub(super) fn centre(&self) -> [f32; 2] {
         self.centre
     }
 
-    /// How far from its middle the board is seen at all.
+    /// Radius around the centre beyond which the board is invisible.
     pub(super) fn reach(&self) -> f32 {
         (HALF_SIDE_MM + 8.0 * EDGE_MM) * std::f32::consts::SQRT_2
     }
 
-    /// The relief at a place, within ±1 of a full one; positive towards the camera.
+    /// Relief at a place, relative to the full one, within ±1; positive towards the camera.
     pub(super) fn at(&self, x: f32, y: f32) -> f32 {
         let [u, v] = self.on_board(x, y);
         let [along, _] = waves(self.wave_number * u);
@@ -105,7 +106,7 @@ impl Relief {
         board_edge(u) * board_edge(v) * self.sum(&along, &across)
     }
 
-    /// The slope towards the camera at a place, along x and along y.
+    /// Slope towards the camera at a place, along x and along y.
     pub(super) fn slope(&self, x: f32, y: f32) -> [f32; 2] {
         let [u, v] = self.on_board(x, y);
         let [along, along_slope] = waves(self.wave_number * u);
@@ -146,20 +147,20 @@ impl Relief {
     }
 }
 
-/// The part of harmonic m in a square wave of ±1 that is even about 0: ±4/(π m).
+/// Amplitude of harmonic m in a square wave of ±1 that is even about 0: ±4/(π m).
 fn square_wave(m: f64) -> f64 {
     // cos((m − 1) π/2) is +1, −1, +1 for m = 1, 3, 5.
     libm::cos((m - 1.0) * FRAC_PI_2).signum() / (FRAC_PI_4 * m)
 }
 
-/// The part of a wave's amplitude that the layer follows.
+/// Part of a wave's amplitude that the layer follows.
 fn followed(board: &Board, amplitude_mm: f64, k: f64, thickness_mm: f64) -> f64 {
     let kernel = Kernel::of_layer(k * thickness_mm, 0.5);
     let needed = amplitude_mm * k * board.young_modulus_mpa / (1.5 * kernel.normal);
     (board.pressure_mpa / needed).min(1.0)
 }
 
-/// The part of a wave that lens and pixel leave.
+/// Part of a wave's amplitude that lens and pixel pass.
 fn resolved(window: &Window, k: f64) -> f64 {
     let blur = k * window.blur_mm;
     let half_pixel = 0.5 * k * window.pixel_mm;
@@ -189,7 +190,7 @@ fn waves(phase: f32) -> [[f32; 3]; 2] {
     ]
 }
 
-/// 1 on the board, 0 beside it.
+/// Weight of a place along one axis of the board: 1 on it, 0 outside.
 fn board_edge(along: f32) -> f32 {
     let beyond = (along.abs() - HALF_SIDE_MM) / EDGE_MM;
     if beyond > 8.0 {
@@ -264,7 +265,7 @@ mod tests {
 
     #[test]
     fn the_layer_follows_as_much_as_the_table_of_pressures_says() {
-        // simulated bench, gratings: 0.2 mm needs 0.55, 0.27, 0.14, 0.08 MPa at 0.25, 0.5, 1, 1.75 mm on the GelSight gel.
+        // Simulated bench, gratings: 0.2 mm needs 0.55, 0.27, 0.14, 0.08 MPa at 0.25, 0.5, 1, 1.75 mm on the GelSight gel.
         for (spacing, needed) in [(0.25, 0.55), (0.5, 0.27), (1.0, 0.14), (1.75, 0.08)] {
             let part = followed(&board(GratingKind::Line, 250_000), 0.2, PI / spacing, 4.25);
             let expected = (0.1_f64 / needed).min(1.0);

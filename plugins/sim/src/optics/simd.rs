@@ -1,4 +1,4 @@
-//! Where pictures meet the processor: arithmetic on four numbers at once, and the widest vectors there are.
+//! SIMD arithmetic: lanes of four numbers, and dispatch to the widest vectors of the processor.
 
 mod lanes;
 mod widest;

@@ -1,4 +1,4 @@
-//! What a tactile sensor's camera and gel look like, as numbers.
+//! Optical parameters of a tactile sensor: its camera and gel.
 
 use taceva_core::{FrameInfo, PixelFormat};
 
@@ -9,16 +9,16 @@ use super::noise::LONGEST_ROW;
 use super::vitactip::VitactipSpec;
 use crate::parameters::{self, Body, Parameters};
 
-/// The look of a tactile sensor.
+/// Optics of a tactile sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpticsSpec {
     /// Pixels of a full-size frame, width first.
     pub native: [u32; 2],
-    /// Width and height of what the frame shows, in the gel's unit: mm, or radii of the dome's rim.
+    /// Width and height of the visible field, in the gel's unit: mm, or radii of the dome's rim.
     pub field: [f64; 2],
     /// The camera.
     pub camera: CameraSpec,
-    /// Whether light from outside reaches the camera.
+    /// True if ambient light reaches the camera.
     pub is_transparent: bool,
     /// The gel.
     pub gel: GelSpec,
@@ -27,11 +27,11 @@ pub struct OpticsSpec {
 /// The noise of a camera at full size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraSpec {
-    /// Variance of the shot noise a DN of light.
+    /// Variance of the shot noise per DN of light.
     pub shot_gain_dn: f64,
     /// Standard deviation of the read noise.
     pub read_noise_dn: f64,
-    /// Standard deviation of a frame's brightness, as a part of it.
+    /// Relative standard deviation of a frame's brightness.
     pub flicker: f64,
 }
 
@@ -43,7 +43,7 @@ impl CameraSpec {
         flicker: 0.0,
     };
 
-    /// The noise that `camera` states for a picture 96 pixels wide, scaled to a picture `width` pixels wide.
+    /// Scales the noise of `camera`, stated for a picture 96 pixels wide, to a picture `width` pixels wide.
     fn new(camera: &parameters::Camera, width: u32) -> CameraSpec {
         let across = f64::from(width) / REFERENCE_WIDTH;
         CameraSpec {
@@ -54,7 +54,7 @@ impl CameraSpec {
     }
 }
 
-/// The width of the picture for which parameters state the noise.
+/// Width of the picture for which parameters state the noise, pixels.
 const REFERENCE_WIDTH: f64 = 96.0;
 
 fn pixels(count: f64) -> u32 {
@@ -80,17 +80,17 @@ pub enum GelSpec {
 }
 
 impl GelSpec {
-    /// Whether it is known how light from outside looks in it.
+    /// True if the model covers ambient light in this gel.
     pub(super) fn has_outside_light(&self) -> bool {
         !matches!(self, GelSpec::Gelsight(_))
     }
 }
 
 impl OpticsSpec {
-    /// The look of the sensor that `parameters` describe: a dome is a ViTacTip, a layer with a lattice a MagicTac, and any other
-    /// layer a GelSight, with markers if it has them.
+    /// Optics of the sensor with `parameters`: a dome is a ViTacTip, a layer with a lattice a MagicTac, and any other layer a GelSight,
+    /// with markers if it has them.
     ///
-    /// The frame stands as the field does, its longer side along the longer side of the gel; a dome's is cut to a square.
+    /// The longer side of the frame follows the longer side of the gel; a dome's frame is cut to a square.
     pub fn new(parameters: &Parameters) -> OpticsSpec {
         let camera = &parameters.camera;
         let [longer, shorter] = {
@@ -130,7 +130,7 @@ impl OpticsSpec {
     /// Size and format of a frame of `size` pixels: 8 bits at full size, 16 below it.
     ///
     /// # Errors
-    /// [`OpticsError::Size`] for a frame of no pixels, or with more rows or columns than the sensor has.
+    /// [`OpticsError::Size`] for an empty frame, or one with more rows or columns than the sensor has.
     pub fn frame_info(&self, size: [u32; 2]) -> Result<FrameInfo, OpticsError> {
         let [width, height] = size;
         let [native_width, native_height] = self.native;
@@ -157,7 +157,7 @@ impl OpticsSpec {
         })
     }
 
-    /// Pixels of the full-size frame in one of a frame of `size`.
+    /// Full-size pixels in one pixel of a frame of `size`.
     pub(super) fn binning(&self, size: [u32; 2]) -> f64 {
         let pixels = |size: [u32; 2]| f64::from(size[0]) * f64::from(size[1]);
         pixels(self.native) / pixels(size)

@@ -1,16 +1,16 @@
-//! What touches the gel while the camera looks.
+//! Stimulus of the gel during a picture.
 
 use crate::contact::Contact;
 use crate::specimen::{Grating, GratingPose};
 
-/// What touches the gel.
+/// Stimulus of the gel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Stimulus {
     /// Nothing.
     #[default]
     Nothing,
-    /// A ball, in contact as the bench says.
+    /// A ball, in the contact of the bench.
     Ball(Contact),
     /// A board with a grating.
     Board(Board),
@@ -19,14 +19,14 @@ pub enum Stimulus {
 /// A board whose grating is pressed flat into the gel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Board {
-    /// What it carries.
+    /// Grating of the board.
     pub grating: Grating,
-    /// How it lies on the gel.
+    /// Pose on the gel.
     pub pose: GratingPose,
-    /// How hard it is pressed, over its whole area.
+    /// Pressure over its whole area.
     pub pressure_mpa: f64,
-    /// How far it is pressed into a dome: so much nearer it is seen.
+    /// Depth in a dome, by which it is nearer to the camera.
     pub depth_mm: f64,
-    /// The modulus that the gel shows.
+    /// Effective modulus of the gel.
     pub young_modulus_mpa: f64,
 }

@@ -1,4 +1,4 @@
-//! Smooth random patterns that repeat: speckle, unevenness of a coating, the buckling of a lattice.
+//! Smooth random patterns that repeat: speckle, unevenness of a coating, buckling of a lattice.
 
 use super::simd::Lanes;
 use crate::number::{count, narrow};
@@ -11,18 +11,18 @@ pub(super) struct Texture {
     texels_per_unit: f32,
 }
 
-/// All that a place between four texels needs, together in one line of the cache: the first texel, how much the next one in its row and
-/// the one above it differ from it, and how much the fourth differs from these three taken together.
+/// Interpolation data of a place between four texels, in one cache line. It holds the first texel, its differences to the next in the row
+/// and to the one above, and the mixed difference.
 type Cell = [[f32; 4]; 4];
 
-/// Texels a side; a power of two.
+/// Side of a texture in texels; a power of two.
 pub(super) const SIDE: usize = 1 << SIDE_BITS;
 const SIDE_BITS: i32 = 7;
-/// Added to a number from −2²¹ to 2²¹, leaves its nearest whole number in the low bits.
+/// Magic number: added to a value from −2²¹ to 2²¹, it leaves the nearest integer in the low bits.
 const ROUND: f32 = 12_582_912.0;
 
 impl Texture {
-    /// A texture of `layers`, at `pitch` of the field's unit a texel.
+    /// Creates a texture of `layers`, with `pitch` of the field's unit between texels.
     pub(super) fn new(pitch: f64, layers: &[Vec<f32>]) -> Texture {
         let texel = |row: usize, column: usize| {
             let index = row % SIDE * SIDE + column % SIDE;
@@ -42,14 +42,14 @@ impl Texture {
         }
     }
 
-    /// The four values at a place, in the field's unit.
+    /// Four values at a place, in the field's unit.
     #[inline(always)]
     pub(super) fn at(&self, x: f32, y: f32) -> [f32; 4] {
         let places = Places::of(Lanes::splat(x), Lanes::splat(y), self.texels_per_unit);
         self.between(&places, 0).to_array()
     }
 
-    /// The sum of three textures of one pitch, each at the place in its lane; the fourth lane of the places is left alone.
+    /// Sum of three textures of one pitch, each at the place in its lane; ignores the fourth lane of the places.
     #[inline(always)]
     pub(super) fn sum_at(layers: &[Texture; 3], x: Lanes, y: Lanes) -> Lanes {
         let places = Places::of(x, y, layers[0].texels_per_unit);
@@ -57,7 +57,7 @@ impl Texture {
         value(0).plus(value(1)).plus(value(2))
     }
 
-    /// The first two values of the texel nearest to a place.
+    /// First two values of the texel nearest to a place.
     #[inline(always)]
     pub(super) fn near(&self, x: f32, y: f32) -> [f32; 2] {
         let nearest = |place: f32| Lanes::splat(place * self.texels_per_unit + ROUND);
@@ -66,7 +66,7 @@ impl Texture {
         [*first, *second]
     }
 
-    /// The values at the place in a lane of `places`.
+    /// Values at the place in a lane of `places`.
     #[inline(always)]
     fn between(&self, places: &Places, lane: usize) -> Lanes {
         let [first, on, up, both] = self.cell(places.index[lane]).map(Lanes::new);
@@ -79,12 +79,12 @@ impl Texture {
 
     #[inline(always)]
     fn cell(&self, index: u32) -> &Cell {
-        // It has no more bits than the cells have; masked, the compiler knows it too.
+        // The index has no more bits than there are cells; the mask shows the compiler.
         &self.cells[index as usize & (SIDE * SIDE - 1)]
     }
 }
 
-/// The cell of a texel, the next in its row, the one above it and the one beside that.
+/// Builds the cell of a texel from the next in its row, the one above it and the diagonal one.
 fn cell_of([first, next, above, beside]: [[f32; 4]; 4]) -> Cell {
     let lanes = |value: fn(f32, f32, f32, f32) -> f32| {
         std::array::from_fn(|lane| value(first[lane], next[lane], above[lane], beside[lane]))
@@ -97,7 +97,7 @@ fn cell_of([first, next, above, beside]: [[f32; 4]; 4]) -> Cell {
     ]
 }
 
-/// For each lane the cell that a place lies in, and how far on in it; on a torus.
+/// Cell and fraction of the place in each lane, on a torus.
 struct Places {
     index: [u32; 4],
     across: [f32; 4],
@@ -108,7 +108,7 @@ impl Places {
     #[inline(always)]
     fn of(x: Lanes, y: Lanes, texels_per_unit: f32) -> Places {
         let [x, y] = [x, y].map(|places| places.times(Lanes::splat(texels_per_unit)));
-        // The nearest whole number to place − ½ is the one before it; a tie makes the fraction 0 or 1, which is the same point.
+        // The nearest integer to place − ½ is the one before it; a tie makes the fraction 0 or 1, which is the same point.
         let round = Lanes::splat(ROUND);
         let [column, row] = [x, y].map(|places| places.minus(Lanes::splat(0.5)).plus(round));
         Places {
@@ -119,9 +119,9 @@ impl Places {
     }
 }
 
-/// A pattern of mean 0 and standard deviation 1 that varies over `sigma` texels, row by row.
+/// Pattern of mean 0 and standard deviation 1 that varies over `sigma` texels, row by row.
 ///
-/// White noise under a Gaussian window of that standard deviation, wrapped around.
+/// White noise smoothed by a Gaussian window of that standard deviation, periodic.
 pub(super) fn smooth_noise(stream: &Stream, layer: u64, sigma: f64) -> Vec<f32> {
     let first = layer * (SIDE * SIDE) as u64;
     let white: Vec<f64> = (first..first + (SIDE * SIDE) as u64)
@@ -138,7 +138,7 @@ pub(super) fn smooth_noise(stream: &Stream, layer: u64, sigma: f64) -> Vec<f32> 
         .collect()
 }
 
-/// A Gaussian window from its middle outwards.
+/// Gaussian window from its middle outwards.
 fn window(sigma: f64) -> Vec<f64> {
     (0..SIDE / 2)
         .map(count)

@@ -1,17 +1,17 @@
-//! What a camera looks at.
+//! View of a camera.
 
 use super::ambient::AmbientLight;
 use super::stimulus::Stimulus;
 
-/// What the camera looks at in one picture.
+/// View of the camera in one picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct View {
-    /// What touches the gel.
+    /// Stimulus of the gel.
     pub stimulus: Stimulus,
-    /// The light from outside.
+    /// Ambient light.
     pub light: AmbientLight,
-    /// The press, by number: what happens to the gel by chance belongs to it.
+    /// Number of the press, which sets random effects in the gel.
     pub press: u64,
-    /// The picture of that press: the camera's noise belongs to it.
+    /// Number of the picture in that press, which sets the noise of the camera.
     pub picture: u32,
 }

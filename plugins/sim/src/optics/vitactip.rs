@@ -1,4 +1,4 @@
-//! ViTacTip: a clear dome whose markers move, and through whose skin the object is seen.
+//! ViTacTip: a clear dome with moving markers, which shows the object through its skin.
 
 mod dome;
 mod lens;
@@ -30,11 +30,11 @@ pub(super) struct Vitactip {
     scene: Arc<Scene>,
     lighting: Arc<Lighting>,
     touch: Touch,
-    /// Where the markers are seen.
+    /// Places of the markers in the picture.
     markers: Vec<[f32; 2]>,
 }
 
-/// What stays the same from frame to frame.
+/// Constant data of all frames.
 #[derive(Debug)]
 struct Scene {
     raster: Raster,
@@ -42,14 +42,14 @@ struct Scene {
     lens: Lens,
     dimple: Dimple,
     disc: Disc,
-    /// The skin under its own lamps, without markers.
+    /// Skin under its own lamps, without markers.
     skin: Vec<f32>,
-    /// Where the markers of the untouched dome lie, in mm from its centre, and where they are seen.
+    /// Places of the markers on the untouched dome, in mm from its centre, and in the picture.
     markers: Vec<[f64; 3]>,
     seen: Vec<[f32; 2]>,
 }
 
-/// The untouched dome under one scene of light, without markers.
+/// Untouched dome in one scene of light, without markers.
 #[derive(Debug)]
 struct Lighting {
     scene: AmbientLight,
@@ -63,7 +63,7 @@ enum Touch {
     Board { relief: Relief, depth_mm: f64 },
 }
 
-/// The ball as it is seen through the skin: a bell of light.
+/// Image of the ball through the skin: a bell of light.
 #[derive(Clone, Copy, Debug)]
 struct Ball {
     middle: [f32; 2],
@@ -71,11 +71,11 @@ struct Ball {
     brightness: f32,
 }
 
-/// Widths after which the bell has ended, four millionths high.
+/// Reach of the bell in widths, where its height is four millionths.
 const WIDTHS: f32 = 5.0;
-/// The scale of a marker's edge, and of the dome's outline: a quarter of a pixel at 96 pixels.
+/// Scale of the edges of markers and dome: a quarter of a pixel at 96 pixels.
 const EDGE: f64 = 0.25 / 46.0;
-/// A texel of the skin's unevenness; three are its standard deviation.
+/// Texel of the skin's unevenness; three texels are its correlation length.
 const TEXEL: f64 = 1.0 / 46.0;
 
 impl Vitactip {
@@ -165,7 +165,7 @@ impl Scene {
         }
     }
 
-    /// The ball of `contact`, as it is seen.
+    /// Image of the ball of `contact`.
     fn ball(&self, contact: &Contact) -> Ball {
         let touched = contact
             .normal
@@ -245,13 +245,13 @@ impl Lighting {
     }
 }
 
-/// How wide the dome's outline is: a quarter of a pixel, and never sharper than the lens.
+/// Width of the dome's outline: a quarter of a pixel, and at least the blur of the lens.
 fn outline_edge(raster: &Raster) -> f64 {
     let pixel = 0.5 * f64::from(raster.pitch[0] + raster.pitch[1]);
     (EDGE * EDGE + pixel * pixel / 16.0).sqrt()
 }
 
-/// Where the markers of a unit lie: a hexagon seen along the axis, laid on the dome.
+/// Places of the markers of a unit: a hexagonal grid along the axis, projected on the dome.
 fn places(spec: &VitactipSpec, random: &Random) -> Vec<[f64; 3]> {
     let jitter = random.stream(Purpose::MarkerJitter, 0);
     let rings = spec.rings;

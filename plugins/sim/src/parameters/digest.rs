@@ -1,4 +1,4 @@
-//! A parameter set in 32 bytes.
+//! Digest of a parameter set, 32 bytes.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use sha2::{Digest, Sha256};
 
 use super::section::Entry;
 
-/// The SHA-256 of a parameter set's canonical form: its name, then a line a number in the order of section and key.
+/// SHA-256 of the canonical form of a parameter set: its name, then one line for each value, ordered by section and key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ParameterDigest([u8; 32]);
 
@@ -23,14 +23,14 @@ impl ParameterDigest {
                 origin,
                 ..
             } = entry;
-            // The bits of the number: no two numbers are written alike.
+            // The bits of the value are unambiguous.
             let bits = value.to_bits();
             hash.update(format!("{section}.{key} {bits:016x} {unit} {origin}\n"));
         }
         ParameterDigest(hash.finalize().into())
     }
 
-    /// The bytes.
+    /// Bytes of the digest.
     pub fn as_bytes(&self) -> &[u8; 32] {
         &self.0
     }

@@ -1,8 +1,8 @@
-//! What can be wrong with a parameter table.
+//! Errors of a parameter table.
 
 use thiserror::Error;
 
-/// A parameter table that was refused, and the line that is to blame.
+/// Error of a rejected parameter table, with the line at fault.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("line {line}: {kind}")]
 pub struct ParameterError {
@@ -10,52 +10,52 @@ pub struct ParameterError {
     kind: ParameterErrorKind,
 }
 
-/// What is wrong.
+/// Kinds of errors.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ParameterErrorKind {
     /// The text is not TOML.
     #[error("{message}")]
     Syntax {
-        /// What the parser says.
+        /// Message of the parser.
         message: String,
     },
-    /// A section or key that nobody reads.
+    /// An unknown section or key.
     #[error("`{key}`: unknown {what}{}", nearest.as_ref().map(|near| format!(", did you mean `{near}`?")).unwrap_or_default())]
     Unknown {
-        /// What it is: a section, a key, a part of a number.
+        /// Kind of word: a section, a key, or a part of a value.
         what: &'static str,
-        /// How it is written.
+        /// Word as written.
         key: String,
-        /// The known word nearest to it.
+        /// Nearest known word.
         nearest: Option<String>,
     },
-    /// A section or key that is needed.
+    /// A required section or key is missing.
     #[error("`{key}`: missing, expected {expected}")]
     Missing {
-        /// Its name.
+        /// Name of the section or key.
         key: String,
-        /// What would be accepted.
+        /// Expected value.
         expected: String,
     },
-    /// A value of another type, unit or origin than expected.
+    /// A value has another type, unit or origin than expected.
     #[error("`{key}`: found {found}, expected {expected}")]
     Form {
-        /// Its name.
+        /// Name of the key.
         key: String,
-        /// What stands there.
+        /// Value found.
         found: String,
-        /// What would be accepted.
+        /// Expected value.
         expected: String,
     },
-    /// A number outside its range.
+    /// A value is out of range.
     #[error("`{key}`: found {value}, expected {expected}")]
     Range {
-        /// Its name.
+        /// Name of the key.
         key: String,
-        /// The number.
+        /// Value found.
         value: f64,
-        /// What would be accepted.
+        /// Accepted range.
         expected: String,
     },
 }
@@ -65,12 +65,12 @@ impl ParameterError {
         ParameterError { line, kind }
     }
 
-    /// The line of the table, from 1; the last one for what is missing.
+    /// Line of the table, from 1; the last one for missing parts.
     pub fn line(&self) -> usize {
         self.line
     }
 
-    /// What is wrong there.
+    /// Kind of the error.
     pub fn kind(&self) -> &ParameterErrorKind {
         &self.kind
     }

@@ -1,15 +1,15 @@
-//! The sensors whose parameters are compiled in.
+//! Sensors with built-in parameters.
 
 use std::fmt;
 
 use super::Parameters;
 
-/// A sensor of the TacEva study whose parameters come with the crate.
+/// A sensor of the TacEva study with built-in parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Model {
     /// A soft dome with pins under a transparent skin.
     ViTacTip,
-    /// A flat printed lattice, seen through.
+    /// A transparent, flat block with a printed lattice.
     MagicTac,
     /// A flat opaque gel with markers.
     GelSight,
@@ -18,7 +18,7 @@ pub enum Model {
 }
 
 impl Model {
-    /// Every compiled-in sensor.
+    /// All built-in sensors.
     pub const ALL: [Model; 4] = [
         Model::ViTacTip,
         Model::MagicTac,
@@ -26,7 +26,7 @@ impl Model {
         Model::GelSightWm,
     ];
 
-    /// The word that names it in keys of drivers and in files.
+    /// Name in driver keys and files.
     pub const fn key(self) -> &'static str {
         match self {
             Model::ViTacTip => "vitactip",
@@ -36,12 +36,12 @@ impl Model {
         }
     }
 
-    /// The model whose key is `key`.
+    /// Finds a model by its key.
     pub fn from_key(key: &str) -> Option<Model> {
         Model::ALL.into_iter().find(|model| model.key() == key)
     }
 
-    /// Its table of parameters, to be copied and changed.
+    /// Parameter table, to copy and change.
     pub const fn table(self) -> &'static str {
         match self {
             Model::ViTacTip => include_str!("../../parameters/vitactip.toml"),
@@ -51,7 +51,7 @@ impl Model {
         }
     }
 
-    /// Its parameters.
+    /// Parses the parameters of the model.
     pub fn parameters(self) -> Parameters {
         Parameters::parse(self.table()).expect("compiled-in tables are parsed by a test")
     }

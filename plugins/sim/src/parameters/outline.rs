@@ -1,26 +1,26 @@
-//! Where a sensor may be pressed.
+//! Outline of the probed surface.
 
 use std::fmt;
 
 use super::{Body, Parameters};
 
-/// The outline of the probed surface, centred on the sensor's axis.
+/// Outline of the probed surface, centred on the sensor's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outline {
     /// A disc, on a dome.
     Disc {
-        /// Its radius.
+        /// Radius of the disc.
         radius_mm: f64,
     },
     /// A rectangle, on a flat gel.
     Rectangle {
-        /// Half its width and half its height.
+        /// Half the width and half the height.
         half_mm: [f64; 2],
     },
 }
 
 impl Parameters {
-    /// Where the sensor may be pressed.
+    /// Outline of the probed surface.
     pub fn outline(&self) -> Outline {
         let half_mm = [self.probing.half_width_mm, self.probing.half_height_mm];
         match self.body {
@@ -33,7 +33,7 @@ impl Parameters {
 }
 
 impl Outline {
-    /// Whether a place lies on it, its edge included.
+    /// True if a place is on the outline, edge included.
     #[inline]
     pub fn contains(&self, [x, y]: [f64; 2]) -> bool {
         match *self {
@@ -42,7 +42,7 @@ impl Outline {
         }
     }
 
-    /// The place at `across` and `along`, each 0 to 1: even numbers give an even cover.
+    /// Place at `across` and `along`, each 0 to 1; uniform inputs cover the outline uniformly.
     pub fn place(&self, across: f64, along: f64) -> [f64; 2] {
         match *self {
             Outline::Disc { radius_mm } => {

@@ -1,8 +1,8 @@
-//! A bench without random errors, so that two ways of pressing one gel can be compared.
+//! A bench without random errors, for the comparison of ways to press one gel.
 
 use super::{ParameterError, Parameters};
 
-/// Numbers that are 0 on a quiet bench: what robot, transducer and camera get wrong, and what the gel forgets while it is held.
+/// Values that are 0 on a quiet bench: errors of robot, transducer and camera, and relaxation of the gel.
 const SILENCED: [(&str, &str); 8] = [
     ("robot", "positioning_mm"),
     ("transducer", "point_drift_n"),
@@ -13,12 +13,12 @@ const SILENCED: [(&str, &str); 8] = [
     ("camera", "read_noise"),
     ("camera", "flicker"),
 ];
-/// What a quiet transducer hisses by, in N: one without any noise would be taken for one that froze.
+/// Noise of a quiet transducer, in N; without any, its signal would count as frozen.
 const HISS_N: f64 = 0.000_001;
 
 impl Parameters {
-    /// The parameters written in `text`, without what is drawn at random or depends on how long something took: a reading or a picture is a
-    /// function of where the tip stands, but for 1 µN. How units and places differ stays.
+    /// Parses the parameters in `text` without random errors and time-dependent effects: a reading or a picture depends on the position of
+    /// the tip only, within 1 µN. Variation between units and places stays.
     ///
     /// ```
     /// use taceva_sim::{Model, Parameters};
@@ -29,7 +29,7 @@ impl Parameters {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Parameters::parse`].
+    /// As [`Parameters::parse`].
     pub fn parse_quiet(text: &str) -> Result<Parameters, ParameterError> {
         Parameters::parse(text)?;
         let mut table: toml::Table = text.parse().expect("it was parsed just now");

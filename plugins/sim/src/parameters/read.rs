@@ -1,4 +1,4 @@
-//! From TOML to sections: every word is known, every number in its unit and range, and whatever is not is blamed on a line.
+//! Parser from TOML to sections: every key is known, every value has its unit and range, and errors name the line.
 
 use std::ops::Range;
 use taceva_core::shown;
@@ -9,10 +9,10 @@ use toml::de::{DeTable, DeValue};
 use super::error::{ParameterError, ParameterErrorKind};
 use super::section::{Entry, Origin, Row, Section};
 
-/// Longest text that is looked at: a parameter table is some thousand bytes.
+/// Greatest length of a table, in bytes; a usual one has some thousand.
 const LENGTH_MAX: usize = 1 << 20;
 
-/// A table that is being read.
+/// A table being parsed.
 pub(super) struct Document<'t> {
     text: &'t str,
     root: DeTable<'t>,
@@ -42,7 +42,7 @@ impl<'t> Document<'t> {
         })
     }
 
-    /// The name of the sensor.
+    /// Name of the sensor.
     pub(super) fn name(&self) -> Result<String, ParameterError> {
         let expected = "the name of the sensor, a text";
         let value = self
@@ -55,7 +55,7 @@ impl<'t> Document<'t> {
         }
     }
 
-    /// A section that every table has.
+    /// Parses a required section.
     pub(super) fn required<S: Section>(&mut self) -> Result<S, ParameterError> {
         match self.optional()? {
             Some(section) => Ok(section),
@@ -63,7 +63,7 @@ impl<'t> Document<'t> {
         }
     }
 
-    /// A section that a table may have.
+    /// Parses an optional section.
     pub(super) fn optional<S: Section>(&mut self) -> Result<Option<S>, ParameterError> {
         self.known.push(S::NAME);
         let Some(value) = self.root.get(S::NAME) else {
@@ -84,7 +84,7 @@ impl<'t> Document<'t> {
         Ok(Some(S::from_values(&values)))
     }
 
-    /// Refuses sections that nobody asked for; gives all numbers in the order of section and key.
+    /// Rejects unknown sections; returns all values ordered by section and key.
     pub(super) fn finish(mut self) -> Result<Vec<Entry>, ParameterError> {
         self.refuse_unknown(&self.root, "section", "", self.known.iter().copied())?;
         self.entries.sort_by_key(|entry| (entry.section, entry.key));
@@ -249,7 +249,7 @@ impl<'t> Document<'t> {
     }
 }
 
-/// The line on which a span begins, from 1.
+/// Line on which a span begins, from 1.
 fn line_of(text: &str, span: Range<usize>) -> usize {
     let before = text.as_bytes().iter().take(span.start);
     before.filter(|byte| **byte == b'\n').count() + 1

@@ -1,22 +1,22 @@
-//! One section of a parameter table: a struct of numbers whose keys, units and ranges are declared once.
+//! Sections of a parameter table: structs of values, with keys, units and ranges declared once.
 
 use std::fmt;
 
-/// How a number came to be.
+/// Origin of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Origin {
     /// Fixed by the geometry of the sensor or its data sheet.
     Geometric,
     /// A typical value of the literature.
     Literature,
-    /// Tuned until a published number came out; see `docs/validation.md`.
+    /// Fitted to a published number; see `docs/validation.md`.
     Fit,
     /// A modelling choice without public evidence.
     Free,
 }
 
 impl Origin {
-    /// Every origin.
+    /// All origins.
     pub const ALL: [Origin; 4] = [
         Origin::Geometric,
         Origin::Literature,
@@ -24,7 +24,7 @@ impl Origin {
         Origin::Free,
     ];
 
-    /// How it is written in tables.
+    /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Origin::Geometric => "geometric",
@@ -34,7 +34,7 @@ impl Origin {
         }
     }
 
-    /// The origin written as `name`.
+    /// Finds an origin by its name.
     pub fn from_name(name: &str) -> Option<Origin> {
         Origin::ALL.into_iter().find(|origin| origin.name() == name)
     }
@@ -46,24 +46,24 @@ impl fmt::Display for Origin {
     }
 }
 
-/// One number of a parameter table.
+/// One value of a parameter table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Its section.
+    /// Section of the value.
     pub section: &'static str,
-    /// Its key.
+    /// Key of the value.
     pub key: &'static str,
-    /// The number.
+    /// Value, in the unit below.
     pub value: f64,
-    /// Its unit.
+    /// Unit of the value.
     pub unit: &'static str,
-    /// How it came to be.
+    /// Origin of the value.
     pub origin: Origin,
-    /// The line of the table it stands on, from 1.
+    /// Line of the table, from 1.
     pub line: usize,
 }
 
-/// The declaration of one number.
+/// Declaration of one value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
     pub(super) key: &'static str,
@@ -77,7 +77,7 @@ pub(super) trait Section: Sized {
     const NAME: &'static str;
     const ROWS: &'static [Row];
 
-    /// The section with `values`, one a row.
+    /// Builds the section from `values`, in the order of the rows.
     fn from_values(values: &[f64]) -> Self;
 }
 

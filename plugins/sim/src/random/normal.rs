@@ -1,6 +1,6 @@
-//! The inverse of the normal distribution.
+//! Quantiles of the normal distribution.
 
-/// The value below which a standard normal number lies with probability `p`, 0 < p < 1.
+/// Quantile of the standard normal distribution at `p`, 0 < p < 1.
 ///
 /// # Reference
 /// Rational approximations of Wichura, *Algorithm AS 241*, Applied Statistics 37 (1988): 16 digits.

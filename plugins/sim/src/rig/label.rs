@@ -1,18 +1,18 @@
-//! What a rig would write down of a press.
+//! Label of a press, as a rig would record it.
 
 use taceva_core::{Millimetre, Newton, Point, Pose, Wrench};
 
-/// The label of a press as the rig logs it, errors included, in the signs of the project.
+/// Label of a press, with the errors of the rig, in the signs of the project.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Label {
-    /// Px, Py: where the robot was sent, shear included; Pz: its travel after the contact it detected, positive into the gel.
+    /// Px, Py: target of the robot, shear included; Pz: its travel after detected contact, positive into the gel.
     pub position_mm: [f64; 3],
-    /// Fx, Fy, Fz: what the transducer said, Fz positive in compression.
+    /// Fx, Fy, Fz: reading of the transducer, Fz positive in compression.
     pub force_n: [f64; 3],
 }
 
 impl Label {
-    /// The position as a pose.
+    /// Position as a pose.
     pub fn pose(&self) -> Pose {
         let [x, y, z] = self.position_mm.map(Millimetre);
         Pose {
@@ -21,7 +21,7 @@ impl Label {
         }
     }
 
-    /// The force as a wrench; nothing is known of torques.
+    /// Force as a wrench; torques are 0, since they are not measured.
     pub fn wrench(&self) -> Wrench {
         Wrench {
             force: self.force_n.map(Newton),

@@ -1,24 +1,24 @@
-//! The search for contact: down in steps until the transducer shows a threshold.
+//! Search for contact: down in steps until the force exceeds a threshold.
 //!
-//! Contact is found late, by up to a step beyond the depth at which the threshold is reached, and now and then early, by noise. What
-//! the rig calls depth zero is therefore not the surface; no sensor can know by how much.
+//! Contact is found late, by up to a step beyond the depth of the threshold, or sometimes early, by noise. Depth zero of the rig is
+//! therefore not the surface, and no sensor can measure the offset.
 
 use crate::parameters::Search;
 use crate::random::Stream;
 
-/// How contact was found at a point.
+/// Contact found at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touch {
-    /// How far below touching the ball stood when contact was called; negative if noise called it early.
+    /// Depth of the ball below first touch at detection; negative if noise triggered it early.
     pub late_mm: f64,
-    /// How many readings were taken.
+    /// Number of readings.
     pub steps: u32,
 }
 
-/// No search goes on for more steps than this below the surface: a gel that soft is no gel.
+/// Greatest number of steps of a search.
 const STEPS_MAX: u32 = 200;
 
-/// Searches from a random phase above the surface; `force_n` is the true force at a depth, `error_n` the transducer's error at a step.
+/// Searches from a random phase above the surface. `force_n` is the true force at a depth, `error_n` the error of the transducer at a step.
 pub(crate) fn search(
     search: &Search,
     phase: Stream,

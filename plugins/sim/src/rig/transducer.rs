@@ -3,7 +3,7 @@
 use crate::parameters::Transducer;
 use crate::random::{Purpose, Random, Stream};
 
-/// The errors of the transducer of one run.
+/// Errors of the transducer of one run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TransducerModel {
     transducer: Transducer,
@@ -30,19 +30,19 @@ impl TransducerModel {
         }
     }
 
-    /// Where zero has drifted to at a point.
+    /// Zero at a point.
     pub(crate) fn point_zero_n(&self, point: u64) -> [f64; 3] {
         let stream = self.random.stream(Purpose::ZeroDrift, point);
         normals(stream, 0, self.transducer.point_drift_n)
     }
 
-    /// How far it has drifted on by the time of a press.
+    /// Further drift of the zero at a press.
     pub(crate) fn press_zero_n(&self, press: u64) -> [f64; 3] {
         let stream = self.random.stream(Purpose::PressDrift, press);
         normals(stream, 0, self.transducer.press_drift_n)
     }
 
-    /// What a reading shows of `force_n` with its zero at `zero_n`; `noise` and `reading` name its noise.
+    /// Reading of `force_n` with zero `zero_n`; `noise` and `reading` select its noise.
     pub(crate) fn read(
         &self,
         force_n: [f64; 3],
@@ -62,7 +62,7 @@ impl TransducerModel {
         })
     }
 
-    /// The noise of the normal component alone, for a search.
+    /// Noise of the normal component alone, for a search.
     pub(crate) fn normal_noise_n(&self, noise: Stream, reading: u64) -> f64 {
         self.transducer.noise_n * noise.normal(reading)
     }

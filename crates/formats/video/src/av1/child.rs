@@ -1,4 +1,4 @@
-//! The child: confines itself, then decodes what it is sent.
+//! The child process: confines itself, then decodes the packets of its parent.
 
 use std::io::{self, Read, Write};
 
@@ -6,29 +6,29 @@ use super::rav1d::{Decoder, Refused};
 use super::sandbox::confine;
 use super::wire::{Answer, Greeting, Unit, plane_bytes};
 
-/// Why a child ended before its parent did.
+/// Reasons for which a child ends before its parent.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ServeError {
-    /// The parent could not be read from or written to, or is another program.
+    /// The parent cannot be read from or written to, or is another program.
     #[error("the parent of the decoder of AV1: {0}")]
     Parent(#[from] io::Error),
     /// The process could not be confined; nothing was decoded.
     #[error("the decoder of AV1 cannot be confined: {0}")]
     Confinement(String),
-    /// The decoder could not be made.
+    /// The decoder could not be created.
     #[error("the decoder of AV1 does not start: error {0}")]
     Start(i32),
 }
 
-/// Decodes AV1 for a parent that writes to `input` and reads from `output`, until it closes `input`.
+/// Decodes AV1 for a parent that writes to `input` and reads from `output`, until `input` is closed.
 ///
-/// The whole process is confined for good before the first byte of a clip is decoded. On Linux it can then open no file, make no connection,
-/// start no process, and use no more memory than frames of that size take; that needs seccomp filters, on x86-64 or a 64-bit ARM. On other
-/// systems the process keeps its rights. It is the program's last act: call it from a command of its own.
+/// Confines the whole process for good before the first byte of a clip is decoded. On Linux it can then open no file or connection, start
+/// no process, and use only the memory for frames of that size. This needs seccomp filters, on x86-64 or a 64-bit ARM. On other systems the
+/// process keeps its rights. Call it from a command of its own: it is the last act of the program.
 ///
 /// # Errors
-/// [`ServeError`]; the parent sees the child end. A panic in the decoder ends the process.
+/// [`ServeError`]; the parent sees the child exit. A panic in the decoder ends the process.
 ///
 /// ```no_run
 /// // The whole of a program that `Decoders::av1` may name.
@@ -56,7 +56,7 @@ pub fn serve(mut input: impl Read, mut output: impl Write) -> Result<(), ServeEr
     Ok(())
 }
 
-/// What decoding such frames may take: the program itself, and the frames that a codec keeps with what it knows of each.
+/// Memory limit of the decoder, in bytes: the program itself, and the frames that a codec keeps with their side data.
 fn memory_bytes(size: Greeting) -> u64 {
     (512 << 20) + 48 * plane_bytes(size.width, size.height, false)
 }

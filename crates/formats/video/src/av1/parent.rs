@@ -1,4 +1,4 @@
-//! The parent of the child that decodes AV1.
+//! Parent of the child process that decodes AV1.
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -17,24 +17,24 @@ use crate::mp4::{Sample, Track};
 use crate::process::{Piece, Running};
 use crate::source::Source;
 
-/// A clip of AV1 that a child decodes.
+/// An AV1 clip, decoded by a child process.
 #[derive(Debug)]
 pub(crate) struct Av1Clip {
     source: Source,
     samples: Vec<Sample>,
     presented: Vec<u32>,
-    /// What stands before the first sample.
+    /// Bytes to send before the first sample.
     settings: Vec<u8>,
     size: Greeting,
     coding: YuvCoding,
     program: Vec<OsString>,
 }
 
-/// The name and version of the library that decodes.
+/// Name and version of the decoder library.
 pub(crate) const DECODER: &str = "rav1d 1.1";
 
 impl Av1Clip {
-    /// How pixels are stored, of the settings `av1C`; nothing if the child does not decode it.
+    /// Pixel format by the settings `av1C`; `None` if the child does not decode it.
     pub(crate) fn pixel_format(settings: &[u8]) -> Option<&'static str> {
         let &[version, _, flags, ..] = settings else {
             return None;
@@ -47,7 +47,7 @@ impl Av1Clip {
         }
     }
 
-    /// The clip of a track with its `settings`, decoded by `program`.
+    /// Clip of a track with its `settings`, decoded by `program`.
     pub(crate) fn open(
         source: Source,
         track: Track,
@@ -69,7 +69,7 @@ impl Av1Clip {
             source,
             samples: track.samples,
             presented: track.presented,
-            // Behind four bytes that say what the sequence says again.
+            // Skips four bytes that repeat the sequence header.
             settings: settings.get(4..).unwrap_or_default().to_vec(),
             size: Greeting { width, height },
             coding: YuvCoding {
@@ -80,7 +80,7 @@ impl Av1Clip {
         })
     }
 
-    /// Shows the frames of `sorted`.
+    /// Calls `each` with the frames in `sorted`.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],
@@ -123,7 +123,7 @@ impl Av1Clip {
                 let (luma, chroma) = planes.split_at(pixels);
                 let (blue, red) = chroma.split_at(chroma.len() / 2);
                 let chroma = (!yuv.is_gray).then_some([blue, red]);
-                // 2 says that the stream names none.
+                // 2 means unspecified.
                 let is_named = yuv.matrix != 2;
                 let coding = YuvCoding {
                     matrix: if is_named {
@@ -147,14 +147,14 @@ impl Av1Clip {
     }
 }
 
-/// A visit of a clip: a child that runs.
+/// A visit of a clip: a running child process.
 struct Session<'a> {
     clip: &'a Av1Clip,
     colours: Colours,
     running: Running,
     to: SyncSender<Unit>,
     is_restart: bool,
-    /// The last line that it said.
+    /// Last line of its standard error.
     said: String,
 }
 
@@ -165,7 +165,7 @@ impl<'a> Session<'a> {
         };
         let mut command = Command::new(program);
         command.args(arguments).stdin(Stdio::piped());
-        // It could not read what a backtrace is made of.
+        // The child could not read the files of a backtrace.
         command.env("RUST_BACKTRACE", "0");
         let size = clip.size;
         let take = Box::new(move |from: &mut dyn std::io::Read| Answer::take(from, size));
@@ -175,7 +175,7 @@ impl<'a> Session<'a> {
             return Err(clip.failed("has no standard input"));
         };
         let (to, units) = sync_channel(1);
-        // Of its own, since a child that reads no more would hold whoever writes to it.
+        // A separate thread, since a child that stops reading would block the writer.
         let writer = thread::Builder::new().spawn(move || write_units(input, size, &units));
         writer.map_err(not_started)?;
         Ok(Session {
@@ -188,7 +188,7 @@ impl<'a> Session<'a> {
         })
     }
 
-    /// What becomes of a unit.
+    /// Sends a unit and returns the answer of the child.
     fn ask(&mut self, unit: Unit, frame: u64) -> Result<Answer, VideoError> {
         let is_sent = self.to.send(unit).is_ok();
         loop {

@@ -1,4 +1,4 @@
-//! The interface of `rav1d`, which is that of a library in C.
+//! Binding of `rav1d`, whose interface is that of a C library.
 #![expect(unsafe_code, reason = "the library has no other interface")]
 
 use std::mem::MaybeUninit;
@@ -16,30 +16,30 @@ use rav1d::src::lib::{
 
 use super::wire::{Answer, Yuv};
 
-/// What the library answers where it wants to be asked again: `-EAGAIN`.
+/// Error of the library that asks for another call: `-EAGAIN`.
 const AGAIN: i32 = -11;
 
-/// Why a packet was not decoded.
+/// Reasons for which a packet was not decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refused {
-    /// The library's error, a negative number of the system.
+    /// Error of the library, a negative system error number.
     Code(i32),
-    /// Something that is not taken from it.
+    /// Unsupported data, in words.
     Kind(&'static str),
 }
 
-/// A decoder with one thread, whose pictures come out as soon as their packet went in.
+/// A single-threaded decoder without frame delay.
 pub(super) struct Decoder {
     context: Option<Dav1dContext>,
 }
 
 impl Decoder {
-    /// A decoder of frames of at most `pixels`.
+    /// Creates a decoder of frames of at most `pixels`.
     pub(super) fn open(pixels: u32) -> Result<Decoder, i32> {
         let mut settings = MaybeUninit::<Dav1dSettings>::uninit();
-        // SAFETY: the place is valid for the settings, which the function writes whole.
+        // SAFETY: the place is valid for the settings, which the function writes in full.
         unsafe { dav1d_default_settings(NonNull::from(&mut settings).cast()) };
-        // SAFETY: the call above has written them.
+        // SAFETY: the call above has initialised them.
         let mut settings = unsafe { settings.assume_init() };
         settings.n_threads = 1;
         settings.max_frame_delay = 1;
@@ -68,7 +68,7 @@ impl Decoder {
         let mut picture = None;
         while packet.0.sz > 0 {
             let before = packet.0.sz;
-            // SAFETY: the context is open, and the packet is one that the library made.
+            // SAFETY: the context is open, and the library allocated the packet.
             let result =
                 unsafe { dav1d_send_data(self.context, Some(NonNull::from(&mut packet.0))) };
             if result.0 < 0 && result.0 != AGAIN {
@@ -76,7 +76,7 @@ impl Decoder {
             }
             let had = picture.is_some();
             while let Some(next) = self.next()? {
-                // A packet shows one frame, of whose layers the last is whole.
+                // A packet has one shown frame; the last of its layers is complete.
                 picture = Some(next);
             }
             if packet.0.sz == before && picture.is_some() == had {
@@ -96,7 +96,7 @@ impl Decoder {
 
     fn next(&mut self) -> Result<Option<Shown>, Refused> {
         let mut picture = Shown(Dav1dPicture::default());
-        // SAFETY: the context is open, and the place holds a picture, which has nothing yet.
+        // SAFETY: the context is open, and the place holds an empty picture.
         let result =
             unsafe { dav1d_get_picture(self.context, Some(NonNull::from(&mut picture.0))) };
         match result.0 {
@@ -114,7 +114,7 @@ impl Drop for Decoder {
     }
 }
 
-/// Bytes that belong to the library.
+/// Bytes owned by the library.
 struct Packet(Dav1dData);
 
 impl Packet {
@@ -132,16 +132,16 @@ impl Packet {
 
 impl Drop for Packet {
     fn drop(&mut self) {
-        // SAFETY: the packet is one that the library made, or one without bytes.
+        // SAFETY: the library allocated the packet, or it is empty.
         unsafe { dav1d_data_unref(Some(NonNull::from(&mut self.0))) };
     }
 }
 
-/// A picture that belongs to the library.
+/// A picture owned by the library.
 struct Shown(Dav1dPicture);
 
 impl Shown {
-    /// A copy of its planes, row by row.
+    /// Copies its planes, row by row.
     fn yuv(&self) -> Result<Yuv, Refused> {
         let picture = &self.0;
         let is_gray = picture.p.layout == DAV1D_PIXEL_LAYOUT_I400;
@@ -163,7 +163,7 @@ impl Shown {
         let header = picture
             .seq_hdr
             .ok_or(Refused::Kind("a picture without a sequence"))?;
-        // SAFETY: the picture keeps the header that it points to for as long as it lives.
+        // SAFETY: the picture keeps its header alive.
         let header = unsafe { header.as_ref() };
         Ok(Yuv {
             width,
@@ -188,7 +188,7 @@ impl Shown {
         for row in 0..height as isize {
             // SAFETY: the plane has `height` rows, `stride` bytes from one to the next, all in one allocation.
             let line = unsafe { first.offset(row * stride) };
-            // SAFETY: each has `width` bytes of its plane, initialised by the decoder, that nobody writes while the picture is held.
+            // SAFETY: each row has `width` bytes of its plane, initialised by the decoder; nobody writes them while the picture is held.
             let line = unsafe { slice::from_raw_parts(line, width as usize) };
             into.extend_from_slice(line);
         }
@@ -198,7 +198,7 @@ impl Shown {
 
 impl Drop for Shown {
     fn drop(&mut self) {
-        // SAFETY: the picture is one that the library made, or one that has nothing.
+        // SAFETY: the library allocated the picture, or it is empty.
         unsafe { dav1d_picture_unref(Some(NonNull::from(&mut self.0))) };
     }
 }

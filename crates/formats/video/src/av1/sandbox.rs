@@ -1,6 +1,6 @@
-//! What the child gives up before it reads a clip.
+//! Confinement of the child process before it reads a clip.
 
-/// Gives up all but reading and writing what is open, and `memory` bytes, on all threads.
+/// Restricts all threads to reading and writing open files, and to `memory` bytes.
 #[cfg(not(target_os = "linux"))]
 pub(super) fn confine(_memory: u64) -> Result<(), String> {
     Ok(())
@@ -21,7 +21,7 @@ mod linux {
         SeccompFilter, SeccompRule, TargetArch, apply_filter_all_threads,
     };
 
-    /// Calls that are allowed whatever their arguments: what is open, memory, time, and the end.
+    /// System calls that are allowed with any arguments: for open files, memory, time, and exit.
     const ALWAYS: [i64; 21] = [
         libc::SYS_brk,
         libc::SYS_clock_gettime,
@@ -47,7 +47,7 @@ mod linux {
     ];
 
     pub(in super::super) fn confine(memory: u64) -> Result<(), String> {
-        // A parent that is gone already closes the input, which ends the child too.
+        // If the parent has already exited, the closed input ends the child too.
         set_parent_process_death_signal(Some(Signal::KILL))
             .map_err(|error| format!("it cannot end with its parent: {error}"))?;
         for (resource, most, name) in [
@@ -72,7 +72,7 @@ mod linux {
     fn filter() -> Result<BpfProgram, BackendError> {
         let mut rules: BTreeMap<i64, Vec<SeccompRule>> =
             ALWAYS.iter().map(|call| (*call, Vec::new())).collect();
-        // No memory becomes code.
+        // Memory must not become executable.
         let is_no_code = || -> Result<Vec<SeccompRule>, BackendError> {
             let executable = u64::from(libc::PROT_EXEC.unsigned_abs());
             let masked = SeccompCmpOp::MaskedEq(executable);
@@ -105,7 +105,7 @@ mod tests {
 
     use super::confine;
 
-    /// Names a folder to the process that the test starts: it is the one to be confined.
+    /// Folder for the confined process, which the test starts.
     const CONFINED: &str = "TACEVA_VIDEO_CONFINED";
 
     #[test]

@@ -1,50 +1,50 @@
-//! What a parent and the child that decodes AV1 write to each other: numbers of a fixed size, the low byte first.
+//! Protocol between a parent and the child that decodes AV1: fixed-size integers, little-endian.
 //!
-//! The parent begins with [`Greeting`], then sends [`Unit`]s, each of which is answered before the next is sent.
+//! The parent sends a [`Greeting`], then [`Unit`]s, each answered before the next.
 
 use std::io::{self, Read, Write};
 
 #[cfg(feature = "av1")]
 use crate::limits;
 
-/// The letters that a conversation begins with, the last of them its version.
+/// First bytes of the protocol; the last one is its version.
 const LETTERS: [u8; 8] = *b"tacAV1\x00\x01";
 
-/// How large all frames are.
+/// Size of all frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Greeting {
     pub(super) width: u32,
     pub(super) height: u32,
 }
 
-/// The packet of one frame.
+/// Packet of one frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unit {
-    /// Whether all before it is to be forgotten.
+    /// True to reset the decoder first.
     pub(super) is_restart: bool,
-    /// Whether its picture is to be sent.
+    /// True to return the picture.
     pub(super) is_wanted: bool,
     pub(super) bytes: Vec<u8>,
 }
 
-/// What becomes of a unit.
+/// Answer to a unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Answer {
-    /// It was decoded; whether it gave a picture.
+    /// Decoded; `has_picture` is true if it gave a picture.
     Decoded { has_picture: bool },
-    /// Its picture.
+    /// Decoded, with its picture.
     Picture(Yuv),
-    /// It was not decoded, in words.
+    /// Not decoded, with the reason.
     Refused(String),
 }
 
-/// A picture of 8 bits a sample: luma, then two planes of half its sides unless it is gray.
+/// A picture of 8 bits a sample: luma, then two chroma planes of half its sides unless it is gray.
 #[derive(Clone, PartialEq, Eq)]
 pub(super) struct Yuv {
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) is_gray: bool,
-    /// The number of ITU-T H.273; 2 is unnamed.
+    /// Matrix number of ITU-T H.273; 2 is unspecified.
     pub(super) matrix: u16,
     pub(super) is_full_range: bool,
     pub(super) planes: Vec<u8>,
@@ -56,7 +56,7 @@ impl std::fmt::Debug for Yuv {
     }
 }
 
-/// How many bytes the planes of such a picture have; its sides are at most those that a clip may have.
+/// Size of the planes of a picture, in bytes, for sides within the limits.
 pub(super) fn plane_bytes(width: u32, height: u32, is_gray: bool) -> u64 {
     let (width, height) = (u64::from(width), u64::from(height));
     width * height
@@ -103,7 +103,7 @@ impl Unit {
         to.write_all(&self.bytes)
     }
 
-    /// The next one; nothing at the end of the conversation.
+    /// Reads the next unit; `None` at the end of the input.
     #[cfg(feature = "av1")]
     pub(super) fn read(from: &mut impl Read) -> io::Result<Option<Unit>> {
         let mut first = [0];
@@ -112,7 +112,7 @@ impl Unit {
         }
         let [b, c, d] = take(from)?;
         let size = u32::from_le_bytes([first[0], b, c, d]);
-        // A packet with the settings of its stream before it.
+        // A packet preceded by the settings of its stream.
         if u64::from(size) > limits::PACKET_BYTES + limits::HEADER_BYTES {
             return Err(wrong("a packet that is too large"));
         }
@@ -127,9 +127,9 @@ impl Unit {
     }
 }
 
-/// Bytes before the planes of a picture.
+/// Size of the header of a picture, in bytes.
 const PICTURE_HEAD: usize = 12;
-/// Bytes of a refusal's words.
+/// Greatest length of a refusal, in bytes.
 #[cfg(feature = "av1")]
 const MOST_WORDS: usize = 1024;
 
@@ -156,7 +156,7 @@ impl Answer {
         }
     }
 
-    /// The bytes of the next answer, of frames as large as `greeting` says; none at the end.
+    /// Reads the bytes of the next answer, for frames of the size of `greeting`; empty at the end.
     pub(super) fn take(from: &mut dyn Read, greeting: Greeting) -> io::Result<Vec<u8>> {
         let mut answer = Vec::new();
         let mut more = |answer: &mut Vec<u8>, count: u64| {
@@ -182,7 +182,7 @@ impl Answer {
                 let Some(head) = Yuv::head(&answer) else {
                     return Err(wrong("a picture without a header"));
                 };
-                // One of another size is not read.
+                // The planes of another size are not read.
                 if (head.width, head.height) == (greeting.width, greeting.height) {
                     more(
                         &mut answer,
@@ -195,7 +195,7 @@ impl Answer {
         Ok(answer)
     }
 
-    /// Understands what [`Answer::take`] took.
+    /// Parses the bytes of [`Answer::take`].
     pub(super) fn parse(mut bytes: Vec<u8>) -> Option<Answer> {
         Some(match *bytes.first()? {
             b'D' => Answer::Decoded {
@@ -214,7 +214,7 @@ impl Answer {
 }
 
 impl Yuv {
-    /// What stands before the planes, behind the letter of the kind.
+    /// Parses the header before the planes, behind the letter of the kind.
     fn head(answer: &[u8]) -> Option<Yuv> {
         let head: &[u8; PICTURE_HEAD] = answer.get(1..)?.first_chunk()?;
         let &[

@@ -1,4 +1,4 @@
-//! Chunks of RIFF files: four letters, a size, that many bytes, padded to an even number.
+//! Chunks of RIFF files: four letters, a size, and that many bytes, padded to an even number.
 
 use std::fmt;
 
@@ -10,12 +10,12 @@ use crate::source::Source;
 pub(super) struct ChunkId(pub(super) [u8; 4]);
 
 impl ChunkId {
-    /// Whether it is a picture of the stream `number`, compressed or not: `00dc`, `00db`.
+    /// True for a picture of the stream `number`, compressed or not: `00dc`, `00db`.
     pub(super) fn is_picture_of(self, number: u8) -> bool {
         self.0[..2] == digits(number) && matches!(&self.0[2..], b"dc" | b"db")
     }
 
-    /// Whether it is an index of the stream `number` among its pictures: `ix00`.
+    /// True for an index of the stream `number` among its pictures: `ix00`.
     pub(super) fn is_index_of(self, number: u8) -> bool {
         &self.0[..2] == b"ix" && self.0[2..] == digits(number)
     }
@@ -31,15 +31,15 @@ impl fmt::Display for ChunkId {
     }
 }
 
-/// Where a chunk lies.
+/// Location of a chunk.
 #[derive(Clone, Debug)]
 pub(super) struct Chunk {
     pub(super) id: ChunkId,
-    /// Its first letter.
+    /// Offset of its first letter.
     pub(super) at: u64,
-    /// Its content.
+    /// Offset of its content.
     pub(super) body: u64,
-    /// Of its content, without padding.
+    /// Size of its content, without padding.
     pub(super) size: u64,
 }
 
@@ -50,7 +50,7 @@ impl fmt::Debug for ChunkId {
 }
 
 impl Chunk {
-    /// The letters that say what a list is of; nothing for a chunk that is no list.
+    /// Kind of a list, four letters; `None` for other chunks.
     pub(super) fn list_kind(&self, source: &Source) -> Result<Option<[u8; 4]>, VideoError> {
         if !matches!(&self.id.0, b"LIST" | b"RIFF") || self.size < 4 {
             return Ok(None);
@@ -60,7 +60,7 @@ impl Chunk {
         Ok(Some(kind))
     }
 
-    /// The chunks of a list.
+    /// Iterates over the chunks of a list.
     pub(super) fn list<'a>(&self, source: &'a Source) -> Result<Chunks<'a>, VideoError> {
         if self.size < 4 {
             return Err(source.damaged(self.at, "a list without its four letters"));
@@ -70,17 +70,17 @@ impl Chunk {
     }
 }
 
-/// The chunks that lie one behind the other in a part of a file.
+/// Consecutive chunks in a part of a file.
 pub(super) struct Chunks<'a> {
     source: &'a Source,
     at: u64,
     end: u64,
-    /// What was read last, and from where: many small chunks are read at once.
+    /// Read buffer and its offset: many small chunks are read at once.
     window: Vec<u8>,
     window_at: u64,
 }
 
-/// How much of a file is read at once to find chunks in it.
+/// Size of the read buffer, in bytes.
 const WINDOW_BYTES: u64 = 1 << 10;
 
 impl<'a> Chunks<'a> {
@@ -94,7 +94,7 @@ impl<'a> Chunks<'a> {
         }
     }
 
-    /// The eight bytes at the present place, which are there.
+    /// Header at the present offset, eight bytes.
     fn head(&mut self) -> Result<[u8; 8], VideoError> {
         let in_window = |chunks: &Chunks<'_>| -> Option<[u8; 8]> {
             let from = usize::try_from(chunks.at.checked_sub(chunks.window_at)?).ok()?;
@@ -115,10 +115,10 @@ impl<'a> Chunks<'a> {
         })
     }
 
-    /// The next one, if there is room for one.
+    /// Next chunk; `None` if fewer than eight bytes are left.
     ///
     /// # Errors
-    /// If it is larger than what it lies in, or does not begin with four letters.
+    /// [`VideoError::Damaged`] for a chunk larger than its parent, or one that does not begin with four letters.
     pub(super) fn next(&mut self) -> Result<Option<Chunk>, VideoError> {
         let left = self.end.saturating_sub(self.at);
         if left < 8 {

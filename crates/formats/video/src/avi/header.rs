@@ -1,27 +1,27 @@
-//! The description of the first video stream.
+//! Header of the first video stream.
 
 use super::chunk::{Chunk, Chunks};
 use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// What a file says of its video stream.
+/// Header of a video stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct StreamHeader {
-    /// Its place among all streams, from 0.
+    /// Index among all streams, from 0.
     pub(super) number: u8,
-    /// Four letters for the codec.
+    /// Codec, four letters.
     pub(crate) codec: [u8; 4],
-    /// In pixels.
+    /// Width, pixels.
     pub(crate) width: u32,
-    /// In pixels.
+    /// Height, pixels.
     pub(crate) height: u32,
-    /// Frames follow each other after `scale` / `rate` seconds.
+    /// Period of the frames as a fraction: `scale` / `rate` seconds.
     pub(super) scale: u32,
     pub(super) rate: u32,
 }
 
-/// The first video stream that the list of headers describes, if there is one.
+/// Reads the first video stream in the list of headers; `None` without one.
 pub(super) fn read(source: &Source, headers: &Chunk) -> Result<Option<StreamHeader>, VideoError> {
     let mut chunks = headers.list(source)?;
     let mut number = 0;
@@ -33,7 +33,7 @@ pub(super) fn read(source: &Source, headers: &Chunk) -> Result<Option<StreamHead
             return Ok(Some(stream));
         }
         number += 1;
-        // Two digits name a stream.
+        // Chunk names have two digits for a stream.
         if number == 100 {
             break;
         }
@@ -60,7 +60,7 @@ fn read_stream(
                 let bytes = read_whole(source, &chunk, 20)?;
                 let mut codec = [0; 4];
                 codec.copy_from_slice(&bytes[16..20]);
-                // Rows from the top down are a negative height.
+                // A negative height means rows from the top down.
                 let height = i32::from_le_bytes([bytes[8], bytes[9], bytes[10], bytes[11]]);
                 let (width, height) = (number_at(&bytes, 4), height.unsigned_abs());
                 for side in [width, height] {
@@ -87,7 +87,7 @@ fn read_stream(
     Ok(None)
 }
 
-/// The content of a chunk of at least `least` bytes.
+/// Reads the content of a chunk of at least `least` bytes.
 fn read_whole(source: &Source, chunk: &Chunk, least: u64) -> Result<Vec<u8>, VideoError> {
     if chunk.size < least {
         let problem = format!(
@@ -104,7 +104,7 @@ fn read_whole(source: &Source, chunk: &Chunk, least: u64) -> Result<Vec<u8>, Vid
     )
 }
 
-/// The number at `at`, the low byte first; the caller checked that it is there.
+/// Little-endian integer at `at`, which the caller has checked.
 fn number_at(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
 }

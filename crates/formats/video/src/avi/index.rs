@@ -1,4 +1,4 @@
-//! The indices of AVI files, held against the chunks that they list.
+//! Indices of AVI files, checked against the chunks.
 
 use super::chunk::{Chunk, ChunkId};
 use crate::error::VideoError;
@@ -6,21 +6,21 @@ use crate::limits;
 use crate::packets::Packet;
 use crate::source::Source;
 
-/// What the indices among the pictures (OpenDML) list of the stream, in their order.
+/// Entries of the indices among the pictures (OpenDML), in order.
 #[derive(Debug, Default)]
 pub(super) struct Index {
     entries: Vec<(u64, Packet)>,
 }
 
 impl Index {
-    /// Reads one such index.
+    /// Adds one such index.
     pub(super) fn add(&mut self, source: &Source, chunk: &Chunk) -> Result<(), VideoError> {
         let wrong = |problem: String| broken(source, chunk.at, problem);
         let bytes = read_index(source, chunk)?;
         let Some((head, entries)) = bytes.split_at_checked(24) else {
             return Err(wrong(format!("{} bytes, expected 24 or more", bytes.len())));
         };
-        // Two numbers an entry, of which the second is a size.
+        // Layout: two integers for each entry, the second of which is a size.
         if head[..2] != [2, 0] || head[3] != 1 {
             return Err(wrong("of an unknown layout".to_owned()));
         }
@@ -37,14 +37,14 @@ impl Index {
         for (at, entry) in (chunk.body + 24..).step_by(8).zip(listed) {
             let offset = base.checked_add(number(&entry[..4]));
             let offset = offset.ok_or_else(|| wrong("an entry beyond any file".to_owned()))?;
-            // The highest bit says that it is no key frame.
+            // The highest bit marks a frame that is no key frame.
             let size = number(&entry[4..]) & 0x7fff_ffff;
             self.entries.push((at, Packet { offset, size }));
         }
         Ok(())
     }
 
-    /// Whether it lists what was found, if it lists anything.
+    /// Checks the entries, if any, against the packets found.
     pub(super) fn check(&self, source: &Source, packets: &[Packet]) -> Result<(), VideoError> {
         if self.entries.is_empty() {
             return Ok(());
@@ -57,7 +57,7 @@ impl Index {
     }
 }
 
-/// Holds the index at the end of a part against the `packets` of stream `number` in that part, whose list begins at `base`.
+/// Checks the index at the end of a part against the `packets` of stream `number` in that part, whose list begins at `base`.
 pub(super) fn check_idx1(
     source: &Source,
     chunk: &Chunk,
@@ -79,7 +79,7 @@ pub(super) fn check_idx1(
             continue;
         };
         let offset = number(&entry[8..12]);
-        // Offsets are those of chunks, counted from the list or, by some writers, from the beginning of the file.
+        // Offsets of chunks count from the list or, by some writers, from the beginning of the file.
         let from = *offsets_from.get_or_insert_with(|| match found.offset.checked_sub(8) {
             Some(chunk_at) if chunk_at == offset => 0,
             _ => base,
@@ -132,7 +132,7 @@ fn broken(source: &Source, offset: u64, problem: String) -> VideoError {
     }
 }
 
-/// Up to four bytes as a number, the low one first.
+/// Little-endian integer of up to four bytes.
 fn number(bytes: &[u8]) -> u64 {
     bytes
         .iter()

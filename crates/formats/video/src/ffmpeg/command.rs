@@ -1,4 +1,4 @@
-//! How ffmpeg is started, what it may do, and whether it did what it was asked for.
+//! Command line and restrictions of ffmpeg, and the check of its exit.
 
 use std::ffi::OsStr;
 use std::fs::File;
@@ -10,12 +10,12 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::process::{Ended, Running};
 
-/// ffmpeg with the clip as its input, every frame of its first video stream taken as it is, and `output`.
+/// Command for ffmpeg with the clip as input, every frame of the first video stream unchanged, and the arguments `output`.
 pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Command, VideoError> {
     let file = File::open(path).map_err(VideoError::io("open", path))?;
     let mut command = Command::new(program);
     command.args(["-nostdin", "-nostats", "-loglevel", "level+info"]);
-    // Damage is an error and not a guess; sizes are bounded; nothing but files is opened, and no list that names others is read.
+    // Treats damage as an error, bounds sizes, and opens only files; playlists that name other files are not read.
     command.args([
         "-xerror",
         "-max_pixels",
@@ -40,7 +40,7 @@ pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Co
     });
     command.args(["-map", "0:v:0"].iter().chain(output).map(OsStr::new));
     command.stdin(Stdio::from(file));
-    // It would write a file of its own.
+    // ffmpeg would write a report file.
     command.env_remove("FFREPORT");
     Ok(command)
 }
@@ -48,7 +48,7 @@ pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Co
 const MAX_PIXELS: &str = "67108864";
 const MAX_ALLOCATED: &str = "1073741824";
 
-/// Containers and bare streams that hold their frames themselves, by the names of ffmpeg.
+/// Containers and raw streams that contain their own frames, by the names of ffmpeg.
 const CONTAINERS: &str = "avi,matroska,mov,mpegts,mpeg,mpegvideo,m4v,h264,hevc,obu,ivf,ogg,flv,asf,mxf,nut,dv,gif,mjpeg,yuv4mpegpipe";
 
 pub(super) fn not_started(
@@ -63,7 +63,7 @@ pub(super) fn not_started(
     }
 }
 
-/// Bounds the memory of the program, where the system can do that from without.
+/// Limits the memory of the program, where the system allows that from outside.
 pub(super) fn bound_memory(running: &mut Running) {
     #[cfg(target_os = "linux")]
     {
@@ -72,7 +72,7 @@ pub(super) fn bound_memory(running: &mut Running) {
             current: Some(limits::PROGRAM_BYTES),
             maximum: Some(limits::PROGRAM_BYTES),
         };
-        // One that has ended already needs no limit.
+        // A program that has already ended needs no limit.
         let _ = prlimit(Some(Pid::from_child(running.child())), Resource::As, limit);
     }
     #[cfg(not(target_os = "linux"))]
@@ -86,7 +86,7 @@ pub(super) fn note_fault(fault: &mut Option<String>, line: &str) {
     }
 }
 
-/// Whether a program that ended did what it was asked for.
+/// Checks the exit status and the errors of a program.
 pub(super) fn check_end(
     path: &Path,
     program: &Path,

@@ -1,32 +1,32 @@
-//! How ffmpeg lays out the pixels of a raw frame, by the names that it gives to formats.
+//! Pixel layouts of raw frames, by the format names of ffmpeg.
 
-/// The layout of a frame.
+/// Layout of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// Planes of luma and of two differences of colour, each sample in one byte, or in two with the low one first.
+    /// A luma plane and two chroma planes, with one byte a sample, or two in little-endian order.
     Planar {
         shifts: (u32, u32),
         bits: u32,
         is_full_range: bool,
     },
-    /// A plane of luma, then one of pairs of the differences; red first if so.
+    /// A luma plane, then a plane of chroma pairs, red first if `is_red_first`.
     Paired { is_red_first: bool },
-    /// Luma and differences of two pixels in four bytes: where luma, the difference of blue and that of red begin.
+    /// Luma and chroma of two pixels in four bytes: offsets of luma, blue chroma and red chroma.
     Woven {
         luma: usize,
         blue: usize,
         red: usize,
     },
-    /// A plane of luma.
+    /// A luma plane.
     Gray { bits: u32 },
-    /// Pixels of `step` bytes: where red, green and blue stand in one.
+    /// Pixels of `step` bytes, with the offsets of red, green and blue.
     Packed { step: usize, order: [usize; 3] },
-    /// Planes of green, blue and red, of one byte a sample.
+    /// Planes of green, blue and red, one byte a sample.
     Planes,
 }
 
 impl Layout {
-    /// The layout of the format called `name`.
+    /// Layout of the format `name`; `None` if it is not supported.
     pub(super) fn of(name: &str) -> Option<Layout> {
         if let Some(planar) = planar(name) {
             return Some(planar);
@@ -84,7 +84,7 @@ impl Layout {
         })
     }
 
-    /// How many bytes a frame takes; nothing if that is beyond all numbers, or if the width has no such layout.
+    /// Size of a frame, in bytes; `None` on overflow, or if the layout does not allow the width.
     pub(super) fn frame_bytes(self, width: u32, height: u32) -> Option<usize> {
         let (width, height) = (width as usize, height as usize);
         let pixels = width.checked_mul(height)?;
@@ -110,7 +110,7 @@ impl Layout {
     }
 }
 
-/// Samples of chroma along a side that has `length` of luma.
+/// Chroma samples along a side of `length` luma samples.
 pub(super) fn chroma_side(length: usize, shift: u32) -> usize {
     length.div_ceil(1 << shift)
 }
@@ -120,7 +120,7 @@ pub(super) fn bytes_of(bits: u32) -> usize {
     if bits > 8 { 2 } else { 1 }
 }
 
-/// `yuv420p`, `yuvj422p`, `yuv444p10le` …
+/// Parses `yuv420p`, `yuvj422p`, `yuv444p10le` …
 fn planar(name: &str) -> Option<Layout> {
     let (is_full_range, rest) = match name.strip_prefix("yuvj") {
         Some(rest) => (true, rest),
@@ -144,7 +144,7 @@ fn planar(name: &str) -> Option<Layout> {
     })
 }
 
-/// The number of `10le`.
+/// Parses the bits of `10le`.
 fn bits_of(depth: &str) -> Option<u32> {
     let bits: u32 = depth.strip_suffix("le")?.parse().ok()?;
     (9..=16).contains(&bits).then_some(bits)

@@ -1,9 +1,9 @@
-//! What ffmpeg says about a clip while it looks through it: lines of its log with their level.
+//! Parser of the log of ffmpeg: lines with their level.
 
 /// A line of the log, `[context] [level] text`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Said<'a> {
-    /// Who says so, if somebody: `h264 @ 0x55…`.
+    /// Source of the line, if any: `h264 @ 0x55…`.
     context: &'a str,
     level: &'a str,
     pub(super) text: &'a str,
@@ -34,7 +34,7 @@ impl<'a> Said<'a> {
         said
     }
 
-    /// Whether something is wrong with the clip. What the output says is about order of times, which nothing here rests on.
+    /// True for an error of the clip. Errors of the output concern the order of times, which is not used here.
     pub(super) fn is_fault(&self) -> bool {
         let of_output = ["null ", "rawvideo ", "out#", "vost#"];
         matches!(self.level, "fatal" | "error" | "panic")
@@ -43,7 +43,7 @@ impl<'a> Said<'a> {
                 .any(|start| self.context.starts_with(start))
     }
 
-    /// What follows `[Parsed_showinfo_0 …]`.
+    /// Text behind `[Parsed_showinfo_0 …]`; `None` for other lines.
     pub(super) fn shown(&self) -> Option<&'a str> {
         self.context
             .starts_with("Parsed_showinfo")
@@ -51,14 +51,14 @@ impl<'a> Said<'a> {
     }
 }
 
-/// What is written behind `key` up to the next blank.
+/// Value behind `key` up to the next blank or comma.
 pub(super) fn value<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     let (_, rest) = text.split_once(key)?;
     let value = rest.trim_start().split([' ', ',']).next()?;
     (!value.is_empty()).then_some(value)
 }
 
-/// The number of a matrix in ITU-T H.273 by the name that ffmpeg gives it; nothing if none is named.
+/// Matrix number of ITU-T H.273 by its name in ffmpeg; `None` if unspecified.
 pub(super) fn matrix(name: &str) -> Option<u16> {
     Some(match name {
         "gbr" => 0,
@@ -71,7 +71,7 @@ pub(super) fn matrix(name: &str) -> Option<u16> {
         "bt2020nc" => 9,
         "bt2020c" => 10,
         "unknown" | "reserved" => return None,
-        // Any other stands for one that is not converted.
+        // Any other is an unsupported matrix.
         _ => u16::MAX,
     })
 }

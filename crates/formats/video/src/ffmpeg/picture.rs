@@ -1,10 +1,10 @@
-//! Raw frames of ffmpeg as pictures.
+//! Conversion of raw frames of ffmpeg to pictures.
 
 use super::format::{Layout, bytes_of, chroma_side};
 use crate::clip::{Colours, Picture};
 use crate::colour::{Planes, UnknownMatrix, YuvCoding};
 
-/// How a frame is laid out and coded.
+/// Layout and colour coding of a frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RawFrame {
     pub(super) layout: Layout,
@@ -13,14 +13,14 @@ pub(super) struct RawFrame {
     pub(super) coding: YuvCoding,
 }
 
-/// Why a frame is no picture of such colours.
+/// Reasons for which a frame has no picture of the requested colours.
 pub(super) enum Refused {
     NoLuma,
     Matrix(UnknownMatrix),
 }
 
 impl RawFrame {
-    /// The frame `bytes`, which has as many bytes as its layout takes.
+    /// Converts the frame `bytes`, which must have the size of its layout.
     pub(super) fn picture(&self, bytes: Vec<u8>, colours: Colours) -> Result<Picture, Refused> {
         let (width, height) = (self.width, self.height);
         let pixels = width as usize * height as usize;
@@ -69,7 +69,7 @@ impl RawFrame {
         })
     }
 
-    /// Luma and chroma as red, green and blue of 8 bits each.
+    /// Converts luma and chroma to red, green and blue of 8 bits each.
     fn rgb(&self, bytes: &[u8]) -> Result<Vec<u8>, UnknownMatrix> {
         let pixels = self.width as usize * self.height as usize;
         let planes = |luma: &[u8], chroma: Option<[&[u8]; 2]>, shifts| {
@@ -107,13 +107,13 @@ impl RawFrame {
                 planes(&luma, Some([&blue, &red]), (1, 0))
             }
             Layout::Gray { bits } => planes(&of_8_bits(bytes, bits), None, (0, 0)),
-            // They are colours already.
+            // Already colours; handled by the caller.
             Layout::Packed { .. } | Layout::Planes => Ok(Vec::new()),
         }
     }
 }
 
-/// Samples of `bits` bits in two bytes, the low one first, as samples of 8: their upper bits.
+/// Reduces little-endian samples of `bits` bits to their upper 8 bits.
 fn of_8_bits(bytes: &[u8], bits: u32) -> std::borrow::Cow<'_, [u8]> {
     if bytes_of(bits) == 1 {
         return bytes.into();
@@ -187,7 +187,7 @@ mod tests {
             );
         }
         assert_eq!(rgb("gray", 2, &[7, 9]), Some(vec![7, 7, 7, 9, 9, 9]));
-        // More red: the difference of red is above its middle.
+        // More red: the red chroma is above its middle.
         for (name, bytes) in [
             ("yuyv422", vec![100, 128, 100, 178]),
             ("yvyu422", vec![100, 178, 100, 128]),

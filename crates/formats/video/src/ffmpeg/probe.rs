@@ -1,4 +1,4 @@
-//! The first look of ffmpeg at a clip: what it says of it, frame by frame.
+//! First run of ffmpeg over a clip, with its report of each frame.
 
 use std::path::Path;
 
@@ -10,13 +10,13 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::process::{Piece, Running};
 
-/// What the first look says.
+/// Result of the first run.
 #[derive(Debug, Default)]
 pub(super) struct Look {
     pub(super) version: Option<String>,
     pub(super) container: Option<String>,
     pub(super) codec: Option<String>,
-    /// Seconds of a tick.
+    /// Duration of a tick, s.
     tick_s: Option<f64>,
     pub(super) times_s: Vec<Option<f64>>,
     /// Pixel format and size of the first frame.
@@ -26,7 +26,7 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// Has ffmpeg decode the whole clip, of which `known` is known already.
+    /// Decodes the whole clip, whose known properties are `known`.
     pub(super) fn at(path: &Path, program: &Path, known: &Known) -> Result<Look, VideoError> {
         let arguments = ["-vf", "showinfo=checksum=0", "-f", "null", "-"];
         let command = command(path, program, &arguments)?;
@@ -76,7 +76,7 @@ impl Look {
                 .rsplit_once(", from ")
                 .map(|(names, _)| names.to_owned());
         } else if let Some(mapped) = said.text.strip_prefix("  Stream #0:") {
-            // Of the mapping: `0 -> #0:0 (h264 (native) -> rawvideo (native))`.
+            // Line of the stream mapping: `0 -> #0:0 (h264 (native) -> rawvideo (native))`.
             let codec = mapped
                 .split_once(" -> #0:0 (")
                 .and_then(|(_, rest)| rest.split(' ').next());
@@ -85,7 +85,7 @@ impl Look {
         Ok(())
     }
 
-    /// A frame, `n:   0 pts:      0 pts_time:0 … fmt:yuv420p … s:64x48 …`.
+    /// Parses a frame, `n:   0 pts:      0 pts_time:0 … fmt:yuv420p … s:64x48 …`.
     fn frame(&mut self, path: &Path, shown: &str) -> Result<(), VideoError> {
         let size = value(shown, " s:").and_then(|size| size.split_once('x'));
         let size = size.and_then(|(width, height)| {

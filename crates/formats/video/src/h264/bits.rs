@@ -1,13 +1,13 @@
-//! Numbers of any length of bits, as parameter sets of H.264 hold them.
+//! Bit reader for parameter sets of H.264.
 
-/// The payload of a unit, without the bytes that keep start codes out of it.
+/// Payload of a unit, without emulation prevention bytes.
 pub(super) struct Bits {
     bytes: Vec<u8>,
     at: usize,
 }
 
 impl Bits {
-    /// Of the unit `unit` behind its first byte.
+    /// Reads the unit `unit` behind its first byte.
     pub(super) fn new(unit: &[u8]) -> Bits {
         let mut bytes = Vec::with_capacity(unit.len());
         let mut zeros = 0;
@@ -29,12 +29,12 @@ impl Bits {
         Some(bit == 1)
     }
 
-    /// The next `count` bits, at most 32.
+    /// Next `count` bits, at most 32.
     pub(super) fn bits(&mut self, count: u32) -> Option<u32> {
         (0..count).try_fold(0, |number, _| Some(number << 1 | u32::from(self.bit()?)))
     }
 
-    /// A number in the code of Exp-Golomb, at most 2^32 − 2.
+    /// Unsigned Exp-Golomb number, at most 2^32 − 2.
     pub(super) fn unsigned(&mut self) -> Option<u32> {
         let mut zeros = 0;
         while !self.bit()? {
@@ -47,7 +47,7 @@ impl Bits {
         Some((1_u32 << zeros) - 1 + rest)
     }
 
-    /// Such a number with a sign: 0, 1, −1, 2, −2 …
+    /// Signed Exp-Golomb number: 0, 1, −1, 2, −2 …
     pub(super) fn signed(&mut self) -> Option<i64> {
         let number = i64::from(self.unsigned()?);
         Some(if number % 2 == 1 {

@@ -1,36 +1,36 @@
-//! Sequence parameter sets of H.264: what has to be known of a stream before it is decoded.
+//! Sequence parameter sets of H.264: properties of a stream needed before decoding.
 
 use super::bits::Bits;
 
-/// What a sequence parameter set says.
+/// Contents of a sequence parameter set.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Sequence {
     profile: u32,
-    /// 0 gray, 1 4:2:0, 2 4:2:2, 3 4:4:4.
+    /// Chroma format: 0 gray, 1 4:2:0, 2 4:2:2, 3 4:4:4.
     chroma: u32,
     luma_bits: u32,
     chroma_bits: u32,
     reference_frames: u32,
-    /// In macroblocks of 16×16 pixels.
+    /// Macroblocks of 16×16 pixels in a frame.
     blocks: u64,
     has_fields: bool,
     is_cut_left_or_top: bool,
     has_order_by_cycle: bool,
-    /// Of the picture that is shown, in pixels.
+    /// Size of the shown picture, pixels.
     pub(super) width: u32,
     pub(super) height: u32,
-    /// Whether the samples use all 256 steps, where the stream says.
+    /// True for samples from 0 to 255, if the stream states the range.
     pub(super) is_full_range: Option<bool>,
-    /// The matrix of colours by the numbers of ITU-T H.273, where the stream says.
+    /// Matrix number of ITU-T H.273, if the stream states one.
     pub(super) matrix: Option<u16>,
 }
 
-/// Of level 6.2: macroblocks of a frame, and of all that are kept to decode others (ITU-T H.264, table A-1).
+/// Limits of level 6.2: macroblocks of a frame, and of all reference frames (ITU-T H.264, table A-1).
 const MOST_BLOCKS: u64 = 139_264;
 const MOST_KEPT_BLOCKS: u64 = 696_320;
 
 impl Sequence {
-    /// Reads the unit `unit`; nothing if it ends early or says what no stream can.
+    /// Parses the unit `unit`; `None` if it is truncated or invalid.
     pub(super) fn read(unit: &[u8]) -> Option<Sequence> {
         let mut bits = Bits::new(unit);
         let profile = bits.bits(8)?;
@@ -115,7 +115,7 @@ impl Sequence {
         })
     }
 
-    /// The codec with its profile.
+    /// Codec with its profile.
     pub(crate) fn codec(&self) -> String {
         let profile = match self.profile {
             66 => "Baseline",
@@ -130,7 +130,7 @@ impl Sequence {
         format!("H.264 {profile}")
     }
 
-    /// How pixels are stored, by the names of FFmpeg.
+    /// Pixel format by the names of FFmpeg.
     pub(crate) fn pixel_format(&self) -> String {
         let planes = match self.chroma {
             0 => "gray",
@@ -144,7 +144,7 @@ impl Sequence {
         }
     }
 
-    /// Why it is not decoded in this process, if it is not.
+    /// Reason why this process cannot decode it; `None` if it can.
     pub(super) fn foreign(&self) -> Option<&'static str> {
         if self.chroma != 1 {
             Some("other than 4:2:0")
@@ -163,7 +163,7 @@ impl Sequence {
         }
     }
 
-    /// Whether it is larger than any level of the standard admits.
+    /// True if it exceeds every level of the standard.
     pub(super) fn is_too_large(&self) -> bool {
         let kept = self
             .blocks
@@ -190,7 +190,7 @@ fn skip_scaling(bits: &mut Bits, lists: usize) -> Option<()> {
     Some(())
 }
 
-/// Range and matrix, of the part of a set about how it is shown.
+/// Parses range and matrix of the video usability information.
 fn read_colours(bits: &mut Bits) -> Option<(Option<bool>, Option<u16>)> {
     if bits.bit()? && bits.bits(8)? == 255 {
         bits.bits(32)?;

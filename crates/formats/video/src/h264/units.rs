@@ -1,21 +1,21 @@
-//! The units of an H.264 stream in MP4, each behind its length, and as decoders want them, each behind a start code.
+//! Units of an H.264 stream: with length prefixes in MP4, with start codes for decoders.
 
 use super::parameters::Sequence;
 use crate::error::VideoError;
 use crate::source::Source;
 
-/// What `avcC` says.
+/// Contents of `avcC`.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings {
-    /// How many bytes the length of a unit has: 1, 2 or 4.
+    /// Size of the length of a unit, in bytes: 1, 2 or 4.
     length_bytes: usize,
-    /// All parameter sets behind start codes.
+    /// All parameter sets, with start codes.
     pub(super) parameters: Vec<u8>,
-    /// The first sequence parameter set, if the settings have one.
+    /// First sequence parameter set, if any.
     pub(super) sequence: Option<Sequence>,
 }
 
-/// The kind of a unit.
+/// Kind of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum UnitKind {
     /// A part of a picture.
@@ -40,7 +40,7 @@ impl UnitKind {
 }
 
 impl Settings {
-    /// Reads the settings `bytes` that lie at `offset`.
+    /// Parses the settings `bytes` at `offset` in the file.
     pub(super) fn read(source: &Source, bytes: &[u8], offset: u64) -> Result<Settings, VideoError> {
         let wrong = |at: usize, problem: &str| {
             source.damaged(offset + at as u64, format!("settings of H.264: {problem}"))
@@ -82,7 +82,7 @@ impl Settings {
         Ok(settings)
     }
 
-    /// The units of the sample `bytes` that lies at `offset`, each where it begins in the file.
+    /// Units of the sample `bytes` at `offset`, each with its own offset in the file.
     pub(super) fn units<'a>(
         &self,
         source: &Source,
@@ -123,7 +123,7 @@ impl Settings {
         Ok(units)
     }
 
-    /// Whether decoding can begin at the sample of `size` bytes at `offset`.
+    /// True if decoding can begin at the sample of `size` bytes at `offset`.
     pub(super) fn is_key(
         &self,
         source: &Source,
@@ -149,13 +149,13 @@ impl Settings {
     }
 }
 
-/// Appends a unit behind a start code.
+/// Appends a unit with a start code.
 pub(super) fn push_unit(stream: &mut Vec<u8>, unit: &[u8]) {
     stream.extend_from_slice(&[0, 0, 0, 1]);
     stream.extend_from_slice(unit);
 }
 
-/// What lies behind a length of two bytes.
+/// Bytes behind a length of two bytes; advances `at`. `None` if they are truncated.
 fn sized<'a>(bytes: &'a [u8], at: &mut usize) -> Option<&'a [u8]> {
     let length = bytes.get(*at..*at + 2)?;
     let length = usize::from(u16::from_be_bytes([length[0], length[1]]));

@@ -1,18 +1,18 @@
-//! Boxes of MP4 and QuickTime files: a size, four letters, content.
+//! Boxes of MP4 and QuickTime files: a size, four letters, and content.
 
 use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// Where a box lies.
+/// Location of a box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxAt {
     pub(super) kind: [u8; 4],
-    /// Its first byte.
+    /// Offset of its first byte.
     pub(super) at: u64,
-    /// Its content.
+    /// Offset of its content.
     pub(super) body: u64,
-    /// Behind its content.
+    /// Offset behind its content.
     pub(super) end: u64,
 }
 
@@ -21,7 +21,7 @@ impl BoxAt {
         self.end - self.body
     }
 
-    /// The boxes in it, behind `skipped` bytes of its own.
+    /// Child boxes, behind `skipped` bytes of its own.
     pub(super) fn boxes<'a>(&self, source: &'a Source, skipped: u64) -> Boxes<'a> {
         Boxes {
             source,
@@ -31,7 +31,7 @@ impl BoxAt {
         }
     }
 
-    /// The first box of `kind` in it.
+    /// First child box of `kind`.
     pub(super) fn find(
         &self,
         source: &Source,
@@ -46,7 +46,7 @@ impl BoxAt {
         Ok(None)
     }
 
-    /// The first box of `kind` in it, which must be there.
+    /// First child box of `kind`, which is required.
     pub(super) fn need(&self, source: &Source, kind: &[u8; 4]) -> Result<BoxAt, VideoError> {
         self.find(source, kind)?.ok_or_else(|| {
             let (outer, inner) = (self.kind.escape_ascii(), kind.escape_ascii());
@@ -54,7 +54,7 @@ impl BoxAt {
         })
     }
 
-    /// Its content, which is at most `limit` bytes.
+    /// Content, at most `limit` bytes.
     pub(super) fn fields(
         &self,
         source: &Source,
@@ -69,17 +69,17 @@ impl BoxAt {
     }
 }
 
-/// The boxes that lie one behind the other in a part of a file.
+/// Consecutive boxes in a part of a file.
 pub(super) struct Boxes<'a> {
     source: &'a Source,
     at: u64,
     end: u64,
-    /// How many more are looked at.
+    /// Number of further boxes allowed.
     left: u32,
 }
 
 impl<'a> Boxes<'a> {
-    /// Those of a whole file.
+    /// Boxes of a whole file.
     pub(super) fn of_file(source: &'a Source) -> Boxes<'a> {
         Boxes {
             source,
@@ -89,7 +89,7 @@ impl<'a> Boxes<'a> {
         }
     }
 
-    /// The next one, if there is room for one.
+    /// Next box; `None` if fewer than eight bytes are left.
     pub(super) fn next(&mut self) -> Result<Option<BoxAt>, VideoError> {
         let left = self.end.saturating_sub(self.at);
         if left < 8 {
@@ -103,7 +103,7 @@ impl<'a> Boxes<'a> {
         self.source.read_into(self.at, &mut head)?;
         let [s0, s1, s2, s3, kind @ ..] = head;
         let (size, head) = match u32::from_be_bytes([s0, s1, s2, s3]) {
-            // To the end of what it lies in.
+            // To the end of its parent.
             0 => (left, 8),
             1 if left >= 16 => {
                 let mut long = [0; 8];
@@ -130,7 +130,7 @@ impl<'a> Boxes<'a> {
     }
 }
 
-/// The content of a box, read number by number, the high byte first.
+/// Reader of the content of a box, big-endian.
 #[derive(Debug)]
 pub(super) struct Fields {
     bytes: Vec<u8>,
@@ -139,17 +139,17 @@ pub(super) struct Fields {
 }
 
 impl Fields {
-    /// Where the next number lies in the file.
+    /// Offset of the next value in the file.
     pub(super) fn offset(&self) -> u64 {
         self.from + self.at as u64
     }
 
-    /// How many bytes are left.
+    /// Bytes left.
     pub(super) fn left(&self) -> usize {
         self.bytes.len() - self.at
     }
 
-    /// The next `N` bytes.
+    /// Next `N` bytes.
     pub(super) fn take<const N: usize>(&mut self, source: &Source) -> Result<[u8; N], VideoError> {
         let taken = self
             .bytes
@@ -184,7 +184,7 @@ impl Fields {
         Ok(u64::from_be_bytes(self.take(source)?))
     }
 
-    /// The version of a box that has one; its flags are skipped.
+    /// Version of a box that has one; skips its flags.
     pub(super) fn version(&mut self, source: &Source) -> Result<u8, VideoError> {
         Ok(self.take::<4>(source)?[0])
     }
@@ -204,7 +204,7 @@ impl Fields {
         Ok(())
     }
 
-    /// A count of entries of `entry` bytes each, for which there is room.
+    /// Reads a count of entries of `entry` bytes each, and checks that they fit.
     pub(super) fn count(&mut self, source: &Source, entry: usize) -> Result<usize, VideoError> {
         let at = self.offset();
         let count = self.u32(source)?;

@@ -1,22 +1,22 @@
-//! Which part of a track is presented: its edit list.
+//! Edit list of a track: the part that is presented.
 
 use super::boxes::BoxAt;
 use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// The part of a track that is presented.
+/// Part of a track that is presented.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Edit {
-    /// Nothing is presented for so long before, in ticks of the movie.
+    /// Delay before it, in ticks of the movie.
     pub(super) delay: u64,
-    /// The first presented tick of the track.
+    /// First presented tick of the track.
     pub(super) from: i64,
-    /// For how long, in ticks of the movie; nothing: to the end.
+    /// Duration, in ticks of the movie; `None` means to the end.
     pub(super) duration: Option<u64>,
 }
 
-/// The edit that the box `edts` of a track says; nothing if it says more than one, or another speed.
+/// Reads the edit in the box `edts` of a track; `None` for several edits or another speed.
 pub(super) fn read(source: &Source, edits: &BoxAt) -> Result<Option<Edit>, VideoError> {
     let Some(list) = edits.find(source, b"elst")? else {
         return Ok(Some(Edit::default()));

@@ -1,33 +1,33 @@
-//! How the frames of a track are coded: its sample description.
+//! Sample description of a track: the coding of its frames.
 
 use super::boxes::{BoxAt, Boxes, Fields};
 use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// The description of a track's samples.
+/// Description of a track's samples.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
-    /// How many descriptions there are, of which this is the first.
+    /// Number of descriptions, of which this is the first.
     pub(super) count: u32,
     pub(crate) coding: Coding,
-    /// In pixels, as the container says.
+    /// Size in the container, pixels.
     pub(crate) width: u32,
     pub(crate) height: u32,
-    /// What the container says of colours.
+    /// Colours in the container, if stated.
     pub(crate) colour: Option<ColourTag>,
 }
 
-/// A codec, with what its decoder needs of the container.
+/// A codec, with the settings that its decoder needs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Coding {
-    /// H.264: the content of `avcC`, and where it lies.
+    /// H.264: the content of `avcC`, and its offset.
     H264(Vec<u8>, u64),
     /// AV1: the content of `av1C`.
     Av1(Vec<u8>),
-    /// A JPEG a sample.
+    /// One JPEG for each sample.
     Jpeg,
-    /// Anything else, by its name.
+    /// Another codec, by its name.
     Other(String),
 }
 
@@ -94,7 +94,7 @@ pub(super) fn read(source: &Source, descriptions: &BoxAt) -> Result<Entry, Video
     })
 }
 
-/// Some writers leave padding that is no box behind the parts of a description.
+/// Returns the next part of a description; ignores padding that is no box, which some writers leave at the end.
 fn next_part(inner: &mut Boxes<'_>) -> Result<Option<BoxAt>, VideoError> {
     match inner.next() {
         Err(VideoError::Damaged { .. }) => Ok(None),
@@ -143,9 +143,9 @@ fn coding(source: &Source, found: &BoxAt, settings: Option<BoxAt>) -> Result<Cod
     }
 }
 
-/// The kind of codec in a description of MPEG-4 systems: descriptors within each other, each with a tag and a size in groups of 7 bits.
+/// Codec number in a description of MPEG-4 systems: nested descriptors, each with a tag and a size in groups of 7 bits.
 fn object_type(bytes: &[u8]) -> Option<u8> {
-    // Behind version and flags.
+    // Skips version and flags.
     let mut rest = bytes.get(4..)?;
     let mut descriptor = |tag: u8| {
         let (&found, behind) = rest.split_first()?;
@@ -165,7 +165,7 @@ fn object_type(bytes: &[u8]) -> Option<u8> {
     behind.get(size + 1).copied()
 }
 
-/// Matrix and range, where the box says them in numbers.
+/// Reads matrix and range, if the box states them as numbers.
 fn read_colour(source: &Source, found: &BoxAt) -> Result<Option<ColourTag>, VideoError> {
     let mut fields = found.fields(
         source,
@@ -185,7 +185,7 @@ fn read_colour(source: &Source, found: &BoxAt) -> Result<Option<ColourTag>, Vide
     }))
 }
 
-/// Whether the samples lie in the file itself, as the box `minf` of its track says.
+/// Checks that the samples are in the file itself, by the box `minf` of its track.
 pub(super) fn check_is_in_file(source: &Source, information: &BoxAt) -> Result<(), VideoError> {
     let references = match information.find(source, b"dinf")? {
         Some(place) => place.find(source, b"dref")?,

@@ -1,4 +1,4 @@
-//! Samples of MP4 files in fragments: each fragment has tables of its own, beside the frames that they list.
+//! Samples of fragmented MP4 files: each fragment has its own tables, beside its frames.
 
 use super::boxes::{BoxAt, Boxes, Fields};
 use super::samples::{Sample, too_many};
@@ -6,7 +6,7 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// What holds of a sample whose fragment says nothing else.
+/// Defaults for samples whose fragment states no values.
 #[derive(Clone, Copy, Debug, Default)]
 struct Defaults {
     duration: u32,
@@ -14,10 +14,10 @@ struct Defaults {
     flags: u32,
 }
 
-/// In the flags of a sample: decoding cannot begin at it.
+/// Flag of a sample at which decoding cannot begin.
 const IS_NO_SYNC: u32 = 0x1_0000;
 
-/// Appends the samples of the track `number` in all fragments of the file; says whether it could, without which others read the file.
+/// Appends the samples of the track `number` in all fragments of the file. Returns false if only ffmpeg can read them.
 pub(super) fn append(
     source: &Source,
     movie: &BoxAt,
@@ -40,7 +40,7 @@ pub(super) fn append(
     Ok(true)
 }
 
-/// The defaults of the track `number`.
+/// Reads the defaults of the track `number`.
 fn defaults(source: &Source, movie: &BoxAt, number: u32) -> Result<Defaults, VideoError> {
     let Some(extends) = movie.find(source, b"mvex")? else {
         return Ok(Defaults::default());
@@ -68,7 +68,7 @@ fn fields_of(source: &Source, found: &BoxAt) -> Result<Fields, VideoError> {
     found.fields(source, "bytes of a fragment's table", limits::FRAMES * 16)
 }
 
-/// The flags of a box that has some.
+/// Reads the flags of a box that has some.
 fn flags_of(source: &Source, fields: &mut Fields) -> Result<u32, VideoError> {
     Ok(fields.u32(source)? & 0xff_ffff)
 }
@@ -77,7 +77,7 @@ struct Reader<'a> {
     source: &'a Source,
     number: u32,
     defaults: Defaults,
-    /// Of all samples so far, which lie beside each other in the file.
+    /// Total size of the samples so far, in bytes; they cannot overlap.
     bytes: u64,
     samples: &'a mut Vec<Sample>,
 }
@@ -98,7 +98,7 @@ impl Reader<'_> {
         Ok(true)
     }
 
-    /// The part of a fragment that is of one track.
+    /// Reads the part of a fragment for one track.
     fn track(
         &mut self,
         fragment: &BoxAt,
@@ -115,7 +115,7 @@ impl Reader<'_> {
             0 => fragment.at,
             _ => fields.u64(source)?,
         };
-        // Without that it would follow the frames of another track.
+        // Otherwise it would follow the frames of another track.
         if flags & 0x2_0001 == 0 && !is_first {
             return Ok(false);
         }
@@ -155,7 +155,7 @@ impl Reader<'_> {
         Ok(true)
     }
 
-    /// Samples one behind the other.
+    /// Reads a run of consecutive samples.
     fn run(
         &mut self,
         run: &BoxAt,

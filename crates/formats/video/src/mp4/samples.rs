@@ -1,24 +1,24 @@
-//! The samples of a track: where each lies, when it is presented, and which can be decoded by itself.
+//! Samples of a track: their places, times and key frames.
 
 use super::boxes::{BoxAt, Fields};
 use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// The compressed bytes of one frame.
+/// Compressed bytes of one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sample {
-    /// From the beginning of the file.
+    /// Byte offset in the file.
     pub(crate) offset: u64,
-    /// In bytes.
+    /// Size, in bytes.
     pub(crate) size: u32,
-    /// Whether decoding can begin here, as the container says.
+    /// True if decoding can begin here, by the container.
     pub(crate) is_sync: bool,
-    /// When it is presented, in ticks of the track, before edits.
+    /// Presentation time, in ticks of the track, before edits.
     pub(crate) time: i64,
 }
 
-/// Reads the tables of the box `stbl`: samples in the order of decoding.
+/// Reads the tables of the box `stbl`: samples in decoding order.
 pub(super) fn read(source: &Source, tables: &BoxAt) -> Result<Vec<Sample>, VideoError> {
     let sizes = read_sizes(source, tables)?;
     let offsets = read_offsets(source, tables, &sizes)?;
@@ -84,7 +84,7 @@ fn read_sizes(source: &Source, tables: &BoxAt) -> Result<Vec<u32>, VideoError> {
     (0..count).map(|_| fields.u32(source)).collect()
 }
 
-/// Sizes of 4, 8 or 16 bits.
+/// Reads sizes of 4, 8 or 16 bits.
 fn read_small_sizes(source: &Source, found: &BoxAt) -> Result<Vec<u32>, VideoError> {
     let (mut fields, _) = table(source, found)?;
     let at = fields.offset();
@@ -108,12 +108,12 @@ fn read_small_sizes(source: &Source, found: &BoxAt) -> Result<Vec<u32>, VideoErr
             }
         }
     }
-    // Two of 4 bits lie in a byte, the last of which may be none.
+    // A byte has two sizes of 4 bits; the last one may be unused.
     sizes.truncate(usize::try_from(count).unwrap_or(usize::MAX));
     Ok(sizes)
 }
 
-/// Where each sample begins: chunks begin somewhere, and hold as many samples as the third table says.
+/// Offset of each sample, from the offsets of chunks and their numbers of samples.
 fn read_offsets(source: &Source, tables: &BoxAt, sizes: &[u32]) -> Result<Vec<u64>, VideoError> {
     let (mut chunks, is_long) = match tables.find(source, b"co64")? {
         Some(found) => (table(source, &found)?.0, true),
@@ -181,7 +181,7 @@ fn read_offsets(source: &Source, tables: &BoxAt, sizes: &[u32]) -> Result<Vec<u6
     Ok(offsets)
 }
 
-/// When each of `count` samples is presented, in ticks.
+/// Presentation time of each of `count` samples, in ticks.
 fn read_times(source: &Source, tables: &BoxAt, count: usize) -> Result<Vec<i64>, VideoError> {
     let found = tables.need(source, b"stts")?;
     let (mut fields, _) = table(source, &found)?;
@@ -213,14 +213,14 @@ fn read_times(source: &Source, tables: &BoxAt, count: usize) -> Result<Vec<i64>,
     Ok(times)
 }
 
-/// Adds how much later than decoded each sample is presented.
+/// Adds the delay between decoding and presentation of each sample.
 fn add_delays(source: &Source, found: &BoxAt, times: &mut [i64]) -> Result<(), VideoError> {
     let (mut fields, _) = table(source, found)?;
     let count = times.len();
     let mut rest = times.iter_mut();
     for _ in 0..fields.count(source, 8)? {
         let at = fields.offset();
-        // Signed in version 1; in version 0 some writers mean it signed too, and no delay is as long as 2^31 ticks.
+        // Signed in version 1. Some writers use signed values in version 0 too, and no delay reaches 2^31 ticks.
         let (run, delay) = (
             fields.u32(source)?,
             i32::from_be_bytes(fields.take(source)?),

@@ -1,4 +1,4 @@
-//! Who decodes a clip: by what its container says.
+//! Choice of the decoder of a clip, by its container.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ use crate::source::Source;
 
 type Opened = (VideoInfo, Frames);
 
-/// Finds out what lies at `path`, and who decodes it.
+/// Detects the container at `path` and chooses a decoder.
 pub(super) fn open(path: &Path, decoders: &Decoders) -> Result<Opened, VideoError> {
     let source = Source::open(path)?;
     let mut start = [0; 16];
@@ -42,7 +42,7 @@ pub(super) fn open(path: &Path, decoders: &Decoders) -> Result<Opened, VideoErro
     ))
 }
 
-/// A clip that is decoded by ffmpeg, if there is one.
+/// Opens a clip with ffmpeg, if it is available.
 fn open_foreign(path: &Path, known: Known, decoders: &Decoders) -> Result<Opened, VideoError> {
     let Some(program) = &decoders.ffmpeg else {
         return Err(known.no_decoder(path));
@@ -148,7 +148,7 @@ fn open_mp4(source: Source, decoders: &Decoders) -> Result<Opened, VideoError> {
     }
 }
 
-/// Where the frames of a track lie in the order of presentation.
+/// Packets of a track in presentation order.
 fn packets_of(track: &Track) -> Vec<Packet> {
     let samples = track
         .presented
@@ -161,7 +161,7 @@ fn packets_of(track: &Track) -> Vec<Packet> {
     samples.map(packet).collect()
 }
 
-/// A clip whose packets are JPEG files. Of two a frame, each every second row, ffmpeg makes one picture.
+/// Opens a clip of JPEG packets. If a frame consists of two fields, ffmpeg combines them.
 fn of_jpegs(
     source: Source,
     info: VideoInfo,

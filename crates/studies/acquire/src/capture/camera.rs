@@ -1,4 +1,4 @@
-//! The thread that takes frames.
+//! Thread that captures frames.
 
 use std::sync::mpsc::{SyncSender, TrySendError};
 use std::time::{Duration, Instant};
@@ -12,39 +12,39 @@ use super::device_error;
 use super::predictor::LivePredictor;
 use super::streams::Counts;
 
-/// Frames that wait for whoever records them.
+/// Length of the queue of frames.
 pub(super) const ROOM: usize = 8;
-/// How long one call waits for a frame.
+/// Deadline of one call for a frame.
 const CALL: Deadline = Deadline::after(Duration::from_millis(100));
-/// A camera that gives no whole frame for so long has failed.
+/// Time without a whole frame after which the camera has failed.
 const PATIENCE: Duration = Duration::from_secs(3);
-/// From one failure at once to the next call.
+/// Delay after a failed call.
 const REST: Duration = Duration::from_millis(5);
 
-/// A frame that was taken.
+/// A captured frame.
 #[derive(Debug)]
 pub(super) struct Taken {
     pub(super) frame: Frame,
     pub(super) stamp: Stamp,
-    /// The file that it was sent as.
+    /// Encoded file in which the camera sent it.
     pub(super) sent: Option<Vec<u8>>,
 }
 
-/// Who takes frames of a sensor that is started.
+/// Capture loop of a started sensor.
 pub(super) struct Camera<'a> {
     pub(super) sensor: &'a mut dyn Sensor,
     pub(super) driver: &'a DriverKey,
     pub(super) source: DriverSource,
     pub(super) counts: &'a Counts,
-    /// A predictor of frames, if there is one.
+    /// Predictor of frames, if any.
     pub(super) predictor: Option<&'a LivePredictor<'a>>,
 }
 
 impl Camera<'_> {
-    /// Puts frames into `queue` until it is over.
+    /// Puts frames into `queue` until the capture ends.
     ///
     /// # Errors
-    /// What ended the frames.
+    /// The failure that ended the frames.
     pub(super) fn take(mut self, queue: &SyncSender<Taken>) -> Result<(), DriverError> {
         let info = self.sensor.frame_info();
         let mut last = None;
@@ -52,7 +52,7 @@ impl Camera<'_> {
         while !self.counts.is_over() {
             let taken = self.next(info, &mut was_whole)?;
             let number = self.sensor.sequence();
-            // One that came damaged has a number too, and is counted as that.
+            // A damaged frame has a sequence number too, and is already counted as damaged.
             if let (Some(last), Some(number)) = (last, number) {
                 self.counts.missed(last, number);
             }
@@ -71,7 +71,7 @@ impl Camera<'_> {
         Ok(())
     }
 
-    /// The next frame; `None` if this call gave none.
+    /// Next frame; `None` if this call returned none.
     fn next(
         &mut self,
         info: FrameInfo,
@@ -115,7 +115,8 @@ impl Camera<'_> {
         device_error(kind, self.driver, "capture a frame", why)
     }
 
-    /// Whether somebody still takes frames. Those of a device come when they come; a bench or a recording waits until there is room.
+    /// Puts a frame into `queue`; returns false once nothing receives it. Frames of a real device are dropped if the queue is full; a bench
+    /// or a recording waits.
     fn put(&self, queue: &SyncSender<Taken>, taken: Taken) -> bool {
         if self.source != DriverSource::Real {
             return queue.send(taken).is_ok();

@@ -1,15 +1,15 @@
-//! Which touch of the gel a frame belongs to.
+//! Assignment of frames to contacts with the gel.
 
 use taceva_dataset::Table;
 
-/// The gel is touched from this normal force on, in N.
+/// Normal force above which a contact begins, in N.
 const BEGINS_N: f64 = 0.1;
-/// It is touched until the normal force is below this, in N.
+/// Normal force below which a contact ends, in N.
 const ENDS_N: f64 = 0.05;
 
-/// Numbers the touches of a capture: `hand-1` is the first, and what comes before it is `rest-0`.
+/// Numbers the contacts of a capture: `hand-1` is the first, after the rest `rest-0`.
 ///
-/// A rest is no contact point; it has a name so that frames of one rest are never divided between training and test.
+/// A rest is no contact point. Its name keeps its frames on one side of the split between training and test.
 #[derive(Debug)]
 pub(super) struct Contacts {
     count: u64,
@@ -17,7 +17,7 @@ pub(super) struct Contacts {
 }
 
 impl Contacts {
-    /// Goes on after those of `table`.
+    /// Continues the numbers of `table`.
     pub(super) fn after(table: &Table) -> Contacts {
         let names = table.point_id().iter().flatten();
         let numbers = names.filter_map(|name| name.strip_prefix("hand-")?.parse().ok());
@@ -27,13 +27,12 @@ impl Contacts {
         }
     }
 
-    /// Touches that began so far.
+    /// Number of contacts begun.
     pub(super) fn count(&self) -> u64 {
         self.count
     }
 
-    /// The name of the contact, or the rest between two, that a frame with the normal force `normal_n` belongs to; where no force is known, that of
-    /// the frame before.
+    /// Name of the contact or rest of a frame with the normal force `normal_n`; without a force, that of the frame before.
     pub(super) fn name(&mut self, normal_n: Option<f64>) -> String {
         match normal_n {
             Some(normal_n) if !self.is_touched && normal_n > BEGINS_N => {

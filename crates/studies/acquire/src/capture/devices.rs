@@ -1,4 +1,4 @@
-//! The sensor and the transducer of a capture or a preview: which, opened, and started.
+//! Sensor and transducer of a capture or a preview: named, opened and started.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -23,34 +23,34 @@ use crate::error::AcquireError;
 use crate::presses::{HeldRigs, Opened, Turned};
 use crate::scene::read_rig_file;
 
-/// How long a sensor may take to start and to give its first frame.
+/// Deadline of the start of a sensor and of its first frame.
 const FIRST: Duration = Duration::from_secs(5);
 
-/// The devices of a capture or a preview, checked but not open.
+/// Devices of a capture or a preview, checked but not open.
 #[derive(Clone, Debug)]
 pub struct LiveSpec {
     sensor: Named,
     force: Option<Named>,
-    /// Which axis of the transducer each axis of the sensor is, where a rig file says so.
+    /// Axis of the transducer for each axis of the sensor, from the rig file.
     axes: Option<SignedAxes>,
     is_emulated: bool,
 }
 
-/// A device by what opens it.
+/// A device by its selector.
 #[derive(Clone, Debug)]
 struct Named {
     selector: Selector,
-    /// What a rig file says of its stamps, in ms.
+    /// Latency in the rig file, in ms.
     latency_ms: Option<f64>,
-    /// Who names it.
+    /// Option or rig file that names it.
     by: String,
 }
 
 impl LiveSpec {
-    /// The devices that are named by selectors, and where one is not, by a rig file; its robot is left alone.
+    /// Reads the devices from selectors, or else from a rig file, whose robot is not used.
     ///
     /// # Errors
-    /// [`AcquireError::Request`] if there is no sensor or a selector is none; [`AcquireError::Scene`] if the rig file is none.
+    /// [`AcquireError::Request`] without a sensor or for an invalid selector; [`AcquireError::Scene`] for an invalid rig file.
     pub fn new(
         sensor: Option<&str>,
         force: Option<&str>,
@@ -94,12 +94,12 @@ impl LiveSpec {
         })
     }
 
-    /// What opens the sensor.
+    /// Selector of the sensor.
     pub fn sensor(&self) -> &Selector {
         &self.sensor.selector
     }
 
-    /// The devices that are real, which one command at a time may have.
+    /// Real devices, which one command at a time may hold.
     fn real(&self, drivers: &Drivers) -> BTreeMap<String, String> {
         let sensor = drivers.sensors.get(self.sensor.selector.driver());
         let is_real = |descriptor: &Descriptor| descriptor.source() == DriverSource::Real;
@@ -109,16 +109,16 @@ impl LiveSpec {
         if sensor.is_ok_and(|sensor| is_real(sensor.descriptor())) {
             take(&self.sensor);
         }
-        // One that is not real is refused when it is opened.
+        // A simulated transducer is rejected at opening.
         self.force.iter().for_each(take);
         real
     }
 
-    /// Opens the devices, which nobody else has.
+    /// Opens the devices and locks the real ones.
     ///
     /// # Errors
-    /// [`AcquireError::OpenLive`] if one does not open, [`AcquireError::RigTaken`] if another command has one, [`AcquireError::Request`] if a
-    /// transducer is to be read whose clock is not that of the sensor.
+    /// [`AcquireError::OpenLive`] if a device does not open, [`AcquireError::RigTaken`] if another command holds one,
+    /// [`AcquireError::Request`] if sensor and transducer have different clocks.
     pub fn open(&self, drivers: &Drivers) -> Result<LiveDevices, AcquireError> {
         let held = HeldRigs::take(&std::env::temp_dir(), self.real(drivers))?;
         let failed = |source: OpenError| AcquireError::OpenLive(Box::new(source));
@@ -173,7 +173,7 @@ impl LiveSpec {
     }
 }
 
-/// A device as it is written, before that is read.
+/// A device as written, before its selector is parsed.
 struct Wanted {
     text: String,
     latency_ms: Option<f64>,
@@ -193,7 +193,7 @@ impl Wanted {
     }
 }
 
-/// A sensor and perhaps a transducer, open.
+/// An open sensor, with an optional transducer.
 pub struct LiveDevices {
     sensor: Box<dyn Sensor>,
     sensor_driver: DriverKey,
@@ -210,18 +210,18 @@ impl LiveDevices {
         self.sensor.frame_info()
     }
 
-    /// What is known of the sensor before it is opened.
+    /// Facts of the sensor that its descriptor states.
     pub fn sensor_facts(&self) -> &SensorFacts {
         &self.sensor_facts
     }
 
-    /// Whether there is a transducer that measures `axis`.
+    /// True if a transducer measures `axis`.
     pub fn measures(&self, axis: Axis) -> bool {
         let force = self.force.as_ref();
         force.is_some_and(|force| force.device.axes().contains(axis))
     }
 
-    /// What is set of the camera, read back.
+    /// Settings of the camera, read back.
     pub(super) fn settings(&self) -> BTreeMap<String, String> {
         self.sensor.settings()
     }
@@ -230,18 +230,18 @@ impl LiveDevices {
         self.sensor_source
     }
 
-    /// Whether a rig file says that nothing of it is real.
+    /// True if the rig file marks its devices as emulated.
     pub(super) fn is_emulated(&self) -> bool {
         self.is_emulated
     }
 
-    /// Starts both, and calls the present load zero.
+    /// Starts the devices and zeroes the force.
     pub(super) fn begin(&mut self) -> Result<(), DriverError> {
         self.sensor.start(Deadline::after(FIRST))?;
         self.force.as_mut().map_or(Ok(()), Transducer::begin)
     }
 
-    /// The first frame: of a gel that nothing touches.
+    /// First frame, without contact.
     pub(super) fn untouched(&mut self) -> Result<Frame, DriverError> {
         let info = self.sensor.frame_info();
         let mut bytes = vec![0; info.byte_len().unwrap_or_default()];
@@ -258,7 +258,7 @@ impl LiveDevices {
         Frame::new(info, bytes).map_err(|error| internal(error.to_string()))
     }
 
-    /// Lets `act` take what comes, while threads read the devices; then the devices are stopped. What ended them, if one failed.
+    /// Runs `act` on the streams while threads read the devices, then stops the devices. Also returns the failure of a device, if any.
     pub(super) fn stream<T>(
         &mut self,
         predictor: Option<&LivePredictor<'_>>,
@@ -270,7 +270,7 @@ impl LiveDevices {
             .as_ref()
             .map(|force| Track::new(force.period_s()));
         let failed: Mutex<Option<DriverError>> = Mutex::new(None);
-        // The first failure is the cause: what fails after it may be its effect.
+        // The first failure is the cause; later ones may be its effect.
         let fail = |error: DriverError| {
             let mut failed = failed.lock().unwrap_or_else(PoisonError::into_inner);
             failed.get_or_insert(error);
@@ -314,7 +314,7 @@ impl LiveDevices {
                 counts,
             })
         });
-        // What does not confirm that it stopped is stopped when it is dropped.
+        // A device that does not confirm its stop is stopped when it is dropped.
         drop(self.sensor.stop());
         if let Some(force) = &mut self.force {
             drop(force.device.stop());
@@ -324,7 +324,7 @@ impl LiveDevices {
     }
 }
 
-/// Ends the threads, however the one that takes frames ends.
+/// Guard that ends the threads when it is dropped.
 struct Over<'a> {
     counts: &'a Counts,
     interrupt: Option<Arc<dyn taceva_core::Interrupt>>,

@@ -1,4 +1,4 @@
-//! Frames, each with the wrench at its time, as samples.
+//! Labels frames with the wrench at their time.
 
 use std::collections::VecDeque;
 
@@ -11,21 +11,21 @@ use super::contacts::Contacts;
 use super::streams::Streams;
 use super::track::At;
 
-/// Frames that may wait for the reading after them: then the oldest goes without one.
+/// Greatest number of frames waiting for a later reading; beyond it the oldest is recorded without a force.
 const WAITING_MAX: usize = 64;
-/// How much longer than readings may be apart a frame waits for one, in s: what links and threads take.
+/// Extra wait for a reading beyond the longest gap, in s: latency of links and threads.
 const SLACK_S: f64 = 0.1;
 
-/// Frames that wait for their force.
+/// Frames waiting for their force.
 pub(super) struct Labels {
     channels: Channels,
     waiting: VecDeque<Taken>,
-    /// Samples that were made.
+    /// Number of samples made.
     frames: u64,
     has_ended: bool,
 }
 
-/// A frame, and the wrench at its time, if that is known.
+/// A frame with the wrench at its time, if known.
 pub(super) struct Labelled {
     taken: Taken,
     wrench: Option<Wrench>,
@@ -41,17 +41,17 @@ impl Labels {
         }
     }
 
-    /// Samples that were made so far.
+    /// Number of samples made so far.
     pub(super) fn frames(&self) -> u64 {
         self.frames
     }
 
-    /// Whether samples have no labels at all.
+    /// True if samples have no labels at all.
     pub(super) fn is_empty(&self) -> bool {
         self.channels.is_empty()
     }
 
-    /// Takes what came; whether there is or will be more.
+    /// Receives frames; returns false once no more will come and none waits.
     pub(super) fn collect(&mut self, streams: &Streams<'_>) -> bool {
         if self.has_ended {
             return !self.waiting.is_empty();
@@ -71,7 +71,7 @@ impl Labels {
         true
     }
 
-    /// The oldest frame, once it is known what force there was.
+    /// Oldest frame, once its force is known or given up.
     pub(super) fn next(&mut self, streams: &Streams<'_>) -> Option<Labelled> {
         let stamp_s = self.waiting.front()?.stamp.valid_s;
         let wrench = match streams.track.map(|track| (track, track.at(stamp_s))) {
@@ -90,10 +90,10 @@ impl Labels {
         Some(Labelled { taken, wrench })
     }
 
-    /// The sample of a frame, and its time in s.
+    /// Sample of a frame, and its time in s.
     ///
     /// # Errors
-    /// What is wrong with the file that the camera sent.
+    /// The fault in the file that the camera sent.
     pub(super) fn sample(
         &mut self,
         Labelled { taken, wrench }: Labelled,
@@ -116,7 +116,7 @@ impl Labels {
         Ok((streamed, taken.stamp.valid_s))
     }
 
-    /// The normal force of a sample.
+    /// Normal force of a sample, in N.
     pub(super) fn normal_n(&self, sample: &Sample) -> Option<f64> {
         let position = self.channels.position(Channel::FZ.name())?;
         sample.truth.get(position)

@@ -1,9 +1,9 @@
-//! Times from the stamp of a frame until something was done with it.
+//! Histogram of the latency of frames.
 
-/// Longer times are counted together, in ms.
+/// Upper end of the histogram, in ms; longer times share the last bin.
 const MOST_MS: usize = 2_000;
 
-/// Times from stamps until frames were shown, counted by whole milliseconds.
+/// Latencies between the stamp of a frame and its display, in bins of a millisecond.
 ///
 /// ```
 /// use taceva_acquire::Latencies;
@@ -17,13 +17,13 @@ const MOST_MS: usize = 2_000;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Latencies {
-    /// Counts of up to one millisecond, up to two, and so on; the last is of all longer times.
+    /// Counts of up to one millisecond, up to two, and so on; the last counts all longer times.
     counts: Vec<u64>,
     total: u64,
 }
 
 impl Latencies {
-    /// Counts a time in s; one below 0, of a stamp of the future, as 0.
+    /// Adds a latency in s; one below 0, from a stamp in the future, counts as 0.
     pub fn add(&mut self, latency_s: f64) {
         if self.counts.is_empty() {
             self.counts = vec![0; MOST_MS + 1];
@@ -38,12 +38,12 @@ impl Latencies {
         self.total += 1;
     }
 
-    /// The number of times.
+    /// Number of latencies.
     pub fn count(&self) -> u64 {
         self.total
     }
 
-    /// The whole milliseconds within which `share` of them, 0 to 1, were done; `None` of none, or where that was longer than 2 s.
+    /// Whole milliseconds that cover `share` of the latencies, 0 to 1; `None` without any, or beyond 2 s.
     pub fn within_ms(&self, share: f64) -> Option<u64> {
         #[expect(clippy::cast_precision_loss, reason = "a count, far below 2^53")]
         let wanted = share * self.total as f64;
@@ -59,7 +59,7 @@ impl Latencies {
         None
     }
 
-    /// The share, 0 to 1, that was done within so many milliseconds; `None` of none.
+    /// Share of the latencies, 0 to 1, within so many milliseconds; `None` without any.
     pub fn share_within(&self, milliseconds: usize) -> Option<f64> {
         let within: u64 = self.counts.iter().take(milliseconds.min(MOST_MS)).sum();
         #[expect(clippy::cast_precision_loss, reason = "counts, far below 2^53")]

@@ -1,4 +1,4 @@
-//! A fitted model that is to predict what a camera shows.
+//! A fitted model for live predictions.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use taceva_models::{Extractor, Model};
 
 use crate::error::AcquireError;
 
-/// A fitted model with its file, which a [`LivePredictor`](crate::LivePredictor) predicts by.
+/// A fitted model with its file, for a [`LivePredictor`](crate::LivePredictor).
 #[derive(Clone, Debug)]
 pub struct LiveModel {
     model: Model,
@@ -17,10 +17,10 @@ pub struct LiveModel {
 }
 
 impl LiveModel {
-    /// The model that was read from `path`, for frames of a camera.
+    /// Wraps the model read from `path`, for frames of a camera.
     ///
     /// # Errors
-    /// [`AcquireError::Model`] if it takes no frames, or predicts the same whatever is seen.
+    /// [`AcquireError::Model`] if it takes no frames, or predicts a constant.
     pub fn new(model: Model, path: &Path) -> Result<LiveModel, AcquireError> {
         let refused = |problem: String| AcquireError::Model {
             path: path.to_owned(),
@@ -48,40 +48,40 @@ impl LiveModel {
         })
     }
 
-    /// The name of the model, such as `ridge`.
+    /// Name of the model, such as `ridge`.
     pub fn name(&self) -> &str {
         &self.model.card().model
     }
 
-    /// The digest of its file.
+    /// Digest of its file.
     pub fn digest(&self) -> Digest {
         self.digest
     }
 
-    /// The file.
+    /// Path of its file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The channels that it predicts.
+    /// Channels that it predicts.
     pub fn channels(&self) -> &Channels {
         self.model.channels()
     }
 
-    /// True if it knows how far a frame lies from what it has seen.
+    /// True if it measures the distance of a frame from its training data.
     pub fn knows_distance(&self) -> bool {
         self.model.feature_distance().is_some()
     }
 
-    /// True if it needs a frame without contact, which is taken first.
+    /// True if it needs a reference frame without contact.
     pub fn asks_for_reference(&self) -> bool {
         self.model.card().features.asks_for_reference().is_some()
     }
 
-    /// Refuses frames of another size or format than those it was fitted on.
+    /// Rejects frames of another size or format than those of the training.
     ///
     /// # Errors
-    /// [`AcquireError::Model`] with both.
+    /// [`AcquireError::Model`] with both formats.
     pub fn check(&self, found: FrameInfo) -> Result<(), AcquireError> {
         match self.model.card().input {
             InputInfo::Frame(expected) if expected != found => Err(self.refused(format!(
@@ -91,7 +91,7 @@ impl LiveModel {
         }
     }
 
-    /// The extractor of its features from frames.
+    /// Extractor of its features from frames.
     pub(super) fn extractor(
         &self,
         info: FrameInfo,

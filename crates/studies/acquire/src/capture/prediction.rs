@@ -1,8 +1,8 @@
-//! The prediction of a frame.
+//! Prediction of a frame.
 
 use taceva_models::FeatureDistance;
 
-/// The prediction of one frame, which is no measurement.
+/// Prediction of one frame, which is no measurement.
 ///
 /// ```
 /// use taceva_acquire::Prediction;
@@ -13,16 +13,16 @@ use taceva_models::FeatureDistance;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Prediction {
-    /// When the frame was true that it is of, in s of the clock that stamps frames: not when it was made.
+    /// Time of the frame, in s of the clock of frame stamps; not the time of the prediction.
     pub stamp_s: f64,
-    /// The value of each channel of the model, in the unit of the channel.
+    /// Value of each channel of the model, in the unit of the channel.
     pub values: Vec<f64>,
-    /// Distance of the frame from what the model has seen, 1 at the limit; `None` where the model does not know.
+    /// Distance of the frame from the training data, 1 at the limit; `None` if the model does not measure it.
     pub distance: Option<f64>,
 }
 
 impl Prediction {
-    /// The prediction of a frame that was true at `stamp_s`, in s, without a distance.
+    /// Prediction of a frame with the stamp `stamp_s`, in s, without a distance.
     pub fn new(stamp_s: f64, values: Vec<f64>) -> Prediction {
         Prediction {
             stamp_s,
@@ -31,7 +31,7 @@ impl Prediction {
         }
     }
 
-    /// The same of a frame that lies so far from what the model has seen.
+    /// Sets the distance of the frame from the training data.
     #[must_use]
     pub fn with_distance(self, distance: f64) -> Prediction {
         Prediction {
@@ -40,7 +40,7 @@ impl Prediction {
         }
     }
 
-    /// True if the frame lies outside what the model has seen; `None` where the model does not know.
+    /// True if the frame is outside the training data; `None` if the model does not measure it.
     pub fn is_outside(&self) -> Option<bool> {
         self.distance.map(FeatureDistance::is_outside)
     }

@@ -1,4 +1,4 @@
-//! Predictions by frame, as the table beside a recording.
+//! Table of predictions beside a recording.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use taceva_dataset::Table;
 
 use super::prediction::Prediction;
 
-/// Predictions in the order in which they were made.
+/// Predictions in order of their computation.
 #[derive(Debug)]
 pub(super) struct PredictionTable {
     names: Vec<String>,
@@ -30,7 +30,7 @@ impl PredictionTable {
         self.predictions.push(prediction);
     }
 
-    /// CSV of the predictions of recorded frames, found by their stamps: `sample`, `t_s`, `distance`, and a column a channel.
+    /// CSV of the predictions of recorded frames, matched by stamp: `sample`, `t_s`, `distance`, and one column for each channel.
     pub(super) fn csv(&self, recorded: &Table) -> Vec<u8> {
         let rows = recorded.t_s().iter().zip(recorded.samples());
         let samples: BTreeMap<u64, &String> = rows
@@ -60,7 +60,7 @@ impl PredictionTable {
     }
 }
 
-/// A text as a cell: in quotes where it has to be.
+/// Formats a CSV cell, with quotes if needed.
 fn cell(text: &str) -> String {
     match text.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),

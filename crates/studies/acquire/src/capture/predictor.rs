@@ -1,4 +1,4 @@
-//! The thread that predicts the newest frame, while older ones that it had no time for are left out and counted.
+//! Thread that predicts the newest frame; older frames are dropped and counted.
 
 #[cfg(test)]
 mod tests;
@@ -16,43 +16,43 @@ use super::prediction::Prediction;
 use super::prediction_table::PredictionTable;
 use crate::error::AcquireError;
 
-/// Time between two looks at whether it is over.
+/// Interval between checks for the end.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Counts of the frames that a predictor was offered.
+/// Counts of the frames of a predictor.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct PredictionCounts {
-    /// Frames that came while it predicted.
+    /// Frames received.
     pub seen: u64,
-    /// Frames that were predicted.
+    /// Frames predicted.
     pub predicted: u64,
-    /// Frames that were left out because a newer one came before the model was free.
+    /// Frames dropped, because a newer one came before the model was free.
     pub dropped: u64,
-    /// Predicted frames outside what the model has seen; `None` where it does not know.
+    /// Predicted frames outside the training data; `None` if the model does not measure it.
     pub outside: Option<u64>,
-    /// From the stamp of each frame until its prediction was there; none where stamps are of another clock than this machine's.
+    /// Latencies from the stamp of each frame to its prediction; empty if another clock stamps the frames.
     pub latencies: Latencies,
 }
 
-/// A listener to predictions, each with its frame and the counts so far.
+/// Callback for predictions, each with its frame and the counts so far.
 type Heard<'a> = &'a (dyn Fn(&Frame, &Prediction, &PredictionCounts) + Sync);
 
-/// Predicts frames on a thread of its own. It holds one frame, the newest, and nobody waits for it: a capture is as fast as without it.
+/// Predicts frames on its own thread. It holds only the newest frame and never blocks a capture.
 pub struct LivePredictor<'a> {
     model: &'a LiveModel,
     heard: Heard<'a>,
-    /// Known once there is a frame without contact, where one is needed.
+    /// Set once the reference frame is available, if one is needed.
     extractor: OnceLock<Extractor>,
     offered: Mutex<Offered>,
-    /// A frame came, or was taken away, or it is over.
+    /// Notified when a frame arrives or is taken, and at the end.
     changed: Condvar,
     counts: Mutex<PredictionCounts>,
     table: Option<Mutex<PredictionTable>>,
     failure: OnceLock<String>,
 }
 
-/// The newest frame, and whether more will come.
+/// Newest frame, and the end flag.
 #[derive(Default)]
 struct Offered {
     newest: Option<Newest>,
@@ -62,12 +62,12 @@ struct Offered {
 struct Newest {
     frame: Frame,
     stamp_s: f64,
-    /// True if the stamp is of this machine's clock.
+    /// True if the stamp is from this machine's clock.
     is_timed: bool,
 }
 
 impl<'a> LivePredictor<'a> {
-    /// A predictor by `model`; `heard` is called with each prediction, its frame and what became of all frames, on the thread of the predictor.
+    /// Creates a predictor with `model`. Its thread calls `heard` with each prediction, its frame and the counts.
     pub fn new(
         model: &'a LiveModel,
         heard: &'a (dyn Fn(&Frame, &Prediction, &PredictionCounts) + Sync),
@@ -87,7 +87,7 @@ impl<'a> LivePredictor<'a> {
         }
     }
 
-    /// The same, keeping every prediction for a table beside the recording.
+    /// Stores every prediction for a table beside the recording.
     #[must_use]
     pub fn with_table(self) -> LivePredictor<'a> {
         let table = PredictionTable::new(self.model.channels());
@@ -97,39 +97,40 @@ impl<'a> LivePredictor<'a> {
         }
     }
 
-    /// The model.
+    /// Model of the predictor.
     pub fn model(&self) -> &LiveModel {
         self.model
     }
 
-    /// Counts of the frames so far.
+    /// Counts so far.
     pub fn counts(&self) -> PredictionCounts {
         lock(&self.counts).clone()
     }
 
-    /// The reason why it predicts no more, if the model failed.
+    /// Reason why predictions ended, if the model failed.
     pub fn failure(&self) -> Option<&str> {
         self.failure.get().map(String::as_str)
     }
 
-    /// The predictions that were kept.
+    /// Stored predictions.
     pub(super) fn table(&self) -> Option<MutexGuard<'_, PredictionTable>> {
         self.table.as_ref().map(lock)
     }
 
-    /// Makes ready for frames like `untouched`, which is the reference where the model needs one.
+    /// Prepares for frames like `untouched`, the reference if the model needs one.
     pub(super) fn begin(
         &self,
         info: taceva_core::FrameInfo,
         untouched: Option<&Frame>,
     ) -> Result<(), AcquireError> {
         let extractor = self.model.extractor(info, untouched)?;
-        // Begun twice it goes on with the first reference.
+        // A second call keeps the first reference.
         drop(self.extractor.set(extractor));
         Ok(())
     }
 
-    /// Leaves `frame`, true at `stamp_s`, for the thread that predicts, in the place of an older one. Only what is not real waits for that thread.
+    /// Passes `frame` of the time `stamp_s` to the thread, in place of an older one. Only a simulated or recorded source waits for the
+    /// thread.
     pub(super) fn offer(&self, frame: &Frame, stamp_s: f64, source: DriverSource) {
         let is_timed = source == DriverSource::Real;
         let frame = frame.clone();
@@ -153,7 +154,7 @@ impl<'a> LivePredictor<'a> {
         counts.dropped += u64::from(older.is_some());
     }
 
-    /// Predicts what is offered until it is [over](LivePredictor::end).
+    /// Predicts frames until the [end](LivePredictor::end).
     pub(super) fn run(&self) {
         let _over = Over(self);
         let Some(extractor) = self.extractor.get() else {
@@ -166,7 +167,7 @@ impl<'a> LivePredictor<'a> {
                 Ok(prediction) => self.take(&newest, prediction),
                 Err(problem) => {
                     lock(&self.counts).dropped += 1;
-                    // The first failure is the one that is told.
+                    // Keeps the first failure.
                     drop(self.failure.set(problem));
                     return;
                 }
@@ -174,13 +175,13 @@ impl<'a> LivePredictor<'a> {
         }
     }
 
-    /// Lets the thread end once it has predicted the frame that waits.
+    /// Ends the thread after the waiting frame.
     pub(super) fn end(&self) {
         lock(&self.offered).is_over = true;
         self.changed.notify_all();
     }
 
-    /// The newest frame, waited for; `None` once it is over.
+    /// Waits for the newest frame; `None` at the end.
     fn next(&self) -> Option<Newest> {
         let mut offered = lock(&self.offered);
         loop {
@@ -220,7 +221,7 @@ impl<'a> LivePredictor<'a> {
         })
     }
 
-    /// Counts and keeps a prediction, and passes it on.
+    /// Counts and stores a prediction, and calls the callback.
     fn take(&self, newest: &Newest, prediction: Prediction) {
         let counts = self.counted(newest, &prediction);
         (self.heard)(&newest.frame, &prediction, &counts);
@@ -243,7 +244,7 @@ impl<'a> LivePredictor<'a> {
     }
 }
 
-/// Lets nobody wait for a thread that has ended, however it did.
+/// Guard that ends the predictor when its thread ends, so that nothing waits for it.
 struct Over<'p, 'a>(&'p LivePredictor<'a>);
 
 impl Drop for Over<'_, '_> {

@@ -1,4 +1,4 @@
-//! Looking at a sensor without recording anything.
+//! Preview of a sensor without recording.
 
 use taceva_core::Progress;
 
@@ -7,7 +7,8 @@ use super::predictor::LivePredictor;
 use crate::error::AcquireError;
 use crate::viewer::Viewer;
 
-/// Shows `viewer` what `live` sees until somebody cancels; with a predictor it hears of frames as they are predicted, instead of the viewer.
+/// Shows `viewer` the frames and forces of `live` until it is cancelled. With a predictor, the frames go to its callback instead of the
+/// viewer.
 ///
 /// # Errors
 /// [`AcquireError::Device`] if a device failed; [`AcquireError::Model`] if the model does not fit the frames, or failed.

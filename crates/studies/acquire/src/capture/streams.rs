@@ -1,4 +1,4 @@
-//! Frames and readings as they come, while somebody takes them.
+//! Streams of frames and readings.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
@@ -9,10 +9,10 @@ use taceva_dataset::StreamFacts;
 use super::camera::Taken;
 use super::track::Track;
 
-/// How long whoever takes frames waits for one before looking around.
+/// Wait for one frame.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// What the threads of the devices count, and whether they are to end.
+/// Shared counts of the device threads, with the flag that ends them.
 #[derive(Debug, Default)]
 pub(super) struct Counts {
     is_over: AtomicBool,
@@ -37,7 +37,7 @@ impl Counts {
         self.is_over.store(true, Ordering::Release);
     }
 
-    /// Counts frames between two that were taken; those that came damaged are counted already.
+    /// Counts the frames between two captured ones as dropped; damaged ones are already counted.
     pub(super) fn missed(&self, last: u64, number: u64) {
         let between = number.saturating_sub(last).saturating_sub(1);
         self.dropped.fetch_add(between, Ordering::AcqRel);
@@ -58,16 +58,16 @@ impl Counts {
     }
 }
 
-/// What comes from the devices.
+/// Streams of the devices.
 pub(super) struct Streams<'a> {
     pub(super) queue: Receiver<Taken>,
-    /// The readings, where there is a transducer.
+    /// Readings, if there is a transducer.
     pub(super) track: Option<&'a Track>,
     pub(super) counts: &'a Counts,
 }
 
 impl Streams<'_> {
-    /// The next frame, waited for a little; `Err` if none will come any more.
+    /// Next frame, after a short wait; `Err` once no more will come.
     pub(super) fn next(&self) -> Result<Option<Taken>, Ended> {
         match self.queue.recv_timeout(LOOK) {
             Ok(taken) => Ok(Some(taken)),
@@ -76,7 +76,7 @@ impl Streams<'_> {
         }
     }
 
-    /// The next frame that is there already.
+    /// Next frame in the queue, without waiting.
     pub(super) fn next_at_once(&self) -> Result<Option<Taken>, Ended> {
         match self.queue.try_recv() {
             Ok(taken) => Ok(Some(taken)),
@@ -93,12 +93,12 @@ impl Streams<'_> {
         self.counts.count_damaged();
     }
 
-    /// What was lost so far.
+    /// Losses so far.
     pub(super) fn facts(&self) -> StreamFacts {
         self.counts.facts()
     }
 }
 
-/// No frame will come any more.
+/// No more frames will come.
 #[derive(Debug)]
 pub(super) struct Ended;

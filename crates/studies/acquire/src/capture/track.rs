@@ -1,4 +1,4 @@
-//! The latest readings of a transducer, and the wrench interpolated from them at the time of a frame.
+//! Recent readings of a transducer, interpolated at the time of a frame.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -6,34 +6,34 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use taceva_core::Wrench;
 use taceva_protocol::wrench_between;
 
-/// Readings older than this are forgotten, in s: no frame comes so late.
+/// Age at which readings are removed, in s: no frame is that late.
 const KEPT_S: f64 = 5.0;
-/// Between readings farther apart than so many periods nobody knows the force.
+/// Longest gap between readings that is interpolated, in periods.
 const PERIODS: f64 = 3.0;
-/// The factor by which errors of clocks and rates may lengthen a period.
+/// Factor on the period for errors of clocks and rates.
 const TOLERANCE: f64 = 1.01;
 
-/// Readings by their time.
+/// Readings ordered by time.
 #[derive(Debug)]
 pub(super) struct Track {
-    /// From one reading to the next, in s.
+    /// Period of the transducer, in s.
     period_s: f64,
     readings: Mutex<VecDeque<(f64, Wrench)>>,
 }
 
-/// What is known of the force at a time.
+/// Knowledge of the force at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum At {
-    /// It lies between two readings.
+    /// Interpolated between two readings.
     Known(Wrench),
-    /// The readings about it are too far apart, or there are none before.
+    /// Unknown: the readings around it are too far apart, or none is before it.
     Gap,
-    /// The reading after it has not come yet.
+    /// Not yet known: the next reading is still to come.
     Early,
 }
 
 impl Track {
-    /// Of a transducer that reads every `period_s`.
+    /// Empty track of a transducer with the period `period_s`.
     pub(super) fn new(period_s: f64) -> Track {
         Track {
             period_s,
@@ -41,7 +41,7 @@ impl Track {
         }
     }
 
-    /// Takes a reading that was true at `at_s`, in s; one that is no later than the last is ignored.
+    /// Adds a reading of the time `at_s`, in s; ignores one that is not later than the last.
     pub(super) fn push(&self, at_s: f64, wrench: Wrench) {
         let mut readings = self.readings();
         if readings.back().is_some_and(|(last_s, _)| *last_s >= at_s) {
@@ -56,12 +56,12 @@ impl Track {
         }
     }
 
-    /// The last reading.
+    /// Last reading.
     pub(super) fn newest(&self) -> Option<Wrench> {
         self.readings().back().map(|(_, wrench)| *wrench)
     }
 
-    /// The force at `at_s`.
+    /// Force at `at_s`.
     pub(super) fn at(&self, at_s: f64) -> At {
         let readings = self.readings();
         let after = readings.partition_point(|(time_s, _)| *time_s < at_s);
@@ -78,7 +78,7 @@ impl Track {
         }
     }
 
-    /// The longest time between two readings at which the force between them is known, in s.
+    /// Longest gap between readings that is interpolated, in s.
     pub(super) fn longest_s(&self) -> f64 {
         PERIODS * TOLERANCE * self.period_s
     }

@@ -1,4 +1,4 @@
-//! The thread that reads a transducer, and its zero.
+//! Thread that reads a transducer, and its zero.
 
 use std::time::{Duration, Instant};
 
@@ -11,15 +11,15 @@ use super::device_error;
 use super::streams::Counts;
 use super::track::Track;
 
-/// How long one call waits for a reading.
+/// Deadline of one call for a reading.
 const CALL: Deadline = Deadline::after(Duration::from_millis(100));
-/// A transducer whose readings say nothing new for so long has failed.
+/// Time without a new reading after which the transducer has failed.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// How long it may take to call the load zero.
+/// Deadline for setting the zero.
 const ZEROING: Deadline = Deadline::after(Duration::from_secs(6));
-/// The zero of a transducer that has none of its own is the mean over this.
+/// Duration of the mean that replaces the zero of a transducer without a tare.
 const MEAN_OVER: Duration = Duration::from_millis(250);
-/// From one failure at once to the next call.
+/// Delay after a failed call.
 const REST: Duration = Duration::from_millis(5);
 
 /// A transducer, and the wrench that the host subtracts as its zero.
@@ -31,7 +31,7 @@ pub(super) struct Transducer {
 }
 
 impl Transducer {
-    /// Starts the readings, and calls the present load zero.
+    /// Starts the readings and zeroes the present load.
     pub(super) fn begin(&mut self) -> Result<(), DriverError> {
         self.device.start(ZEROING)?;
         self.zero = Wrench::default();
@@ -56,16 +56,16 @@ impl Transducer {
         Ok(wrench(sum.map(|sum| sum / f64::from(count))))
     }
 
-    /// From one reading to the next, in s; that of a transducer that states no rate is taken to be 50 Hz.
+    /// Period of the readings, in s; 50 Hz is assumed if no rate is stated.
     pub(super) fn period_s(&self) -> f64 {
         const UNKNOWN_S: f64 = 0.02;
         self.facts.rate.map_or(UNKNOWN_S, |rate| 1.0 / rate.0)
     }
 
-    /// Puts readings into `track` until it is over. One that repeats the last is no reading, where live ones seldom do.
+    /// Puts readings into `track` until the capture ends. Ignores repeats of a transducer that seldom repeats a reading.
     ///
     /// # Errors
-    /// What ended the readings: a device that is gone, silence, or a signal that froze.
+    /// The failure that ended the readings: a lost device, a timeout, or a frozen signal.
     pub(super) fn read(&mut self, track: &Track, counts: &Counts) -> Result<(), DriverError> {
         let mut last: Option<(Wrench, Option<u64>)> = None;
         let mut was_new = Instant::now();
@@ -88,7 +88,7 @@ impl Transducer {
                 Err(error) => {
                     let is_passing = matches!(
                         error.kind(),
-                        // One reading that is none, or none in time.
+                        // One invalid reading, or a timeout.
                         ErrorKind::Timeout | ErrorKind::DeviceFault | ErrorKind::OutOfRange
                     );
                     match error.kind() {

@@ -1,4 +1,4 @@
-//! The changers of a rig: opened by what its rig file says, called with a deadline, and believed only where they name what was asked for.
+//! Changers of a rig: opened by the rig file, called with a deadline, and checked by the name that they report.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -13,10 +13,10 @@ use super::devices::Sitting;
 use super::workshop::Workshop;
 use crate::scene::RigSpec;
 
-/// A wish to stop reaches a changer so soon.
+/// Interval between checks for cancellation.
 const LISTENING: Duration = Duration::from_millis(10);
 
-/// A changer that is open.
+/// An open changer.
 pub(super) struct OpenChanger {
     changer: Box<dyn Changer>,
     driver: DriverKey,
@@ -24,7 +24,7 @@ pub(super) struct OpenChanger {
 }
 
 impl OpenChanger {
-    /// Opens what `device` of `rig` names; nothing moves.
+    /// Opens the changer `device` of `rig`; nothing moves.
     pub(super) fn open(
         spec: &RigSpec,
         rig: &RigFile,
@@ -45,15 +45,15 @@ impl OpenChanger {
         }))
     }
 
-    /// Whether it holds what is called `name`.
+    /// True if it holds the item `name`.
     pub(super) fn holds(&self, name: &str) -> bool {
         self.changer.holds().iter().any(|held| held == name)
     }
 
-    /// Brings what is called `name` into place, and lets the changer stand as soon as somebody wishes to stop.
+    /// Brings the item `name` into place; a cancellation interrupts the changer.
     ///
     /// # Errors
-    /// [`DriverError`] of the changer; of kind `DeviceFault` where it says that something else is in place.
+    /// [`DriverError`] of the changer, or of kind `DeviceFault` if it reports another item in place.
     pub(super) fn bring(
         &mut self,
         name: &str,
@@ -91,7 +91,7 @@ impl OpenChanger {
     }
 }
 
-/// A changer that mounts specimens during a run.
+/// Changer of specimens during a run.
 pub(super) struct OfSpecimens {
     pub(super) changer: OpenChanger,
     pub(super) cancel: Cancel,
@@ -113,7 +113,7 @@ impl SpecimenChanger for OfSpecimens {
     }
 }
 
-/// Whether `unit` was put under the robot by a changer of units; `None` where none holds it.
+/// Brings `unit` under the robot by a changer of units; `None` if none holds it.
 ///
 /// # Errors
 /// As [`OpenChanger::open`] and [`OpenChanger::bring`].

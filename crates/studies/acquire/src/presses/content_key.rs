@@ -1,4 +1,4 @@
-//! Everything that decides what a simulated study records.
+//! Content key of a simulated study: all that determines its recording.
 
 use taceva_core::{ArgKind, Device, Registry};
 use taceva_drivers::Drivers;
@@ -6,14 +6,14 @@ use taceva_protocol::Setting;
 
 use crate::scene::{PlannedStudy, RigSpec, StudySource};
 
-/// The parts of a written plan that say what is computed of a recording, and not what is recorded.
+/// Fields of a serialized plan that concern the scores and not the recording.
 const OF_SCORES: [&str; 4] = ["metrics", "fits", "skipped", "cost"];
 
 impl PlannedStudy {
-    /// The parts of a key of its recording, each with a name; `None` for a recording that is there already, and if a device is real or has an
-    /// argument that names a file, whose content can change.
+    /// Parts of the key of its recording, each with a name. `None` for an existing recording, for a real device, and for an argument that
+    /// names a file, whose content can change.
     ///
-    /// No device is opened: the arguments of simulated ones are in their selectors.
+    /// Opens no device: the arguments of simulated ones are in their selectors.
     pub fn content_key(&self, drivers: &Drivers) -> Option<Vec<(&'static str, String)>> {
         let StudySource::Rig(rig) = &self.source else {
             return None;
@@ -40,7 +40,7 @@ impl PlannedStudy {
     }
 }
 
-/// What opens a device, and which build of its driver does where that is not the program itself.
+/// Selector of a device, with the build of its driver if that is a plugin.
 #[derive(Debug)]
 #[expect(
     dead_code,
@@ -51,7 +51,7 @@ struct Opened {
     build: Option<String>,
 }
 
-/// What opens each device of `rig` for `unit`.
+/// Selectors of the devices of `rig` for `unit`.
 fn devices(rig: &RigSpec, unit: &str, drivers: &Drivers) -> Option<[Option<Opened>; 4]> {
     fn of<D: Device + ?Sized>(
         rig: &RigSpec,

@@ -1,11 +1,11 @@
-//! A device that is open, with what is known about it.
+//! An open device with its descriptor.
 
 use taceva_core::{Descriptor, Device, Registry, Rig};
 use taceva_drivers::{OpenError, Selector, open};
 
 use super::latency::{IntoDevice, Late};
 
-/// A device that is open, with what is known about it.
+/// An open device with its descriptor.
 pub(crate) struct Opened<D: ?Sized> {
     pub(crate) device: Box<D>,
     pub(crate) descriptor: Descriptor,
@@ -13,7 +13,7 @@ pub(crate) struct Opened<D: ?Sized> {
 }
 
 impl<D: Device + ?Sized> Opened<D> {
-    /// Opens what `selector` asks for; what its arguments change is in the descriptor.
+    /// Opens the device of `selector`; the descriptor reflects its arguments.
     pub(crate) fn open(
         registry: &Registry<D>,
         selector: Selector,
@@ -39,7 +39,7 @@ impl<D: ?Sized + 'static> Opened<D>
 where
     Late<D>: IntoDevice<D>,
 {
-    /// The device with stamps of when observations were true, where `latency_ms` of its facts says that they come later.
+    /// Corrects the stamps of the device by `latency_ms` of its facts, if above 0.
     pub(crate) fn timely(self, latency_ms: impl Fn(&Descriptor) -> Option<f64>) -> Box<D> {
         match latency_ms(&self.descriptor) {
             Some(latency_ms) if latency_ms > 0.0 => Late::new(self.device, latency_ms).boxed(),

@@ -1,4 +1,4 @@
-//! The devices of a rig, opened for one unit of the sensor and lent to a run.
+//! Devices of a rig, opened for one unit of the sensor and lent to a run.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, PoisonError};
@@ -23,10 +23,10 @@ use super::workshop::{Surroundings, Workshop};
 use crate::error::AcquireError;
 use crate::scene::{PlannedStudy, RigSpec, open_switch};
 
-/// How long a robot may take to say for the first time where it stands.
+/// Deadline of the first pose of a robot.
 pub(super) const FIRST_POSE: Duration = Duration::from_secs(2);
 
-/// Devices that are open.
+/// Open devices of a rig.
 pub(super) struct OpenRig {
     pub(super) sensor: Option<Box<dyn Sensor>>,
     pub(super) robot: Box<dyn Robot>,
@@ -34,27 +34,27 @@ pub(super) struct OpenRig {
     lighting: Option<Box<dyn Lighting>>,
     pub(super) surroundings: Surroundings,
     pub(super) force_driver: DriverKey,
-    /// Whether its time passes by itself: then threads look on while it moves.
+    /// True for a rig in real time, which guard threads watch while it moves.
     is_real: bool,
-    /// The rig file that says how a real rig stands: then a session begins by trying that.
+    /// Rig file of a real rig; a session begins by checking it.
     pub(super) rig_file: Option<Arc<RigFile>>,
-    /// What somebody holds while the robot moves.
+    /// Enabling switch.
     pub(super) switch: Option<Arc<dyn EnablingSwitch>>,
 }
 
-/// A session at a rig: its workshop, the wish to stop, and the state that it goes on from.
+/// A session at a rig: its workshop, its cancellation, and its state from earlier units.
 #[derive(Clone, Copy)]
 pub(super) struct Sitting<'a> {
     pub(super) workshop: Workshop<'a>,
     pub(super) cancel: &'a Cancel,
-    /// Whether somebody has enabled the robot since this process has it.
+    /// True once the operator has enabled the robot in this process.
     pub(super) is_enabled: bool,
-    /// What earlier sessions of the recording touched.
+    /// Reference touches of earlier sessions of the recording.
     pub(super) touched: &'a [ReferenceTouch],
 }
 
 impl<'a> Sitting<'a> {
-    /// A session before which nothing was enabled or touched.
+    /// Creates a session without an enabled robot or earlier touches.
     pub(super) fn new(workshop: Workshop<'a>, cancel: &'a Cancel) -> Sitting<'a> {
         Sitting {
             workshop,
@@ -66,7 +66,7 @@ impl<'a> Sitting<'a> {
 }
 
 impl OpenRig {
-    /// Opens the devices of `rig` for `unit`, the sensor first.
+    /// Opens the devices of `rig` for `unit`, the switch and the sensor first.
     pub(super) fn open(
         study: &PlannedStudy,
         rig: &RigSpec,
@@ -87,7 +87,7 @@ impl OpenRig {
             switches: _,
         } = workshop.drivers;
         let rig_file = study.study.rig.as_deref();
-        // First: without it nothing is opened that could move.
+        // The switch comes first: without it no moving device is opened.
         let switch = rig_file.map(|rig| open_switch(rig, workshop.drivers));
         let switch = switch.transpose().map_err(AcquireError::from)?.flatten();
         let opener = Opener { rig, unit };
@@ -161,13 +161,13 @@ impl OpenRig {
         })
     }
 
-    /// What was set of the camera and read back.
+    /// Settings of the camera, read back.
     pub(super) fn settings_of_sensor(&self) -> BTreeMap<String, String> {
         let sensor = self.sensor.as_ref();
         sensor.map(|sensor| sensor.settings()).unwrap_or_default()
     }
 
-    /// Brings the tip of a real rig up and halts it, before hands come, under a guard; whether it moved.
+    /// Raises the tip of a real rig and halts it, under a guard, before hands come near; returns true if it moved.
     ///
     /// # Errors
     /// As [`raise`](taceva_protocol::raise).
@@ -211,7 +211,7 @@ impl OpenRig {
         })
     }
 
-    /// Makes the presses of `spec`, under a guard where the rig is real.
+    /// Makes the presses of `spec`, under a guard if the rig is real.
     ///
     /// # Errors
     /// As [`run`](taceva_protocol::run).
@@ -299,7 +299,7 @@ impl OpenRig {
     }
 }
 
-/// The latencies that a rig file says, of robot, transducer and sensor, in ms.
+/// Latencies in a rig file, of robot, transducer and sensor, in ms.
 pub(crate) fn written_latencies_ms(rig: &RigFile) -> [Option<f64>; 3] {
     let written = [
         rig.robot.as_ref().and_then(|robot| robot.latency_ms),
@@ -309,7 +309,7 @@ pub(crate) fn written_latencies_ms(rig: &RigFile) -> [Option<f64>; 3] {
     written.map(|latency| latency.map(|latency| latency.value))
 }
 
-/// The name by which somebody must enable the robot of `rig`; `None` of one that is emulated, or was enabled before.
+/// Name of the robot of `rig` that the operator must enable; `None` if it is emulated or already enabled.
 pub(super) fn to_be_enabled(rig: &RigFile, is_enabled: bool) -> Option<&str> {
     let robot = rig.robot.as_ref();
     let named = robot.filter(|_| !rig.simulated && !is_enabled);
@@ -341,19 +341,19 @@ impl Opener<'_> {
 }
 
 impl RigSpec {
-    /// Whether a device of it is simulated: then nothing that it records was measured.
+    /// True if a device is simulated, so that recordings are not measurements.
     pub(super) fn is_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .any(|source| source == DriverSource::Simulated)
     }
 
-    /// Whether every device of it is simulated: then it may be opened just to be asked for facts.
+    /// True if all devices are simulated, so that they may be opened only to read facts.
     pub(crate) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .all(|source| source == DriverSource::Simulated)
     }
 
-    /// What each of its devices is.
+    /// Source of each device.
     fn sources(&self, drivers: &Drivers) -> impl Iterator<Item = DriverSource> + use<> {
         fn of<D: Device + ?Sized>(
             registry: &Registry<D>,
@@ -374,12 +374,12 @@ impl RigSpec {
     }
 }
 
-/// What a person calls a device: what stands before the arguments of its selector.
+/// Key of a selector: the part before its arguments.
 fn key_of(selector: &str) -> &str {
     selector.split_once(':').map_or(selector, |(key, _)| key)
 }
 
-/// A rig cannot run without the clock of its stamps.
+/// Error for a robot whose clock is unknown to the program.
 fn without_clock(robot: &Selector) -> DriverError {
     let key: Result<DriverKey, _> = robot.driver().parse();
     let key = key.expect("it was opened by this key");

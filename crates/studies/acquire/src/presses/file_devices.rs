@@ -1,4 +1,4 @@
-//! The devices of a rig file by themselves, without a scene: for whoever sets up a rig or looks whether it works.
+//! Devices of a rig file without a scene, for setting up and checking a rig.
 
 use std::path::Path;
 
@@ -14,17 +14,17 @@ use super::registration::{Registered, Turned};
 use crate::error::AcquireError;
 use crate::scene::RigSpec;
 
-/// A device that is open, and what is known about it.
+/// An open device and its descriptor.
 type Described<D> = (Box<D>, Descriptor);
 
-/// Devices of a rig file that are open, in the frame of the sensor.
+/// Open devices of a rig file, in the frame of the sensor.
 pub(crate) struct FileDevices {
     pub(crate) robot: Option<Described<dyn Robot>>,
     pub(crate) force: Option<Described<dyn ForceTransducer>>,
     pub(crate) sensor: Option<Described<dyn Sensor>>,
 }
 
-/// Opens devices that a rig file names.
+/// Opens devices of a rig file.
 pub(crate) struct FileOpener<'a> {
     rig: &'a RigFile,
     spec: RigSpec,
@@ -32,17 +32,17 @@ pub(crate) struct FileOpener<'a> {
 }
 
 impl<'a> FileOpener<'a> {
-    /// An opener of the devices that `rig` names.
+    /// Creates an opener for the devices of `rig`.
     pub(crate) fn new(rig: &'a RigFile, drivers: &'a Drivers) -> FileOpener<'a> {
         let folder = Path::new(rig.name()).parent().unwrap_or(Path::new(""));
         let spec = RigSpec::of_file(rig, folder);
         FileOpener { rig, spec, drivers }
     }
 
-    /// Every device, mapped into the frame of the sensor.
+    /// Opens all devices, mapped into the frame of the sensor.
     ///
     /// # Errors
-    /// [`AcquireError::Scene`] for a driver or an argument that is none, [`AcquireError::Open`] if a device does not open.
+    /// [`AcquireError::Scene`] for an invalid driver or argument, [`AcquireError::Open`] if a device does not open.
     pub(crate) fn all(&self) -> Result<FileDevices, AcquireError> {
         let [_, force_latency, sensor_latency] = written_latencies_ms(self.rig);
         let sensor = self.open(&self.drivers.sensors, self.spec.sensor.as_ref())?;
@@ -77,7 +77,7 @@ impl<'a> FileOpener<'a> {
         })
     }
 
-    /// The robot in its base frame.
+    /// Opens the robot in its base frame.
     ///
     /// # Errors
     /// As [`all`](FileOpener::all).

@@ -1,11 +1,11 @@
-//! Threads that look on while a run on real devices goes on, so that a limit is seen within a motion and not after it.
+//! Guard threads of a run on real devices, which see a limit within a motion and not after it.
 //!
-//! One thread owns the force transducer: what it reads it shows to the [`Supervisor`] and puts where the run finds it. Another looks at the
-//! robot whenever it reports and at the enabling switch, over a connection of its own where the robot has one, and hears when nothing is heard and when somebody
-//! wishes to stop. Both halt through the supervisor, which decides alone.
+//! One thread owns the force transducer: it shows each reading to the [`Supervisor`] and stores it for the run. Another reads the pose of
+//! the robot, over a connection of its own if the robot has one, and the enabling switch. It also watches for missing readings and
+//! cancellation. Both halt through the supervisor, which alone decides.
 //!
-//! They run with the priority of the process. On a busy machine a thread may wait for a tenth of a second: `chrt -f 10 taceva run …` makes
-//! that milliseconds.
+//! The threads have the priority of the process. On a busy machine a thread may wait for a tenth of a second; `chrt -f 10 taceva run …`
+//! reduces that to milliseconds.
 
 mod mailbox;
 
@@ -22,29 +22,29 @@ use taceva_protocol::{Cancel, Enabling, Observation, RigLimits, SharedSupervisor
 use crate::viewer::Viewer;
 use mailbox::Mailbox;
 
-/// Between two looks at the robot, each of which waits for what it reports next: less than the 10 ms between two reports of an arm, of which every
-/// second would be missed otherwise. A signal that froze is found by eight readings that each come after the tip was seen elsewhere.
+/// Interval between readings of the robot, each of which waits for the next report. It is below the 10 ms between reports of an arm, of
+/// which every second would be missed otherwise. A frozen signal takes eight readings, each after a motion.
 const LOOK: Duration = Duration::from_millis(5);
-/// A robot that says nothing for so long has missed a look.
+/// Deadline of one pose.
 const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
 
-/// What is looked at, and who may wish to stop.
+/// Devices under guard, with their cancellation.
 pub(super) struct Guarded<'a> {
     pub(super) robot: &'a mut dyn Robot,
     pub(super) force: &'a mut dyn ForceTransducer,
-    /// The driver of the transducer.
+    /// Driver of the transducer.
     pub(super) driver: DriverKey,
     pub(super) limits: RigLimits,
-    /// What somebody holds while the robot moves, if the rig has it.
+    /// Enabling switch, if the rig has one.
     pub(super) switch: Option<&'a dyn EnablingSwitch>,
     pub(super) cancel: &'a Cancel,
     pub(super) progress: &'a dyn Progress,
-    /// Who sees every force and every pose too, if anybody.
+    /// Viewer of every force and pose, if any.
     pub(super) viewer: Option<&'a dyn Viewer>,
 }
 
 impl Guarded<'_> {
-    /// Lets `conduct` move the robot while threads look on; they end when it does.
+    /// Runs `conduct`, which moves the robot, while guard threads watch; they end with it.
     pub(super) fn conduct<T>(
         self,
         conduct: impl FnOnce(&mut dyn Robot, &mut dyn ForceTransducer, SharedSupervisor) -> T,
@@ -61,7 +61,7 @@ impl Guarded<'_> {
         } = self;
         let mut supervisor = Supervisor::new(limits, robot.halt_handle());
         if switch.is_some() {
-            // Until somebody has looked.
+            // Until the first reading of the switch.
             supervisor.enabling(Enabling::Released);
         }
         let supervisor = SharedSupervisor::new(supervisor);
@@ -81,14 +81,14 @@ impl Guarded<'_> {
             scope.spawn(|| reader.serve(force, &supervisor, viewer));
             scope.spawn(|| watcher.look_on(&is_over));
             let _over = Over::new(&is_over);
-            // Dropped here, so that the reader ends even if the conduct panics.
+            // Dropped here, so that the reader ends even if `conduct` panics.
             let mut mailbox = mailbox;
             conduct(robot, &mut mailbox, supervisor.clone())
         })
     }
 }
 
-/// Tells a thread that it is over, however that comes.
+/// Guard that sets a flag when it is dropped, which ends a thread.
 pub(super) struct Over<'a>(&'a AtomicBool);
 
 impl<'a> Over<'a> {
@@ -103,11 +103,11 @@ impl Drop for Over<'_> {
     }
 }
 
-/// Looks at the robot, and notices readings that stay away and wishes to stop.
+/// Watches the robot, the switch, missing readings and cancellation.
 struct Watcher<'a> {
     supervisor: &'a SharedSupervisor,
     watch: Option<Arc<dyn RobotWatch>>,
-    /// The last pose that was heard of.
+    /// Last pose received.
     last: Option<(Pose, Stamp)>,
     switch: Option<&'a dyn EnablingSwitch>,
     cancel: &'a Cancel,
@@ -126,9 +126,9 @@ impl Watcher<'_> {
         }
     }
 
-    /// A wish to stop ends the motion that goes on, once: the retreat after it is another. One that was repeated ends that too.
+    /// A first cancellation ends the motion in progress, but not the retreat after it. A repeated one ends that too.
     fn obey(&mut self) {
-        // Asked for first: who insists between both questions wishes to stop.
+        // Read first: a second request between both calls is still seen.
         let is_insisted = self.progress.is_insisted();
         let is_cancelled = is_insisted || self.progress.is_cancelled();
         let is_first = is_cancelled && !self.was_cancelled;
@@ -141,7 +141,7 @@ impl Watcher<'_> {
         }
     }
 
-    /// Whether the switch is held; one that cannot be read counts as let go.
+    /// Reads the switch; an unreadable one counts as lost.
     fn feel(&mut self) {
         let Some(switch) = self.switch else {
             return;
@@ -175,7 +175,7 @@ impl Watcher<'_> {
             return;
         }
         let now_s = MonotonicClock.now_s();
-        // A pose that is shown again because none came is the older for it. What is halted for, the run learns of its own motion.
+        // A repeated pose keeps its stamp, so its age grows. The run learns of a trip by its own motion.
         let seen = self
             .last
             .map(|(pose, stamp)| Observation::UnderWay { pose, stamp });

@@ -1,4 +1,4 @@
-//! Devices whose stamps come late, with stamps of when observations were true.
+//! Wrappers that correct the stamps of devices by their latency.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,14 +9,14 @@ use taceva_core::{
     Stamp, Tare, Wrench,
 };
 
-/// A device whose stamps are later, by a known time, than the moment at which the observation was true.
+/// A device whose stamps are later than the observation by a known latency.
 pub(crate) struct Late<D: ?Sized> {
     latency_s: f64,
     device: Box<D>,
 }
 
 impl<D: ?Sized> Late<D> {
-    /// `device`, whose stamps are `latency_ms` too late.
+    /// Wraps `device`, whose stamps are `latency_ms` late.
     pub(super) fn new(device: Box<D>, latency_ms: f64) -> Late<D> {
         let latency_s = latency_ms * 1e-3;
         Late { latency_s, device }
@@ -30,7 +30,7 @@ impl<D: ?Sized> Late<D> {
 fn true_stamp(stamp: Stamp, latency_s: f64) -> Stamp {
     Stamp {
         valid_s: stamp.valid_s - latency_s,
-        // What was stamped on arrival arrived then.
+        // The old stamp is the time of arrival, if the device gives no other.
         received_s: stamp.received_s.or(Some(stamp.valid_s)),
     }
 }
@@ -206,7 +206,7 @@ impl Sensor for Late<dyn Sensor> {
     }
 }
 
-/// A device of its own kind again.
+/// Conversion of the wrapper to a boxed device.
 pub(crate) trait IntoDevice<D: ?Sized> {
     fn boxed(self) -> Box<D>;
 }
@@ -253,7 +253,7 @@ mod tests {
         }
     }
 
-    /// Stops by itself at any force, or arrives, at 7 s.
+    /// A robot whose guarded motion ends by contact or arrival, at 7 s.
     struct Stops {
         is_felt: bool,
     }

@@ -1,4 +1,4 @@
-//! Presses in a recording: what a run asks before it presses, and writes to when it has.
+//! Press log in a recording.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,20 +11,20 @@ use taceva_protocol::{ContentId, Plan, PlannedPress, PressLog, PressRecord, Sess
 use super::reduction::reduced;
 use super::session;
 
-/// The presses of a recording that is being made.
+/// Presses of a recording in progress.
 pub(super) struct RecordedPresses {
     recorder: Recorder,
-    /// Presses that are recorded and made again all the same.
+    /// Recorded presses that are made again.
     relived: BTreeSet<ContentId>,
-    /// The rows of their samples, by name.
+    /// Rows of their samples, by name.
     rows: BTreeMap<String, usize>,
     sessions: SessionTable,
-    /// What is done to frames before they are recorded.
+    /// Reduction of frames before they are recorded.
     reduction: Option<FrameReduction>,
 }
 
 impl RecordedPresses {
-    /// Goes on with what `recorder` and `sessions` hold; frames are kept as `reduction` gives them, or as they come.
+    /// Continues `recorder` and `sessions`; `reduction` applies to frames, `None` keeps them whole.
     pub(super) fn new(
         recorder: Recorder,
         sessions: SessionTable,
@@ -39,7 +39,7 @@ impl RecordedPresses {
         }
     }
 
-    /// Has recorded presses of `unit` made again, and compared, where a press at the same place is still to come.
+    /// Schedules recorded presses of `unit` to be repeated and compared, if a press at the same place is still missing.
     pub(super) fn relive(&mut self, plan: &Plan, unit: &str) {
         let of_unit = || plan.presses.iter().filter(|press| press.press.unit == unit);
         let is_recorded = |press: &&PlannedPress| self.has(press.id);
@@ -71,7 +71,7 @@ impl RecordedPresses {
         self.recorder.has_press(&press.to_string())
     }
 
-    /// Refuses a press that was made again and came out otherwise.
+    /// Rejects a repeated press that differs from its recording.
     fn check(&self, samples: &[Sample]) -> Result<(), SinkError> {
         let table = self.recorder.table();
         let bits = |value: Option<f64>| value.map(f64::to_bits);
@@ -114,7 +114,7 @@ impl PressLog for RecordedPresses {
         Ok(())
     }
 
-    /// A recording has one: that of its first unit.
+    /// Stores the reference frame once, that of the first unit.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError> {
         if !self.recorder.has_reference() {
             match &self.reduction {

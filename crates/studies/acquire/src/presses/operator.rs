@@ -1,4 +1,4 @@
-//! What hands and changers do at a real rig beside the presses of one unit, and whether a scene needs hands.
+//! Manual and automatic changes at a real rig, beside the presses of one unit.
 
 use std::collections::BTreeSet;
 use std::sync::PoisonError;
@@ -11,7 +11,7 @@ use super::devices::{OpenRig, Sitting};
 use crate::error::AcquireError;
 use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource};
 
-/// How much is changed on a real rig, by hand or by a changer.
+/// Changes on a real rig, by hand or by a changer.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Changes {
     specimens: Vec<String>,
@@ -19,7 +19,7 @@ struct Changes {
     units: Vec<String>,
 }
 
-/// What the changers of a rig hold; `None` where there is none.
+/// Contents of the changers of a rig; `None` without a changer.
 #[derive(Clone, Debug, Default)]
 struct Held {
     specimens: Option<Vec<String>>,
@@ -31,8 +31,8 @@ fn is_held(held: Option<&Vec<String>>, name: &String) -> bool {
 }
 
 impl Changes {
-    /// Of a plan, those by hand and those by changers: units come one after the other, and specimens within a unit. What is mounted at the
-    /// beginning and stays is no change by hand.
+    /// Changes of a plan by hand and by changers: units in sequence, and specimens within a unit. A single specimen that stays mounted is
+    /// no change by hand.
     fn of(plan: &Plan, is_lit_by_hand: bool, held: &Held) -> [Changes; 2] {
         let [mut by_hand, mut by_changer] = [Changes::default(), Changes::default()];
         for unit in &plan.units {
@@ -62,7 +62,7 @@ impl Changes {
     }
 }
 
-/// The first few of `names`, each once.
+/// Formats the first few of `names`, each once.
 fn few(names: &[String]) -> String {
     const FEW: usize = 3;
     let distinct: BTreeSet<&String> = names.iter().collect();
@@ -78,10 +78,10 @@ fn few(names: &[String]) -> String {
 }
 
 impl PlannedScene {
-    /// Refuses a scene on a real rig that needs hands: for whoever cannot ask anybody, before anything is opened.
+    /// Rejects a scene on a real rig that needs an operator, for unattended commands, before anything is opened.
     ///
     /// # Errors
-    /// [`AcquireError::Request`], with how many changes there are.
+    /// [`AcquireError::Request`], with the number of changes.
     pub fn check_unattended(&self, drivers: &Drivers) -> Result<(), AcquireError> {
         let real = self.studies.iter().filter(|study| match &study.source {
             StudySource::Rig(rig) => !rig.is_simulated(drivers),
@@ -107,7 +107,7 @@ impl PlannedScene {
 }
 
 impl PlannedStudy {
-    /// What hands change on a real rig, with how often; nothing where nothing is changed.
+    /// Manual changes on a real rig, with their counts; empty without any.
     pub fn by_hand(&self, drivers: &Drivers) -> Vec<String> {
         let held = self.held(drivers);
         let [changes, _] = Changes::of(&self.plan, self.is_lit_by_hand(drivers), &held);
@@ -132,7 +132,7 @@ impl PlannedStudy {
         needed.into_iter().flatten().collect()
     }
 
-    /// What changers of the rig file change, with how often and by which driver; nothing where nothing is changed.
+    /// Automatic changes by changers of the rig file, with counts and drivers; empty without any.
     pub fn by_changer(&self, drivers: &Drivers) -> Vec<String> {
         let Some(rig) = self.rig() else {
             return Vec::new();
@@ -154,12 +154,12 @@ impl PlannedStudy {
         changed.collect()
     }
 
-    /// What the changers of the rig hold.
+    /// Contents of the changers of the rig.
     fn held(&self, drivers: &Drivers) -> Held {
         let (Some(rig), StudySource::Rig(spec)) = (self.rig(), &self.source) else {
             return Held::default();
         };
-        // What cannot be described was refused when the scene was planned.
+        // An invalid changer was rejected when the scene was planned.
         let held = |changer| spec.held_by(drivers, changer).unwrap_or_default();
         Held {
             specimens: held(rig.changers.specimen.as_ref()),
@@ -167,7 +167,7 @@ impl PlannedStudy {
         }
     }
 
-    /// Whether no device of the rig sets its light: neither one for that, nor the sensor.
+    /// True if neither a light nor the sensor of the rig sets its light.
     fn is_lit_by_hand(&self, drivers: &Drivers) -> bool {
         let StudySource::Rig(rig) = &self.source else {
             return false;
@@ -178,16 +178,16 @@ impl PlannedStudy {
         })
     }
 
-    /// The rig file that it is carried out on, if one names its devices.
+    /// Rig file that names its devices, if any.
     pub fn rig(&self) -> Option<&RigFile> {
         self.study.rig.as_deref()
     }
 }
 
-/// Whether `unit` is under the robot: a changer that holds it puts it there; of several units of a real rig that none holds somebody says so, or
-/// skips it.
+/// Puts `unit` under the robot by a changer that holds it, or by the operator if a real rig has several units. Returns false if the
+/// operator skips it.
 ///
-/// The tip is brought up before that, for which the robot may have to be enabled, and no device is open while a changer moves or hands are in.
+/// The tip is raised before, for which the operator may have to enable the robot. No device is open during the change.
 pub(super) fn unit_is_there(
     study: &PlannedStudy,
     rig: &RigSpec,
@@ -243,7 +243,7 @@ pub(super) fn unit_is_there(
     }
 }
 
-/// A changer that did not put a unit in place, where nobody can do it instead.
+/// Error of a changer that did not put a unit in place, without an operator.
 fn unchanged(plan: &Plan, error: OpenError) -> AcquireError {
     match error {
         OpenError::Device(error) => acquisition(plan, StopCause::Device(error)),
@@ -254,7 +254,7 @@ fn unchanged(plan: &Plan, error: OpenError) -> AcquireError {
     }
 }
 
-/// A rig that stopped where nothing was in the gel.
+/// Error of a run that stopped with the tip clear of the gel.
 pub(super) fn acquisition(plan: &Plan, cause: StopCause) -> AcquireError {
     let error = RunError {
         press: None,
@@ -264,7 +264,7 @@ pub(super) fn acquisition(plan: &Plan, cause: StopCause) -> AcquireError {
     stopped(plan, error)
 }
 
-/// A run of `plan` that stopped.
+/// Error of a run of `plan` that stopped.
 pub(super) fn stopped(plan: &Plan, error: RunError) -> AcquireError {
     AcquireError::Acquisition {
         study: plan.name.clone(),
@@ -272,7 +272,7 @@ pub(super) fn stopped(plan: &Plan, error: RunError) -> AcquireError {
     }
 }
 
-/// How many presses of a unit were left out by hand, if that is all that is wrong: the units after it are pressed all the same.
+/// Number of skipped presses, if that is the only problem; other errors are returned. Later units are pressed all the same.
 pub(super) fn presses_skipped(error: AcquireError) -> Result<usize, AcquireError> {
     match &error {
         AcquireError::Acquisition { source, .. } => match source.cause {

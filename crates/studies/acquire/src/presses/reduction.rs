@@ -1,4 +1,4 @@
-//! Frames as a recording keeps them: as they come, or reduced to the size that the scene says.
+//! Frames as a recording stores them: whole, or reduced to the size in the scene.
 
 use taceva_core::Sample;
 use taceva_models::{FeatureError, FrameReduction};
@@ -7,10 +7,10 @@ use super::OpenRig;
 use crate::error::AcquireError;
 use crate::scene::PlannedStudy;
 
-/// How the frames of `open` are reduced before they are recorded, where the scene says at which size they are kept.
+/// Reduction of the frames of `open` before they are recorded; `None` keeps them whole.
 ///
 /// # Errors
-/// [`AcquireError::Request`] for a camera whose frames are smaller, which it did not say before it was open.
+/// [`AcquireError::Request`] for a camera whose frames turn out to be smaller once it is open.
 pub(super) fn reduction(
     study: &PlannedStudy,
     open: &OpenRig,
@@ -28,7 +28,7 @@ pub(super) fn reduction(
     Ok(Some(reduction))
 }
 
-/// `samples` with frames as they are kept; their brightness is that of what the camera saw.
+/// Reduces the frames of `samples`; their brightness remains that of the camera's frames.
 ///
 /// # Errors
 /// [`FeatureError::Kind`] for a frame of another size or format than the camera states.

@@ -9,18 +9,18 @@ use taceva_core::{
 use taceva_core::{Degree, Newton, NewtonMillimetre, Rotation};
 use taceva_protocol::{Registration, RigRobot, SignedAxes};
 
-/// A robot that takes and reports poses in the sensor's frame, over a driver that works in the robot's base frame.
+/// A robot with poses in the sensor's frame, over a driver in the robot's base frame.
 pub(super) struct Registered {
     registration: Registration,
     robot: Box<dyn Robot>,
 }
 
 impl Registered {
-    /// `robot`, standing as `registered` says. Where that does not say how the tool is turned, the robot is asked for its pose now, within
+    /// Wraps `robot` with the registration of `registered`. If that has no rotation of the tool, it is read from the robot within
     /// `deadline`.
     ///
     /// # Errors
-    /// [`DriverError`] if it says no pose.
+    /// [`DriverError`] if the robot reports no pose.
     pub(super) fn new(
         mut robot: Box<dyn Robot>,
         registered: &RigRobot,
@@ -143,14 +143,14 @@ impl RobotWatch for RegisteredWatch {
     }
 }
 
-/// A transducer whose readings are turned into the sensor's frame.
+/// A transducer with readings in the sensor's frame.
 pub(crate) struct Turned {
     axes: SignedAxes,
     force: Box<dyn ForceTransducer>,
 }
 
 impl Turned {
-    /// `force` with its readings turned: `axes` says which of its axes each axis of the sensor is.
+    /// Wraps `force`; `axes` maps its axes to those of the sensor.
     pub(crate) fn new(force: Box<dyn ForceTransducer>, axes: SignedAxes) -> Turned {
         Turned { axes, force }
     }
@@ -200,7 +200,7 @@ mod tests {
 
     use super::*;
 
-    /// Stands where it was sent, in its base frame, and presses with that force.
+    /// A robot that is at its last target, in its base frame.
     struct Arm(Pose);
 
     struct Rests;
@@ -217,7 +217,7 @@ mod tests {
         }
 
         fn move_to(&mut self, target: Pose, _: Speed, _: Deadline) -> Result<Stamp, DriverError> {
-            // One that was sent into the table shows that nobody mapped the target.
+            // A target in the table means that the wrapper did not map it.
             if target.position.z.0 < 200.0 {
                 let key = DriverKey::fixed("lab/arm");
                 return Err(DriverError::new(ErrorKind::OutOfRange, &key, "move"));
@@ -235,7 +235,7 @@ mod tests {
         }
     }
 
-    /// Six components, each another number.
+    /// A transducer with six different components.
     struct Loaded;
 
     impl ForceTransducer for Loaded {

@@ -1,4 +1,4 @@
-//! A run in the air: every place of a scene is visited above the gel, with the guard of a run, and nothing is pressed or recorded.
+//! A rehearsal: every place of a scene is visited above the gel under the guard of a run; nothing is pressed or recorded.
 
 use taceva_core::{Frame, Millimetre, SinkError};
 use taceva_protocol::{Cancel, ContentId, Event, Mode, PressLog, PressRecord, RunSpec};
@@ -9,13 +9,13 @@ use super::workshop::Workshop;
 use crate::error::AcquireError;
 use crate::scene::{PlannedScene, StudySource};
 
-/// How far above the height of travel a rehearsal moves, in mm: an error of the origin below this does not touch the gel.
+/// Height of a rehearsal above the height of travel, in mm: an error of the origin below this does not touch the gel.
 pub const AIR_MM: f64 = 10.0;
 
-/// Visits every place of `scene` [`AIR_MM`] above the height of travel; how many there were.
+/// Visits every place of `scene` [`AIR_MM`] above the height of travel; returns their number.
 ///
 /// # Errors
-/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed, something was touched or somebody wished to stop.
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed, something was touched, or the run was cancelled.
 pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<usize, AcquireError> {
     if workshop.operator.is_none() {
         scene.check_unattended(workshop.drivers)?;
@@ -63,7 +63,7 @@ pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<us
     Ok(visited)
 }
 
-/// Has nothing, and is handed nothing.
+/// Press log that is always empty.
 struct Unwritten;
 
 impl PressLog for Unwritten {

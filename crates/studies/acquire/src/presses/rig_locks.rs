@@ -1,4 +1,4 @@
-//! One run on one rig: its devices are held by locks that end with the process, however it ends.
+//! Locks on the devices of a rig, which end with the process however it exits.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -10,21 +10,21 @@ use taceva_protocol::{ContentId, RigFile};
 use crate::error::AcquireError;
 use crate::scene::{PlannedScene, StudySource};
 
-/// The devices of rig files that this process has, until it is dropped.
+/// Locked devices of rig files, until this is dropped.
 #[derive(Debug)]
 pub struct HeldRigs {
-    // Held for their locks.
+    // Open files hold the locks.
     _locks: Vec<File>,
 }
 
 impl PlannedScene {
-    /// Takes every device that the rig file of the scene names, so that no other run moves it meanwhile. A scene without one needs none.
+    /// Locks every device in the rig file of the scene against other runs. A scene without a rig file needs no lock.
     ///
-    /// The locks are files in the folder for temporary files of the machine, named by the digest of what opens a device: two rig files that
-    /// name one robot exclude each other too. They are never removed, and hold nothing.
+    /// The lock files are in the temporary folder of the machine, named by the digest of the selector of the device. Two rig files with the
+    /// same selector of a robot therefore exclude each other. The files are empty and never removed.
     ///
     /// # Errors
-    /// [`AcquireError::RigTaken`] if another process has one of them; [`AcquireError::RigLock`] if a lock cannot be made.
+    /// [`AcquireError::RigTaken`] if another process holds a device; [`AcquireError::RigLock`] if a lock cannot be acquired.
     pub fn hold_rigs(&self) -> Result<HeldRigs, AcquireError> {
         self.hold_rigs_in(&std::env::temp_dir())
     }
@@ -49,7 +49,7 @@ impl PlannedScene {
 }
 
 impl HeldRigs {
-    /// Takes every device of `rig`, for whoever sets it up.
+    /// Locks every device of `rig`, for its setup.
     ///
     /// # Errors
     /// As [`PlannedScene::hold_rigs`].
@@ -65,7 +65,7 @@ impl HeldRigs {
         HeldRigs::take(&std::env::temp_dir(), devices.collect())
     }
 
-    /// Takes `devices`, each with the rig file or the option that names it.
+    /// Locks `devices`, each with the rig file or option that names it.
     pub(crate) fn take(
         folder: &Path,
         devices: BTreeMap<String, String>,
@@ -91,12 +91,12 @@ fn take(path: &Path, device: &str, rig: &str) -> Result<File, AcquireError> {
             taceva_core::shown(device)
         ),
     };
-    // That of another user may be read, which is enough to lock it.
+    // A lock file of another user is readable, which suffices for a lock.
     let file = match File::open(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => {
             let made = OpenOptions::new().write(true).create_new(true).open(path);
             match made {
-                // Somebody made it meanwhile.
+                // Another process has created it meanwhile.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => File::open(path),
                 made => made,
             }

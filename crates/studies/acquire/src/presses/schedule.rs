@@ -1,18 +1,18 @@
-//! When each press of a unit begins, as a function of its number alone.
+//! Start of each press of a unit, as a function of its number alone.
 
 use std::time::Duration;
 
 use taceva_protocol::Plan;
 
-/// Equal slots of time, each long enough for the longest press of a plan.
+/// Equal time slots, each long enough for the longest press of a plan.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Schedule {
     slot: Duration,
 }
 
-/// For the way there, the search for contact and the way back.
+/// Time for the way, the search for contact and the retreat.
 const WAY: Duration = Duration::from_secs(240);
-/// For a waypoint: its way, its rest and its picture.
+/// Time for a waypoint: its way, its rest and its picture.
 const WAYPOINT: Duration = Duration::from_secs(2);
 
 impl Schedule {
@@ -24,7 +24,7 @@ impl Schedule {
         }
     }
 
-    /// When press `number` begins, counted from 1.
+    /// Start of press `number`, counted from 1.
     pub(super) fn begins(&self, number: usize) -> Duration {
         let number = u32::try_from(number).unwrap_or(u32::MAX);
         self.slot.saturating_mul(number)

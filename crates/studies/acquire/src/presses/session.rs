@@ -1,4 +1,4 @@
-//! The sessions of a run on a real rig as the table beside its recording has them.
+//! Rows of the session table beside a recording of a real rig.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use taceva_dataset::Session;
 use taceva_drivers::MonotonicClock;
 use taceva_protocol::{Plan, ReferenceTouch, SessionRecord};
 
-/// The row of a session that begins now.
+/// Row of a session that begins now.
 pub(super) fn row(record: &SessionRecord) -> Session {
     let [zero_fx_n, zero_fy_n, zero_fz_n] = record.zero.force.map(|force| force.0);
     let [x_felt, y_felt] = record.pushes_felt;
@@ -30,7 +30,7 @@ pub(super) fn row(record: &SessionRecord) -> Session {
     }
 }
 
-/// The touches of `sessions` with specimens that `plan` still presses with.
+/// Reference touches in `sessions` with specimens of `plan`.
 pub(super) fn touches(sessions: &[Session], plan: &Plan) -> Vec<ReferenceTouch> {
     let specimen = |written: &str| -> Option<Specimen> {
         let mut specimens = plan.presses.iter().map(|press| press.press.specimen);
@@ -48,7 +48,7 @@ pub(super) fn touches(sessions: &[Session], plan: &Plan) -> Vec<ReferenceTouch> 
     touches.collect()
 }
 
-/// Names the boot of this machine, on Linux: stamps of two boots are of two clocks.
+/// Id of the boot of this machine, on Linux; stamps of two boots have different clocks. Empty elsewhere.
 fn boot_id() -> String {
     let read = fs::read_to_string("/proc/sys/kernel/random/boot_id");
     read.map_or_else(|_| String::new(), |text| text.trim().to_owned())

@@ -1,4 +1,4 @@
-//! Taps on the rig of a rig file: threads listen to every device while the tip goes down and up again under the guard of a run.
+//! Taps on the rig of a rig file: threads record every device while the tip moves down and up under the guard of a run.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -19,23 +19,23 @@ use crate::error::AcquireError;
 use crate::scene::{PlannedStudy, StudySource};
 
 const START: Deadline = Deadline::after(Duration::from_secs(2));
-/// A device that says nothing for so long is asked again.
+/// Deadlines of one pose and of one frame, after which they are retried.
 const POSE: Deadline = Deadline::after(Duration::from_millis(50));
 const FRAME: Deadline = Deadline::after(Duration::from_millis(200));
-/// Before a device that fails at once is asked again.
+/// Delay before a failing device is retried.
 const FAILED_REST: Duration = Duration::from_millis(5);
 
-/// Taps the gel on the rig of `study`, and returns what was heard; its presses are not made.
+/// Taps the gel on the rig of `study` and returns the recorded taps; its presses are not made.
 ///
 /// # Errors
-/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed, the rig is not as its file says, or somebody wished to stop.
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed, the rig contradicts its file, or the run was cancelled.
 pub(crate) fn tap_study(
     study: &PlannedStudy,
     workshop: Workshop<'_>,
 ) -> Result<Tapped, AcquireError> {
     let mut plan = study.plan.clone();
     for press in &mut plan.presses {
-        // Whoever listens has the sensor.
+        // The listener holds the sensor.
         press.frames = false;
     }
     let failed = |source: RunError| super::operator::stopped(&plan, source);
@@ -142,14 +142,14 @@ impl OpenRig {
             (tapped, ended.into_iter().collect::<Result<(), _>>())
         });
         workshop.progress.end();
-        // A device that fails ends the taps by what they lack: why is what it said.
+        // A failed device ends the taps by missing values; its own error is the cause.
         heard?;
         sensor.stop()?;
         tapped.map_err(failed)
     }
 }
 
-/// What is heard of the tap that goes on, if one does.
+/// Recording of the tap in progress, if any.
 #[derive(Clone, Default)]
 struct Ears(Arc<Mutex<Option<TapHeard>>>);
 
@@ -158,7 +158,7 @@ impl Ears {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Hears something, if a tap goes on.
+    /// Adds a value to the tap in progress.
     fn hear(&self, say: impl FnOnce(&mut TapHeard)) {
         if let Some(heard) = &mut *self.lock() {
             say(heard);
@@ -166,7 +166,7 @@ impl Ears {
     }
 }
 
-/// Begins and ends what is heard.
+/// Starts and stops the recording of taps.
 struct Listener<'a> {
     ears: Ears,
     progress: &'a dyn taceva_core::Progress,
@@ -194,7 +194,7 @@ fn hear_poses(
     while !is_over.load(Ordering::Acquire) {
         match watch.pose(POSE) {
             Ok((pose, stamp)) => ears.hear(|heard| heard.pose(&pose, &stamp)),
-            // The guard sees the same, and halts.
+            // The guard sees the same error and halts.
             Err(_) => std::thread::sleep(FAILED_REST),
         }
     }
@@ -210,7 +210,7 @@ fn hear_frames(
     let mut bytes = vec![0; info.byte_len().unwrap_or_default()];
     while !is_over.load(Ordering::Acquire) {
         let Ok(into) = FrameMut::new(info, &mut bytes) else {
-            // Nothing is heard of frames that fit in no memory, which the taps say.
+            // The taps report missing frames if they exceed the memory.
             return Ok(());
         };
         match sensor.capture(into, FRAME) {
@@ -226,7 +226,7 @@ fn hear_frames(
     Ok(())
 }
 
-/// A transducer of which every reading is heard.
+/// A transducer whose readings are also recorded.
 struct Overheard<'a> {
     force: &'a mut dyn ForceTransducer,
     ears: Ears,

@@ -1,4 +1,4 @@
-//! A sensor whose frames somebody looks at.
+//! A sensor with a viewer of its frames.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use taceva_core::{
 
 use crate::viewer::Viewer;
 
-/// A sensor, and who sees every frame that was taken of it.
+/// A sensor, and the viewer of its frames.
 pub(super) struct Seen {
     sensor: Box<dyn Sensor>,
     viewer: Arc<dyn Viewer>,

@@ -1,4 +1,4 @@
-//! What presses are made with, beside the devices themselves: drivers, clocks and whoever exchanges specimens.
+//! Environment of presses beside the devices: drivers, clocks and changers of specimens.
 
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -9,27 +9,27 @@ use taceva_protocol::{ContentId, Operator, SpecimenChanger, Timekeeper};
 
 use crate::viewer::Viewer;
 
-/// What a rig has beside its devices.
+/// Parts of a rig beside its devices.
 pub struct Surroundings {
-    /// The clock that the stamps of its devices are of.
+    /// Clock of the stamps of its devices.
     pub clock: Box<dyn Timekeeper>,
-    /// Who exchanges what the robot carries; without one a single specimen serves every press.
+    /// Changer of specimens; with `None`, a single specimen serves every press.
     pub specimens: Option<Box<dyn SpecimenChanger>>,
-    /// Is called with each press before the tip moves there.
+    /// Callback for each press before the tip moves there.
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
-    /// What the recording calls the gel.
+    /// Name of the gel in the recording.
     pub gel: Option<String>,
-    /// The simulated bench, where the rig is one. A sensor that belongs to another bench is stamped by the clock of this one.
+    /// Simulated bench, if the rig is one. Its clock stamps a sensor of another bench.
     pub bench: Option<Arc<dyn SimulatedBench>>,
-    /// Whether its gel is new in every process, and remembers within one what was done to it.
+    /// True if its gel is new in every process, and has a history within one.
     ///
-    /// Such a rig goes on after an interruption only where the past of a place is done again first: recorded presses there are made
-    /// once more, compared with what was recorded, and not recorded twice.
+    /// After an interruption, such a rig first restores the history of a place: it repeats the recorded presses there, compares them with
+    /// the recording, and does not record them twice.
     pub begins_anew: bool,
 }
 
 impl Surroundings {
-    /// Those of a real rig: the monotonic clock of the machine, which cannot be set, and a gel that keeps what was done to it.
+    /// Surroundings of a real rig: the monotonic clock of the machine, which cannot be set, and a gel with a lasting history.
     pub fn real() -> Surroundings {
         Surroundings {
             clock: Box::new(MachineTime),
@@ -42,7 +42,7 @@ impl Surroundings {
     }
 }
 
-/// Time that passes by itself.
+/// The real-time clock of the machine.
 struct MachineTime;
 
 impl Timekeeper for MachineTime {
@@ -58,28 +58,28 @@ impl Timekeeper for MachineTime {
 /// A press that is about to be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Upcoming {
-    /// Its name.
+    /// Id of the press.
     pub press: ContentId,
-    /// When it begins by the clock of the rig, on a schedule that leaves every press ample time: a rig whose clock can be set then gives a press
-    /// the same times whether the run was interrupted or not.
+    /// Start on the clock of the rig, by a schedule with ample time for every press. A rig with a settable clock then gives a press the
+    /// same times with and without interruption.
     pub begins: Duration,
 }
 
-/// Gives the surroundings of the rig whose simulated robot was opened by a selector; `None` where nobody knows its clock. Those of a real
-/// robot are [`Surroundings::real`].
+/// Callback that returns the surroundings of the rig whose simulated robot a selector opened; `None` if its clock is unknown. A real robot
+/// has [`Surroundings::real`].
 pub type SurroundingsOf<'a> = &'a (dyn Fn(&Selector, &mut Rig) -> Option<Surroundings> + Sync);
 
-/// What presses are made with.
+/// Environment of presses.
 #[derive(Clone, Copy)]
 pub struct Workshop<'a> {
     /// The drivers of the program.
     pub drivers: &'a Drivers,
-    /// What rigs have beside their devices.
+    /// Surroundings of simulated rigs.
     pub surroundings: SurroundingsOf<'a>,
     /// Receives progress, and may cancel.
     pub progress: &'a dyn Progress,
-    /// Who is asked for what no device of a real rig can do; without one a scene that needs hands is refused before anything is opened.
+    /// Operator for manual steps on a real rig; with `None`, a scene that needs one is rejected before anything is opened.
     pub operator: Option<&'a Mutex<dyn Operator + Send>>,
-    /// Who looks on, if anybody: of a simulated bench at its frames and its presses, of a real rig at its force and its tip too.
+    /// Viewer, if any: of frames and presses of a simulated bench, and of force and tip of a real rig too.
     pub viewer: Option<&'a Arc<dyn Viewer>>,
 }

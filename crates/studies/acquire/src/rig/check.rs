@@ -1,4 +1,4 @@
-//! `rig check`: the rate, gaps and noise of each device of a rig, and how soon its robot stands after a halt.
+//! `rig check`: rate, gaps and noise of each device of a rig, and the stop time of its robot.
 
 use std::fmt;
 use std::time::Duration;
@@ -16,93 +16,93 @@ use crate::error::AcquireError;
 use crate::presses::{FileDevices, FileOpener};
 use crate::scene::open_switch;
 
-/// How long each device is listened to.
+/// Duration of the measurement of each device.
 const LISTENED: Duration = Duration::from_secs(2);
 const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 const READ_DEADLINE: Deadline = Deadline::after(Duration::from_millis(100));
-/// From one question for a pose to the next.
+/// Interval between readings of the pose.
 const LOOK: Duration = Duration::from_millis(10);
-/// The way on which the robot is halted: straight up, away from the gel, in mm, and how fast, in mm/s.
+/// Motion on which the robot is halted: straight up, away from the gel, in mm, and its speed, in mm/s.
 const WAY_MM: f64 = 5.0;
 const WAY_MM_S: f64 = 5.0;
-/// The enabling switch is looked at until it was held for so long, or nobody has held it for so long, in s.
+/// Duration of the hold that ends the check of the enabling switch, and longest wait for it, in s.
 const HELD: Duration = Duration::from_secs(1);
 const HOLD_PATIENCE_S: f64 = 10.0;
-/// From one look at it to the next while the robot moves.
+/// Interval between readings of the switch while the robot moves.
 const FEEL: Duration = Duration::from_millis(5);
-/// Into it, the halt comes so late.
+/// Time of the halt after the start of the motion.
 const INTO: Duration = Duration::from_millis(300);
-/// From a halt to a robot that stands, in ms: as the plan demands of a robot that states it.
+/// Longest time from a halt to a robot at rest, in ms, as plans demand of a stated stop time.
 const HALT_MS: f64 = 50.0;
-/// Readings older than so many periods, but at least this, in ms, break a press off.
+/// Age of readings that interrupts a press: in periods, and at least in ms.
 const STALE_PERIODS: f64 = 3.0;
 const STALE_MS: f64 = 50.0;
-/// A stated noise may be so much of the measured one.
+/// Least ratio of the stated to the measured noise.
 const NOISE_PART: f64 = 0.5;
 
-/// What was found.
+/// Result of a check.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigCheck {
-    /// The force transducer, at rest; noise in N.
+    /// Force transducer at rest; noise in N.
     pub force: Option<Stream>,
-    /// The robot at rest, asked for its pose; noise in mm.
+    /// Pose of the robot at rest; noise in mm.
     pub robot: Option<Stream>,
-    /// The frames of the sensor.
+    /// Frames of the sensor.
     pub sensor: Option<Stream>,
-    /// The enabling switch, where the rig file names one.
+    /// Enabling switch, if the rig file names one.
     pub switch: Option<SwitchCheck>,
-    /// The robot, halted on its way; absent where nobody let it move.
+    /// Halt of the robot in motion; `None` if it was not allowed to move.
     pub halt: Option<HaltTrip>,
-    /// What a run would refuse or be stopped by.
+    /// Problems that would reject or stop a run.
     pub problems: Vec<RigProblem>,
 }
 
-/// A robot that was halted on its way up.
+/// A halt of the robot on its way up.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct HaltTrip {
-    /// Until the halt was acknowledged, in ms.
+    /// Time until the halt was acknowledged, in ms.
     pub acknowledged_ms: f64,
-    /// Until the motion had ended, in ms.
+    /// Time until the motion had ended, in ms.
     pub ended_ms: f64,
-    /// How far above its place it was left, in mm.
+    /// Height above its place at which it stopped, in mm.
     pub left_mm: f64,
 }
 
-/// What a run will stumble over, and what helps.
+/// Problems of a run on this rig, with their remedies.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub enum RigProblem {
-    /// A device that said nothing.
+    /// A device gave no readings.
     Unheard {
         /// `force`, `robot` or `sensor`.
         device: &'static str,
     },
-    /// Gaps that break presses off.
+    /// Gaps interrupt presses.
     Gaps {
-        /// The longest, in ms.
+        /// Longest gap, in ms.
         gap_ms: f64,
-        /// What is allowed, in ms.
+        /// Longest allowed gap, in ms.
         allowed_ms: f64,
     },
-    /// A noise that is greater than is stated.
+    /// The noise exceeds the stated one.
     Noise {
         /// `force` or `robot`.
         device: &'static str,
-        /// As measured, in N or mm.
+        /// Measured noise, in N or mm.
         measured: f64,
-        /// As stated.
+        /// Stated noise, in the same unit.
         stated: f64,
     },
-    /// A robot that stands too late.
+    /// The robot stops too late.
     SlowHalt {
-        /// In ms.
+        /// Time until the motion had ended, in ms.
         ended_ms: f64,
     },
-    /// A robot that did not stop.
+    /// The robot did not stop.
     NotHalted,
-    /// An enabling switch that nobody was seen to hold, though somebody was asked to.
+    /// The enabling switch was never seen held, although the operator was asked to hold it.
     Unheld,
 }
 
@@ -139,16 +139,17 @@ impl fmt::Display for RigProblem {
     }
 }
 
-/// Listens to the devices of `rig`, and halts its robot once on its way up, where `operator` lets it move or it is emulated.
+/// Measures the devices of `rig`, and halts its robot once on its way up, if `operator` allows it or the rig is emulated.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] with the line of the rig file, [`AcquireError::Open`] if a device does not open, [`AcquireError::Device`] if one fails.
+/// [`AcquireError::Scene`] with the line of the rig file, [`AcquireError::Open`] if a device does not open, [`AcquireError::Device`] if one
+/// fails.
 pub fn check_rig(
     rig: &RigFile,
     drivers: &Drivers,
     mut operator: Option<&mut dyn Operator>,
 ) -> Result<RigCheck, AcquireError> {
-    // First: without it nothing is opened that could move.
+    // The switch comes first: without it no moving device is opened.
     let switch = open_switch(rig, drivers)?;
     let FileDevices {
         robot,
@@ -220,7 +221,7 @@ impl RigCheck {
         }
     }
 
-    /// Looks at the enabling switch, which somebody who is there is asked to hold.
+    /// Checks the enabling switch, which the operator, if any, is asked to hold.
     fn feel(
         &mut self,
         switch: &dyn EnablingSwitch,
@@ -241,7 +242,7 @@ impl RigCheck {
         Ok(())
     }
 
-    /// Nothing moves while somebody lets the enabling switch go, where there is one.
+    /// Halts the robot on its way up. Nothing moves while the enabling switch, if any, is released.
     fn halt_on_its_way(
         &mut self,
         robot: &mut dyn Robot,
@@ -297,12 +298,12 @@ impl RigCheck {
     }
 }
 
-/// Whether a device only said nothing in time.
+/// True for a mere timeout.
 fn came_late(error: &DriverError) -> bool {
     error.kind() == ErrorKind::Timeout
 }
 
-/// Calls `hear` until the time is over.
+/// Calls `hear` for the duration of the measurement.
 fn listen(
     mut hear: impl FnMut(&mut Listener) -> Result<(), DriverError>,
 ) -> Result<Stream, DriverError> {

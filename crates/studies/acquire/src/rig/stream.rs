@@ -1,44 +1,44 @@
-//! The rate and the gaps of a device's readings, and their noise at rest.
+//! Rate, gaps and noise of a device's readings at rest.
 
-/// What a device said while it was listened to.
+/// Statistics of a device's readings.
 ///
 /// # Units
-/// ms and Hz; `noise` in the unit of what was read.
+/// ms and Hz; `noise` in the unit of the reading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Stream {
-    /// How many readings came.
+    /// Number of readings.
     pub count: usize,
-    /// Readings a second; 0 of fewer than two.
+    /// Readings per second; 0 for fewer than two.
     pub rate_hz: f64,
-    /// The longest time from one reading to the next by their stamps, in ms.
+    /// Longest gap between readings by their stamps, in ms.
     pub gap_ms: f64,
-    /// The greatest age of a reading when it came, by its stamp, in ms.
+    /// Greatest age of a reading on arrival by its stamp, in ms.
     pub late_ms: f64,
-    /// The greatest standard deviation of a component, in the unit of the reading; `None` of a device that gives no numbers.
+    /// Greatest standard deviation of a component, in the unit of the reading; `None` for a device without numeric readings.
     pub noise: Option<f64>,
-    /// How many readings are missing by their numbers; `None` of a device that does not number them.
+    /// Number of missing readings by their sequence numbers; `None` for a device without them.
     pub lost: Option<u64>,
 }
 
-/// Gathers the times and the numbers of one device's readings.
+/// Collects the times and values of one device's readings.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Listener {
     valid_s: Vec<f64>,
     late_s: f64,
-    /// The count, the mean and the sum of squared distances of each component, as they are updated (Welford 1962).
+    /// Count, mean and sum of squared deviations of each component, updated incrementally (Welford 1962).
     spread: Option<(f64, [f64; 3], [f64; 3])>,
     numbers: Option<(u64, u64)>,
 }
 
 impl Listener {
-    /// Something that was true at `valid_s` and came at `now_s`.
+    /// Adds a reading of the time `valid_s` that arrived at `now_s`.
     pub(super) fn hear(&mut self, valid_s: f64, now_s: f64) {
         self.valid_s.push(valid_s);
         self.late_s = self.late_s.max(now_s - valid_s);
     }
 
-    /// Its three numbers.
+    /// Adds the three components of a reading.
     pub(super) fn measure(&mut self, read: [f64; 3]) {
         let (count, mean, squares) = self.spread.get_or_insert((0.0, [0.0; 3], [0.0; 3]));
         *count += 1.0;
@@ -49,11 +49,11 @@ impl Listener {
         }
     }
 
-    /// The number that it had.
+    /// Adds the sequence number of a reading.
     pub(super) fn number(&mut self, number: u64) {
         self.numbers = Some(match self.numbers {
             None => (number, 0),
-            // One that counts anew was started anew.
+            // A lower number means a restarted device.
             Some((last, lost)) => (number, lost + number.saturating_sub(last).saturating_sub(1)),
         });
     }

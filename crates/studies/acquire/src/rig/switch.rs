@@ -1,29 +1,28 @@
-//! What is found of an enabling switch: whether somebody holds it, and how soon it answers.
+//! Check of an enabling switch: its holds and its response time.
 
 use std::time::Duration;
 
 use taceva_core::{DriverError, EnablingSwitch};
 use taceva_drivers::MonotonicClock;
 
-/// How often it is looked at: as often as in a run.
+/// Interval between readings, as in a run.
 const LOOK: Duration = Duration::from_millis(10);
 
-/// An enabling switch that was looked at every 10 ms.
+/// Result for an enabling switch read every 10 ms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SwitchCheck {
-    /// How often it was looked at.
+    /// Number of readings.
     pub looks: u32,
-    /// In how many of these looks it was held.
+    /// Number of readings that found it held.
     pub held: u32,
-    /// How often it was pressed or released between two looks.
+    /// Number of presses and releases between readings.
     pub changes: u32,
-    /// The longest time from a question to its answer, in ms. What the device itself takes from the foot to its report comes before that,
-    /// and is not seen here.
+    /// Longest response time of a reading, in ms. Excludes the delay in the device between the foot and its report.
     pub longest_ms: f64,
 }
 
-/// Looks at `switch` until it has been held for `held`, at most for `patience`.
+/// Reads `switch` until it has been held for `held`, at most for `patience`.
 pub(super) fn look_at(
     switch: &dyn EnablingSwitch,
     held: Duration,
@@ -58,7 +57,7 @@ mod tests {
 
     use super::*;
 
-    /// Held from the look on whose number it is given, and let go for one look after some others.
+    /// A foot that holds from the fourth reading on, except at the seventh.
     struct Foot(AtomicU32);
 
     impl EnablingSwitch for Foot {
@@ -73,7 +72,7 @@ mod tests {
         let foot = Foot(AtomicU32::new(0));
         let [held, patience] = [60, 10_000].map(Duration::from_millis);
         let check = look_at(&foot, held, patience).expect("it answers");
-        // Pressed, let go once and pressed again; all looks but the first three and that one find it held.
+        // Pressed, released once and pressed again; all readings but the first three and that one find it held.
         assert_eq!(
             (check.changes, check.looks - check.held),
             (3, 4),

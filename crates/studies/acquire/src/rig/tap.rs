@@ -1,4 +1,4 @@
-//! `rig tap`: the gel is tapped at one place, and the rig file learns how late each device says what is true.
+//! `rig tap`: taps the gel at one place and writes the latency of each device into the rig file.
 
 use std::path::{Path, PathBuf};
 
@@ -9,8 +9,7 @@ use crate::error::AcquireError;
 use crate::presses::{Workshop, tap_study, written_latencies_ms};
 use crate::scene::{Overrides, PlannedScene, SceneText, StudySource};
 
-/// The presses that stand for taps: limits, speeds and the beginning of a session are those of a run with them. What is said of the sensor is
-/// said of its middle.
+/// Scene for taps, which sets limits, speeds and the start of a session. Its facts of the sensor hold for the middle.
 const SCENE: &str = r#"
 scene_version = 1
 name = "tap"
@@ -30,31 +29,31 @@ points = 1
 indentations = 1
 "#;
 
-/// What taps say of a rig.
+/// Result of taps on a rig.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigTap {
-    /// How many taps there were.
+    /// Number of taps.
     pub taps: usize,
-    /// The latencies of robot, transducer and sensor before, in ms: those of the rig file, or what the drivers state.
+    /// Latencies of robot, transducer and sensor before, in ms: those of the rig file, or those stated by the drivers.
     pub before_ms: [f64; 3],
-    /// By how much later than the robot the transducer still was.
+    /// Remaining delay of the transducer behind the robot.
     pub force: Latency,
-    /// And the sensor.
+    /// Remaining delay of the sensor behind the robot.
     pub sensor: Latency,
-    /// What the rig file should say.
+    /// Latencies for the rig file.
     pub latencies: RigLatencies,
-    /// Its text with that; `None` where it is written so that it must be changed by hand.
+    /// Text of the rig file with these latencies; `None` if it must be edited by hand.
     #[serde(skip)]
     pub text: Option<String>,
 }
 
-/// Taps the gel on the rig of the file at `path`, which is read and not written.
+/// Taps the gel on the rig of the file at `path`; reads the file and does not write it.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] with the line of the rig file if it has no robot, transducer or sensor, or says no limits; [`AcquireError::Open`] and
-/// [`AcquireError::Acquisition`] if a device failed or the rig is not as its file says; [`AcquireError::Request`] with the reason where the taps say
-/// nothing.
+/// [`AcquireError::Scene`] with the line of the rig file if it lacks a robot, a transducer, a sensor or limits. [`AcquireError::Open`] and
+/// [`AcquireError::Acquisition`] if a device failed or the rig contradicts its file. [`AcquireError::Request`] with the reason if the taps
+/// give no latency.
 pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireError> {
     let rig = super::read_rig(path)?;
     check_devices(&rig)?;
@@ -107,7 +106,7 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
     })
 }
 
-/// Refuses a rig that lacks a device to compare.
+/// Rejects a rig that lacks a device to compare.
 fn check_devices(rig: &RigFile) -> Result<(), AcquireError> {
     for (key, is_there) in [
         ("robot", rig.robot.is_some()),

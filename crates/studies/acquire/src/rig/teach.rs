@@ -1,4 +1,4 @@
-//! `rig teach`: somebody jogs the robot to three places, and the rig file learns where it stands.
+//! `rig teach`: the operator jogs the robot to three places, which give its origin and axes in the rig file.
 
 use std::time::Duration;
 
@@ -11,15 +11,15 @@ use taceva_protocol::{
 use crate::error::AcquireError;
 use crate::presses::FileOpener;
 
-/// A pose is asked for within this.
+/// Deadline of one pose.
 const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 
-/// Asks `operator` to jog the robot of `rig` to three places, and returns what they say with the text of the rig file that says it.
-/// Nothing is moved by the program.
+/// Asks `operator` to jog the robot of `rig` to three places. Returns the frame and the text of the rig file with it. The program moves
+/// nothing.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] with the line of the rig file if it names no robot or the places are no frame; [`AcquireError::Open`] and
-/// [`AcquireError::Device`] if the robot does not answer; [`AcquireError::Request`] if somebody stopped.
+/// [`AcquireError::Scene`] with the line of the rig file if it names no robot or the places define no frame; [`AcquireError::Open`] and
+/// [`AcquireError::Device`] if the robot does not answer; [`AcquireError::Request`] if the operator stopped.
 pub fn teach_rig(
     rig: &RigFile,
     drivers: &Drivers,
@@ -44,7 +44,7 @@ pub fn teach_rig(
     Ok((taught, text))
 }
 
-/// Where the robot stands once somebody has jogged it there.
+/// Pose of the robot after the operator has jogged it.
 fn stood(
     robot: &mut dyn Robot,
     spot: Spot,

@@ -1,4 +1,4 @@
-//! Values that stand in the place of those that a scene writes, so that it need not be edited.
+//! Values that replace those of a scene, so that it need not be edited.
 
 use std::path::PathBuf;
 
@@ -7,23 +7,23 @@ use taceva_protocol::{ModelSpec, Setting};
 
 use crate::error::AcquireError;
 
-/// What stands in the place of what a scene says.
+/// Values that replace those of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
-    /// The seed of every draw of the scene.
+    /// Seed of all random draws of the scene.
     pub seed: Option<u64>,
-    /// The rig file whose devices every study presses with, in the place of those that the scene names; relative to the working folder.
+    /// Rig file whose devices replace those of every study that presses; relative to the working folder.
     pub rig: Option<PathBuf>,
-    /// The model of every study, without the settings that the scene has for another.
+    /// Model of every study, without the settings of the scene's model.
     pub model: Option<String>,
-    /// Settings of the model, as `key=value`; those of the scene that are not named stay.
+    /// Settings of the model, as `key=value`; others of the scene stay.
     pub set: Vec<String>,
-    /// The seeds that models are fitted with: presses, division and what is scored stay as they are.
+    /// Seeds for fits of the models; presses, split and scored samples stay.
     pub seeds: Vec<u64>,
 }
 
 impl Overrides {
-    /// Replaces the model of `study`, or its settings.
+    /// Replaces the model of `study`, or some of its settings.
     pub(super) fn exchange_model(
         &self,
         study: &str,
@@ -43,7 +43,7 @@ impl Overrides {
                 "no model is fitted that could have settings or seeds; name one with --model";
             return Err(AcquireError::Request(format!("study `{study}`: {needed}")));
         };
-        // Refused as they are in every other command.
+        // Rejected as in every other command.
         let set = ModelSettings::parse(self.set.iter().map(String::as_str))?;
         for word in set.words() {
             if let Some((key, value)) = word.split_once('=') {

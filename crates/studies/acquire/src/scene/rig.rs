@@ -1,4 +1,4 @@
-//! The devices that a study names: the arguments of each, and what its driver states before anything is opened.
+//! Devices of a study: their arguments, and their descriptors before anything is opened.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,25 +9,25 @@ use taceva_core::{
 use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{RigFile, RigInfo, Scene, SceneError, SceneProblem, Setting, Study};
 
-/// What is wrong, and at which byte of the scene.
+/// Byte offset in the scene, and problem.
 pub(crate) type Refused = (Option<usize>, SceneProblem);
 
-/// The devices of a study, by name.
+/// Devices of a study, by name.
 #[derive(Clone, Debug)]
 pub(crate) struct RigSpec {
     pub(crate) sensor: Option<Setting<String>>,
     pub(crate) robot: Option<Setting<String>>,
     pub(crate) force: Option<Setting<String>>,
     pub(crate) lighting: Option<Setting<String>>,
-    /// Whether what changes things is opened with them.
+    /// True if changers are opened with them.
     pub(crate) changes: bool,
     seed: u64,
-    /// What paths in the scene are relative to.
+    /// Base folder of relative paths.
     folder: PathBuf,
 }
 
 impl RigSpec {
-    /// What moves the tip and feels it, without what looks: for whoever exchanges the sensor.
+    /// Robot and transducer alone, for the exchange of the sensor.
     pub(crate) fn without_sensor(&self) -> RigSpec {
         RigSpec {
             sensor: None,
@@ -53,7 +53,7 @@ impl RigSpec {
         }
     }
 
-    /// Those of a rig file, without a scene; paths in it are relative to `folder`.
+    /// Devices of a rig file, without a scene; `folder` is the base of relative paths.
     pub(crate) fn of_file(rig: &RigFile, folder: &Path) -> RigSpec {
         let sensor = rig.sensor.as_ref();
         let robot = rig.robot.as_ref();
@@ -69,7 +69,7 @@ impl RigSpec {
         }
     }
 
-    /// The descriptors of the devices.
+    /// Descriptors of the devices.
     pub(crate) fn info(&self, study: &Study, drivers: &Drivers) -> Result<RigInfo, Refused> {
         let units = study.units();
         if let (Some(sensor), [first, .., last]) = (&self.sensor, units.as_slice()) {
@@ -97,7 +97,7 @@ impl RigSpec {
         })
     }
 
-    /// What opens `device` for `unit`: as written, with seed and unit where its driver takes them and the scene does not say them.
+    /// Selector of `device` for `unit`: as written, plus seed and unit if its driver takes them and the scene does not set them.
     pub(crate) fn selector<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
@@ -123,7 +123,7 @@ impl RigSpec {
         whole.parse().map_err(|_| not_a_selector(device))
     }
 
-    /// `arguments` with relative paths joined to the folder of the scene.
+    /// Joins relative paths in `arguments` to the folder of the scene.
     fn located(&self, arguments: &str, taken: &[ArgSpec]) -> String {
         let is_path = |key: &str| {
             let mut paths = taken.iter().filter(|taken| taken.kind == ArgKind::Path);
@@ -140,7 +140,7 @@ impl RigSpec {
         located.collect::<Vec<_>>().join(";")
     }
 
-    /// The names of what the changer `device` holds; `None` without one.
+    /// Names of the items in the changer `device`; `None` without a changer.
     pub(crate) fn held_by(
         &self,
         drivers: &Drivers,
@@ -178,7 +178,7 @@ impl RigSpec {
     }
 }
 
-/// Refuses drivers that are not linked in, with the line and the nearest one.
+/// Rejects unknown drivers, with the line and the nearest known one.
 pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), SceneError> {
     let known: Vec<(DriverKind, &str)> = keys(&drivers.sensors)
         .chain(keys(&drivers.robots))
@@ -189,8 +189,8 @@ pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), Scen
     scene.check_drivers(&known)
 }
 
-/// Refuses an `enable` that names no enabling switch, with the line of the rig file; nothing is opened. A rig whose robot is simulated in the
-/// program has a time of its own, in which nobody holds anything.
+/// Rejects an `enable` that names no enabling switch, with the line of the rig file; opens nothing. A rig with a robot simulated in this
+/// program is rejected too: nobody can hold a switch in simulated time.
 pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     let Some(operator) = &rig.operator else {
         return Ok(());
@@ -213,8 +213,8 @@ pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), Scene
     Ok(())
 }
 
-/// Refuses a changer of `rig` that names no changer, one that holds nothing and one beside a robot that is simulated in the program, whose bench
-/// changes everything itself, with the line of the rig file; nothing is opened.
+/// Rejects a changer of `rig`, with the line of the rig file, if it is no changer or holds nothing. With a robot simulated in this program
+/// every changer is rejected, since its bench makes all changes. Opens nothing.
 pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     let folder = Path::new(rig.name()).parent().unwrap_or(Path::new(""));
     let spec = RigSpec::of_file(rig, folder);
@@ -245,7 +245,7 @@ pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), Sce
     Ok(())
 }
 
-/// Whether the robot of `rig` is simulated in the program.
+/// True if the robot of `rig` is simulated in this program.
 fn is_simulated_here(rig: &RigFile, drivers: &Drivers) -> bool {
     let robot = rig.robot.as_ref().map(|robot| &robot.driver.value);
     let robot: Option<Selector> = robot.and_then(|robot| robot.parse().ok());
@@ -254,7 +254,7 @@ fn is_simulated_here(rig: &RigFile, drivers: &Drivers) -> bool {
     source == Some(DriverSource::Simulated)
 }
 
-/// The enabling switch of `rig`, open.
+/// Opens the enabling switch of `rig`, if it has one.
 pub(crate) fn open_switch(
     rig: &RigFile,
     drivers: &Drivers,

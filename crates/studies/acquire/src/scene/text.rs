@@ -1,4 +1,4 @@
-//! The text of a scene and where it stands, so that what is refused names its line and what is named beside it is found.
+//! Text of a scene with its location, so that errors name the line and relative paths resolve.
 
 use std::fs::File;
 use std::io::Read;
@@ -8,19 +8,19 @@ use taceva_protocol::{BuiltinScene, GREATEST_SCENE, RigFile, SceneError, ScenePr
 
 use crate::error::AcquireError;
 
-/// A scene as it was written.
+/// A scene as written.
 #[derive(Clone, Debug)]
 pub struct SceneText {
-    /// What errors call it: its path, or the name of a built-in one.
+    /// Name in errors: its path, or the name of a built-in scene.
     pub name: String,
-    /// Its TOML.
+    /// TOML text.
     pub text: String,
-    /// What paths in it are relative to.
+    /// Base folder of relative paths.
     pub folder: PathBuf,
 }
 
 impl SceneText {
-    /// A scene that is compiled in.
+    /// Text of a built-in scene.
     pub fn builtin(scene: BuiltinScene) -> SceneText {
         SceneText {
             name: scene.name().to_owned(),
@@ -29,7 +29,7 @@ impl SceneText {
         }
     }
 
-    /// The scene in the file at `path`.
+    /// Reads the scene in the file at `path`.
     ///
     /// # Errors
     /// [`AcquireError::Scene`] if it cannot be read.
@@ -40,7 +40,7 @@ impl SceneText {
         Ok(SceneText { name, text, folder })
     }
 
-    /// `problem`, at the line of the byte `at`.
+    /// Error for `problem` at the line of the byte `at`.
     pub fn error(&self, at: Option<usize>, problem: SceneProblem) -> AcquireError {
         let line = at.map(|at| {
             let before = self.text.bytes().take(at);
@@ -54,10 +54,10 @@ impl SceneText {
     }
 }
 
-/// The rig file at `path`.
+/// Reads the rig file at `path`.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] if it cannot be read or is none.
+/// [`AcquireError::Scene`] if it cannot be read or is invalid.
 pub(crate) fn read_rig_file(path: &Path) -> Result<RigFile, AcquireError> {
     let text = read_text(path)?;
     Ok(RigFile::parse(&path.display().to_string(), &text)?)
@@ -65,7 +65,7 @@ pub(crate) fn read_rig_file(path: &Path) -> Result<RigFile, AcquireError> {
 
 fn read_text(path: &Path) -> Result<String, AcquireError> {
     let mut text = String::new();
-    // One byte more than is accepted is enough to see that there are too many.
+    // One byte beyond the limit is enough to detect a text that is too long.
     let most = GREATEST_SCENE as u64 + 1;
     let read = File::open(path).and_then(|file| file.take(most).read_to_string(&mut text));
     match read {

@@ -1,4 +1,4 @@
-//! What the signals of a rig are worth: how exact, how fresh, and how one that froze is distinguished from one that rests.
+//! Noise of the signals of a rig, the greatest age of a reading, and detection of a frozen signal.
 
 use taceva_core::{Descriptor, DriverSource, ForceFacts};
 
@@ -6,27 +6,27 @@ use crate::scene::{Scene, Study};
 use crate::source::RigInfo;
 use crate::text::{SceneError, SceneProblem};
 
-/// Allowance that the conduct of a run makes for the signals of its rig; [`Default`] is that for signals without noise.
+/// Allowance for the signals of a rig. [`Default`] is the allowance for signals without noise.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Signals {
-    /// How far a reported pose scatters about where the tip was sent: one standard deviation an axis, in mm.
+    /// Noise of the reported pose: one standard deviation an axis, in mm.
     pub pose_noise_mm: f64,
-    /// How far readings of a load that rests scatter: one standard deviation, in N; 0 where it is not stated.
+    /// Noise of the force at rest: one standard deviation, in N; 0 if none is stated.
     pub force_noise_n: f64,
-    /// The greatest age of a reading that still says something of now, in s.
+    /// Greatest age of a reading that counts as current, in s.
     pub stale_s: f64,
-    /// Whether readings that are equal to the last bit although the tip moved betray a signal that froze, whatever numbers they have. They do
-    /// not where the steps of the transducer are as coarse as its noise; then a number that comes again does.
+    /// True if readings equal to the last bit after a motion mean a frozen signal, whatever their sequence numbers. False if the steps of
+    /// the transducer are as coarse as its noise; then only a repeated sequence number does.
     pub equality_is_frozen: bool,
-    /// Whether the zero of the force is the mean of a quarter of a second on the host, and the transducer's own is set once a session.
+    /// True if the host zeroes the force by a mean over a quarter of a second. The zero of the transducer is then set once a session.
     pub host_zero: bool,
 }
 
-/// A reading older than this says nothing about now, in s: three periods of a transducer of 60 Hz.
+/// Least allowed age of a reading, in s: three periods of a transducer of 60 Hz.
 pub const STALE_S: f64 = 0.05;
-/// A slower transducer may miss so many readings in a row.
+/// Readings that a slower transducer may miss in a row.
 const STALE_READINGS: f64 = 3.0;
-/// How far the tip may go in contact while its readings grow stale, in mm.
+/// Greatest travel of the tip in contact while readings grow stale, in mm.
 const BLIND_MM: f64 = 0.25;
 
 impl Default for Signals {
@@ -42,22 +42,22 @@ impl Default for Signals {
 }
 
 impl Signals {
-    /// Whether they are those without noise.
+    /// True for signals without noise.
     pub(crate) fn is_default(&self) -> bool {
         *self == Signals::default()
     }
 
-    /// A pose within this of where the tip was sent is there, along each axis, in mm.
+    /// Tolerance of a reported pose along each axis, in mm: a pose this close to its target has arrived.
     pub(crate) fn slack_mm(&self) -> f64 {
         3.0 * self.pose_noise_mm
     }
 
-    /// A force in the air that noise does not make, in N.
+    /// Least force out of contact that noise does not explain, in N.
     pub(crate) fn air_n(&self) -> f64 {
         5.0 * self.force_noise_n
     }
 
-    /// What is known of the signals of `rig`.
+    /// Derives the signals of `rig` from its descriptors.
     pub(super) fn of(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<Signals, SceneError> {
         let force = rig
             .force
@@ -72,7 +72,7 @@ impl Signals {
         if let Some((descriptor, facts)) = force {
             signals.force_noise_n = facts.noise.map_or(0.0, |noise| noise.0);
             signals.stale_s = stale_s(facts);
-            // One that states no step is taken to show it: a halt too many harms nobody.
+            // A transducer that states no resolution counts as fine: a superfluous halt is harmless.
             signals.equality_is_frozen = facts.seldom_repeats();
             signals.host_zero = descriptor.source() == DriverSource::Real;
             let who = || format!("the force transducer `{}`", descriptor.key());
@@ -102,9 +102,9 @@ impl Signals {
     }
 }
 
-/// Refuses a rig whose devices are stamped by two clocks: that of a simulated bench and that of the machine.
+/// Rejects a rig with two clocks: that of a simulated bench and that of the machine.
 ///
-/// A sensor that is not of the bench is no part of this: its frames are stamped anew when they come.
+/// A real sensor may join a bench: its frames are stamped on arrival.
 fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneError> {
     let is_simulated = |device: &Descriptor| device.source() == DriverSource::Simulated;
     let Some(robot) = &rig.robot else {
@@ -129,12 +129,13 @@ fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneErr
     Err(study.device_text(scene).error(at, problem))
 }
 
-/// From a limit that is passed to a tip that rests, in ms: one period of the transducer, a way of the link, a halt sent, and the arm's own.
+/// Longest time from a passed limit to a tip at rest, in ms: one period of the transducer, latency of the link, sending of the halt, and
+/// the stop time of the arm.
 const HALT_MS: f64 = 50.0;
-/// What link and sending take of it.
+/// Share of link and sending in [`HALT_MS`], in ms.
 const SEND_MS: f64 = 2.0;
 
-/// Refuses a robot that states that it stops so late that no guard is in time.
+/// Rejects a robot whose stop time leaves no time for a guard.
 fn stops_in_time(
     scene: &Scene,
     study: &Study,
@@ -163,7 +164,7 @@ fn stops_in_time(
     Err(study.device_text(scene).error(at, problem))
 }
 
-/// As stated; else a real arm reports as well as it comes back, and a simulated one where it was sent.
+/// Pose noise as stated. Else a real arm has its repeatability as noise, a simulated one none.
 fn pose_noise_mm(robot: &Descriptor) -> f64 {
     let Some(facts) = robot.robot() else {
         return 0.0;
@@ -252,7 +253,7 @@ mod tests {
             let refused = with(robot, force, sensor).expect_err("two clocks");
             assert!(refused.contains("one rig has one clock"), "{refused}");
         }
-        // A sensor that is not of the bench is stamped by it.
+        // The bench accepts a real sensor and stamps its frames.
         assert!(with(simulated, simulated, real).is_ok());
         assert!(with(real, real, real).is_ok());
     }

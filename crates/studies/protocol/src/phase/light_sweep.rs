@@ -1,9 +1,9 @@
-//! The first held-out presses again in every scene of light; in that of calibration they are the held-out presses themselves.
+//! The first held-out presses, repeated in every scene of light; in that of calibration they are the held-out presses themselves.
 
 use super::{PhaseInputs, spatial};
 use crate::press::Press;
 
-/// Scene after scene, because a light takes time to become steady; none where the light cannot be set.
+/// Presses scene by scene, since a light needs time to settle; empty if the light cannot be set.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let points = u64::from(inputs.protocol.lighting.points.value);
     let lights = inputs.lights.iter();

@@ -1,4 +1,4 @@
-//! Into the gel step by step and out again by the same steps: what the gel keeps of the work done on it.
+//! Loading and unloading by the same steps, for the hysteresis of the gel.
 
 use taceva_core::Phase;
 
@@ -6,7 +6,7 @@ use super::{PhaseInputs, straight};
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
-/// One visit a point; the deepest waypoint belongs to both branches and is visited once for each.
+/// One press a point. The deepest waypoint belongs to both branches and is visited once for each.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::LoadUnload);
     let spec = &inputs.protocol.hysteresis;

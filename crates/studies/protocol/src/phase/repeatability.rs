@@ -1,4 +1,4 @@
-//! Points approached, pressed and left again and again: how far equal presses differ.
+//! Repeated presses at the same points, for the spread of equal presses.
 
 use taceva_core::{Nanometre, Phase};
 
@@ -6,7 +6,7 @@ use super::{PhaseInputs, nanometres, straight};
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
-/// Trial after trial at a point, each to every depth; with markers a shear at the greatest depth ends it.
+/// Presses each point trial by trial, to every depth. With markers a trial ends with a shear at the greatest depth.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Repeatability);
     let spec = &inputs.protocol.repeatability;

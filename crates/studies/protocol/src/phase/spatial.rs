@@ -1,4 +1,4 @@
-//! Held-out presses all over the surface: where errors are large, no model has seen them.
+//! Held-out presses all over the surface, unseen by every model, for a map of errors.
 
 use taceva_core::Phase;
 
@@ -6,14 +6,14 @@ use super::{DepthPart, PhaseInputs, straight};
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
-/// One visit a point at a depth of its own, straight and then sheared.
+/// One press a point at its own depth, straight and then sheared.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     (0..u64::from(inputs.protocol.spatial.points.value))
         .map(|point| press(inputs, point))
         .collect()
 }
 
-/// The held-out press number `point`.
+/// Held-out press number `point`.
 pub(super) fn press(inputs: &PhaseInputs<'_>, point: u64) -> Press {
     let draws = inputs.draws(PhaseKind::Spatial);
     let spec = &inputs.protocol.spatial;

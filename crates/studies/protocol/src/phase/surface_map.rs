@@ -1,10 +1,10 @@
-//! The height of the surface, felt at the same points on every unit: how far units of one model differ.
+//! Height of the surface, felt at the same points on every unit, for the differences between units.
 
 use super::PhaseInputs;
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press};
 
-/// Unit after unit, because units are exchanged by hand.
+/// Presses unit by unit, since units are changed by hand.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::SurfaceMap);
     let points = u64::from(inputs.protocol.surface.points.value);

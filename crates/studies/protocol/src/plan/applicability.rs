@@ -1,4 +1,4 @@
-//! Pass 2: which metrics apply to this sensor, which in part, and which not.
+//! Pass 2: finds the metrics that apply to this sensor, in full or for some channels.
 
 use taceva_core::{Field, SkipReason};
 
@@ -7,7 +7,7 @@ use super::study_facts::StudyFacts;
 use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, Subject};
 
-/// Removes metrics that are not wanted or do not apply, and channels of those that apply in part.
+/// Removes metrics that are not wanted or do not apply, and channels that a metric cannot use.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
     for mut metric in std::mem::take(&mut collected.metrics) {
         if let Some(reason) = obstacle(&metric, &collected, facts) {
@@ -23,7 +23,7 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     collected
 }
 
-/// What keeps `metric` from having a value.
+/// Reason why `metric` has no value; `None` if it applies.
 fn obstacle(
     metric: &PlannedMetric,
     collected: &Collected,
@@ -82,7 +82,7 @@ fn obstacle(
     None
 }
 
-/// Without markers nothing in the picture follows shear, so how far it repeats says nothing about the sensor (TacEva 2025).
+/// Drops shear channels from metrics of repeated predictions if the gel has no markers: its pictures do not show shear (TacEva 2025).
 fn narrow_shear(metric: &mut PlannedMetric, collected: &mut Collected, facts: &StudyFacts<'_>) {
     let reads_repeats =
         metric.phase == PhaseKind::Repeatability && metric.fields.contains(Field::Prediction);

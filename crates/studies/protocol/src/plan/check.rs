@@ -1,4 +1,4 @@
-//! Pass 6: consistency. It removes nothing, and refuses a plan that contradicts itself or its limits.
+//! Pass 6: rejects a plan that contradicts itself or its limits; removes nothing.
 
 use std::collections::BTreeSet;
 
@@ -9,10 +9,10 @@ use super::study_facts::StudyFacts;
 use crate::phase_kind::PhaseKind;
 use crate::text::SceneProblem;
 
-/// The most presses of one plan: at ten seconds a press, four months without a pause.
+/// Greatest number of presses of a plan: at ten seconds a press, four months without a pause.
 const GREATEST_PRESSES: u64 = 1_000_000;
 
-/// Refuses a protocol of more presses than can be drawn, before any is.
+/// Rejects a protocol with too many presses, before any is drawn.
 pub(super) fn is_drawable(facts: &StudyFacts<'_>) -> Result<(), SceneProblem> {
     let Some(phase_inputs) = &facts.phase_inputs else {
         return Ok(());
@@ -30,7 +30,7 @@ pub(super) fn is_drawable(facts: &StudyFacts<'_>) -> Result<(), SceneProblem> {
     })
 }
 
-/// Lets `collected` through if every need is met, no press comes twice, and none leaves the limits or the surface.
+/// Accepts `collected` if every need is met, no press occurs twice, and none exceeds the limits or the surface.
 pub(super) fn pass(
     collected: Collected,
     facts: &StudyFacts<'_>,

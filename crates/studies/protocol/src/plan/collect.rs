@@ -1,4 +1,4 @@
-//! Collects everything that a study could do: all metrics, presses, fields and models. Later passes remove from it and merge.
+//! Collects all metrics, presses, fields and models of a study. Later passes remove and merge.
 
 use taceva_core::{Field, FieldSet};
 use taceva_metrics::{Fact, Metric, catalogue};
@@ -9,7 +9,7 @@ use crate::phase_kind::PhaseKind;
 use crate::press::Press;
 use crate::reason::{PlanReason, PlanSkip, Subject};
 
-/// What a metric requires; the catalogue's words, and the part of the protocol that gives it.
+/// Requirements of a metric: those of the catalogue, and the phase that fulfils them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct MetricNeeds {
     pub(crate) id: String,
@@ -20,7 +20,7 @@ pub(crate) struct MetricNeeds {
 }
 
 impl MetricNeeds {
-    /// The needs of every metric of the catalogue.
+    /// Needs of every metric of the catalogue.
     pub(crate) fn catalogue() -> Vec<MetricNeeds> {
         catalogue::ALL
             .iter()
@@ -47,13 +47,13 @@ impl MetricNeeds {
     }
 }
 
-/// The part of the protocol that a metric is computed on: that which varies what the metric reads.
+/// Phase on which a metric is computed: the one that varies what the metric reads.
 fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
     let reads = |field| fields.contains(field);
     match id {
-        // What it reads is what every accuracy reads; only its name says that it wants points no model has seen.
+        // It reads the same fields as every accuracy; only its name marks it as a metric of held-out points.
         "r_spatial" => PhaseKind::Spatial,
-        // It looks at what is predicted where nothing is touched.
+        // Both read predictions without contact.
         "noise_equivalent_force" | "zero_error" => PhaseKind::Idle,
         _ if reads(Field::Spacing) || reads(Field::Kind) => PhaseKind::Gratings,
         _ if reads(Field::Scene) || reads(Field::Intensity) => PhaseKind::LightSweep,
@@ -68,14 +68,14 @@ fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
     }
 }
 
-/// A metric that is computed, on which channels and on which presses.
+/// A metric to compute, with its channels and its phase.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannedMetric {
-    /// Its id in the catalogue.
+    /// Id in the catalogue.
     pub id: String,
-    /// The channels of the truth that it is computed for, or from.
+    /// Channels of the truth that it is computed for, or from.
     pub channels: Vec<String>,
-    /// The part of the protocol it is computed on; of a recording, all samples that carry what it reads.
+    /// Phase on which it is computed; in a recording, all samples with the fields that it reads.
     pub phase: PhaseKind,
     pub(crate) fields: FieldSet,
     pub(crate) required: Vec<String>,
@@ -85,26 +85,26 @@ pub struct PlannedMetric {
 /// A press of the plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannedPress {
-    /// Its name.
+    /// Digest of the press.
     pub id: ContentId,
-    /// What is done.
+    /// The press itself.
     pub press: Press,
-    /// The parts of the protocol that want it, in order.
+    /// Phases that want it, in order.
     pub phases: Vec<PhaseKind>,
-    /// Whether pictures are taken; without them no camera is asked.
+    /// True if pictures are taken; otherwise no camera is called.
     pub frames: bool,
 }
 
-/// A model that is fitted before metrics are computed.
+/// A model to fit before metrics are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fit {
-    /// What it predicts: labels, or the spacing of a grating.
+    /// Field that it predicts: labels, or the spacing of a grating.
     pub field: Field,
-    /// The part of the protocol it is fitted on.
+    /// Phase on which it is fitted.
     pub phase: PhaseKind,
 }
 
-/// What a plan holds so far: everything at first, less after each pass.
+/// A plan in progress: everything at first, less after each pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Collected {
     pub(crate) metrics: Vec<PlannedMetric>,
@@ -116,10 +116,10 @@ pub(crate) struct Collected {
     pub(crate) skipped: Vec<PlanSkip>,
 }
 
-/// The channels that a rig could measure, in order.
+/// Channels that a rig could measure, in order.
 pub(crate) const CHANNELS: [&str; 7] = ["Px", "Py", "Pz", "Fx", "Fy", "Fz", SURFACE];
 
-/// The height at which a surface is first felt, along z of the sensor's frame, in mm.
+/// Channel of the height of first contact, along z of the sensor's frame, in mm.
 pub(crate) const SURFACE: &str = "surface_z";
 
 impl Collected {
@@ -172,12 +172,12 @@ impl Collected {
         }
     }
 
-    /// Notes that `subject` was left out.
+    /// Stores `subject` as skipped.
     pub(crate) fn skip(&mut self, subject: Subject, reason: PlanReason) {
         self.skipped.push(PlanSkip { subject, reason });
     }
 
-    /// Why `subject` was left out.
+    /// Reason for which `subject` was skipped; `None` if it was not.
     pub(crate) fn reason_of(&self, subject: &Subject) -> Option<&PlanReason> {
         self.skipped
             .iter()
@@ -185,9 +185,9 @@ impl Collected {
             .map(|skip| &skip.reason)
     }
 
-    /// Whether a kept metric or model of the part `kind` looks at pictures.
+    /// True if a kept metric or model of phase `kind` reads pictures.
     pub(crate) fn looks_at_pictures(&self, kind: PhaseKind) -> bool {
-        // What is asked of a sensor at rest is how its pictures come.
+        // The idle phase measures how pictures arrive.
         if kind == PhaseKind::Idle {
             return self.phases.contains(&kind);
         }
@@ -198,7 +198,7 @@ impl Collected {
     }
 }
 
-/// Fields that are read off pictures.
+/// Fields derived from pictures.
 const PICTURES: [Field; 5] = [
     Field::Frame,
     Field::Prediction,

@@ -1,4 +1,4 @@
-//! Pass 7: what a plan will cost. An estimate for readers; nothing is decided by it.
+//! Pass 7: estimates the cost of a plan, for readers only.
 
 use taceva_core::{FrameInfo, Nanometre};
 
@@ -7,27 +7,27 @@ use super::study_facts::StudyFacts;
 use crate::press::Motion;
 use crate::scene::Contact;
 
-/// What a plan will cost.
+/// Estimated cost of a plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Cost {
-    /// Visits of the tip.
+    /// Number of presses.
     pub presses: u64,
-    /// Samples, if no press ends early.
+    /// Number of samples, if no press ends early.
     pub samples: u64,
-    /// Pictures.
+    /// Number of pictures.
     pub frames: u64,
-    /// Bytes of those pictures as they are kept, before compression; `None` if their size is not known.
+    /// Size of those pictures as stored, before compression, in bytes; `None` if the frame size is unknown.
     pub bytes: Option<u64>,
-    /// Minutes of motion, rest and exposure; exchanging units and boards by hand is not in it.
+    /// Time of motion, rest and exposure, in minutes; excludes changes of units and boards by hand.
     pub minutes: f64,
 }
 
-/// A frame a second less than the slowest sensor of the study, where nobody states the rate.
+/// Assumed frame rate, in frames per second: one below the slowest sensor of the TacEva study.
 const UNKNOWN_RATE: f64 = 24.0;
-/// Time of a look at force and pose after a segment of motion, in s.
+/// Duration of a reading of force and pose after a segment, in s.
 const LOOK_S: f64 = 0.005;
 
-/// The cost of `presses`.
+/// Estimates the cost of `presses`.
 pub(super) fn cost(presses: &[PlannedPress], facts: &StudyFacts<'_>) -> Cost {
     let Some(phase_inputs) = &facts.phase_inputs else {
         return Cost::default();
@@ -98,12 +98,12 @@ impl Price<'_> {
         }
     }
 
-    /// From the clearance down to a surface that is where it should be.
+    /// Duration of the approach from the clearance to a surface at its expected height, in s.
     fn search(&self) -> f64 {
         self.guarded(self.contact.clearance_mm.value)
     }
 
-    /// Motion in segments, each followed by a look.
+    /// Duration of a motion in segments, each followed by a reading, in s.
     fn guarded(&self, way_mm: f64) -> f64 {
         way_mm / self.contact.speed_mm_s.value + way_mm / self.segment_mm * LOOK_S
     }
@@ -125,8 +125,8 @@ mod tests {
     use crate::scene::Scene;
     use crate::source::SourceInfo;
 
-    /// Seconds of a press 5 mm from where the tip is, at 2 mm/s in contact and 8 mm/s above it, with 1 mm of clearance, segments of an
-    /// eighth, half a second of rest and a quarter for a frame.
+    /// Duration of a press, in s. The tip starts 5 mm away and moves at 2 mm/s in contact and 8 mm/s above it. Clearance is 1 mm, segments
+    /// are 1/8 mm; rest takes 0.5 s, a frame 0.25 s.
     fn seconds(motion: Motion, frames: bool) -> f64 {
         let mut scene = Scene::parse("small", SMALL).expect("a scene");
         let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_touch_costs_the_way_the_search_the_rest_and_a_frame_if_one_is_taken() {
-        // The search: 1 mm / 2 mm/s, and eight looks of 5 ms.
+        // The approach: 1 mm / 2 mm/s, and eight readings of 5 ms.
         let search = 0.5 + 8.0 * 0.005;
         assert_takes(Motion::Touch, false, 0.625 + search + 0.5);
         assert_takes(Motion::Touch, true, 0.625 + search + 0.5 + 0.25);
@@ -182,7 +182,7 @@ mod tests {
             waypoint(250_000, 250_000, Phase::Unload),
         ];
         let search = 0.5 + 8.0 * 0.005;
-        // Half a millimetre each, the second a quarter up and a quarter sideways: four looks.
+        // Half a millimetre each, the second a quarter up and a quarter sideways: four readings.
         let waypoint = 0.25 + 4.0 * 0.005 + 0.5 + 0.25;
         let back = (0.25 + 1.0) / 8.0;
         let expected = 0.625 + search + 2.0 * waypoint + back;

@@ -1,4 +1,4 @@
-//! A plan in words, and as data for other programs.
+//! Formats a plan as text, and as data for other programs.
 
 use std::fmt;
 
@@ -70,18 +70,18 @@ impl fmt::Display for Plan {
     }
 }
 
-/// The metric that every study of predictions is given.
+/// Metric that is added to every study of predictions.
 const SKILL: &str = "skill";
 
 impl Plan {
-    /// Whether the skill of the model is computed although nobody asked for it, since a metric reads predictions.
+    /// True if the skill of the model is added because a metric reads predictions.
     fn adds_skill(&self) -> bool {
         let reads = |metric: &PlannedMetric| metric.fields.contains(Field::Prediction);
         self.metrics.iter().any(reads) && !self.metrics.iter().any(|metric| metric.id == SKILL)
     }
 }
 
-/// The cost in words.
+/// Formats the cost.
 struct Costs<'a>(&'a Plan);
 
 impl fmt::Display for Costs<'_> {
@@ -97,7 +97,7 @@ impl fmt::Display for Costs<'_> {
             write!(f, ", {} frames", cost.frames)?;
         }
         if let Some(bytes) = cost.bytes.filter(|bytes| *bytes > 0) {
-            // Packed without loss they take less, by how much their noise decides.
+            // Lossless compression reduces it by an amount that depends on the noise.
             write!(f, ", at most {} MB", bytes.div_ceil(1_000_000))?;
         }
         Ok(())
@@ -109,7 +109,7 @@ fn joined<T: fmt::Display>(items: &[T]) -> String {
     words.join(", ")
 }
 
-/// Skips of one kind and one reason on one line; metrics that were not asked for are left out.
+/// Groups skips of one kind and one reason on one line; omits metrics that were not requested.
 fn grouped(skipped: &[PlanSkip]) -> Vec<(String, &PlanReason)> {
     let mut lines: Vec<(&Subject, String, &PlanReason)> = Vec::new();
     let news = skipped
@@ -188,7 +188,7 @@ impl Serialize for Plan {
         plan.serialize_field("cost", &self.cost)?;
         plan.serialize_field("skipped", &skipped)?;
         plan.serialize_field("frame", &self.frame)?;
-        // What is recorded depends on it, so that a run which keeps other frames is another run.
+        // The recording depends on it: a run that keeps other frames is another run.
         if let Some(kept) = &self.kept_frames {
             plan.serialize_field("kept_frames", kept)?;
         }

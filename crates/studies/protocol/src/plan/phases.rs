@@ -1,4 +1,4 @@
-//! Pass 3: parts of the protocol and models that no kept metric needs go.
+//! Pass 3: removes phases and models that no kept metric needs.
 
 use taceva_core::SkipReason;
 

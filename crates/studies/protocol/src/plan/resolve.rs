@@ -1,4 +1,4 @@
-//! Pass 1: resolves the source of each channel and field. What has no source is removed; the reason is the chain of what is missing.
+//! Pass 1: resolves the source of each channel and field. Removes those without a source; the reason is the chain of missing sources.
 
 use taceva_core::{Field, SkipReason};
 
@@ -27,7 +27,7 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     collected
 }
 
-/// What is missing for `channel` to be measured.
+/// Missing device that would measure `channel`; `None` if it is measured.
 fn channel_cause(channel: &str, facts: &StudyFacts<'_>) -> Option<Cause> {
     let FieldSource::Rig { robot, force, .. } = facts.field_source else {
         return None;
@@ -39,7 +39,7 @@ fn channel_cause(channel: &str, facts: &StudyFacts<'_>) -> Option<Cause> {
     }
 }
 
-/// Why `field` has no source.
+/// Reason why `field` has no source; `None` if it has one.
 fn field_reason(field: Field, collected: &Collected, facts: &StudyFacts<'_>) -> Option<PlanReason> {
     let cause = match &facts.field_source {
         FieldSource::Rig { sensor, robot, .. } => match field {
@@ -60,7 +60,7 @@ fn field_reason(field: Field, collected: &Collected, facts: &StudyFacts<'_>) -> 
         FieldSource::Recording { fields, .. } => {
             let of_model = [Field::Prediction, Field::PredictedSpacing].contains(&field);
             let seen = if of_model { Field::Frame } else { field };
-            // A reader tells digest and brightness by looking at the pictures.
+            // A reader computes digest and brightness from the pictures.
             let read_off = [Field::FrameDigest, Field::Intensity].contains(&field);
             let there = fields.contains(seen) || (read_off && fields.contains(Field::Frame));
             if !there {

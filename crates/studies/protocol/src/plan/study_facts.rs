@@ -1,4 +1,4 @@
-//! What is known about a study before it begins: the statements of the scene and of the descriptors, joined and free of contradiction.
+//! Facts of a study before it begins: statements of scene and descriptors, joined and checked for contradictions.
 
 mod surface;
 
@@ -39,7 +39,7 @@ pub(crate) enum FieldSource {
     },
 }
 
-/// What the passes read.
+/// Facts that the passes read.
 #[derive(Clone, Debug)]
 pub(crate) struct StudyFacts<'a> {
     pub(crate) field_source: FieldSource,
@@ -48,21 +48,21 @@ pub(crate) struct StudyFacts<'a> {
     pub(crate) model: ModelChoice,
     pub(crate) units: Vec<String>,
     pub(crate) lights: Vec<String>,
-    /// The metrics that are wanted; all when absent.
+    /// Requested metrics; `None` for all.
     pub(crate) wanted: Option<Vec<&'static str>>,
-    /// What presses are drawn from; absent where nothing is pressed.
+    /// Inputs from which presses are drawn; `None` if nothing is pressed.
     pub(crate) phase_inputs: Option<PhaseInputs<'a>>,
     pub(crate) limits: Option<RigLimits>,
     pub(crate) frame: Option<FrameInfo>,
-    /// The size to which frames are reduced before they are kept.
+    /// Size to which frames are reduced before they are stored.
     pub(crate) kept_frames: Option<FrameSize>,
     pub(crate) footprint: Option<Footprint>,
-    /// Frames a second.
+    /// Frame rate, in frames per second.
     pub(crate) frame_rate: Option<f64>,
 }
 
 impl StudyFacts<'_> {
-    /// The channels that the source might measure.
+    /// Channels that the source might measure.
     pub(crate) fn all_channels(&self) -> Vec<String> {
         match &self.field_source {
             FieldSource::Rig { .. } => CHANNELS.map(str::to_owned).to_vec(),
@@ -70,7 +70,7 @@ impl StudyFacts<'_> {
         }
     }
 
-    /// The channels that presses of `kind` could give: a height where the surface is felt, a depth where it is pressed.
+    /// Channels that presses of `kind` could give: the surface map gives a height, other phases a depth.
     pub(crate) fn channels_on(&self, kind: PhaseKind) -> Vec<String> {
         let mut channels = self.all_channels();
         if !self.is_recording() {
@@ -84,7 +84,7 @@ impl StudyFacts<'_> {
         channels
     }
 
-    /// What keeps `fact` from being known.
+    /// Reason why `fact` is unknown; `None` if it is known.
     pub(crate) fn absent(&self, fact: Fact) -> Option<SkipReason> {
         let depth_max = self.footprint.and_then(|footprint| footprint.depth_max());
         let (known, name) = match fact {
@@ -94,19 +94,19 @@ impl StudyFacts<'_> {
             Fact::Footprint => (self.footprint.is_some(), "footprint"),
             Fact::DepthMax => (self.limits.is_some() || depth_max.is_some(), "depth_max_mm"),
             Fact::FrameSize => (self.frame.is_some(), "frame_size"),
-            // A fact of a later catalogue is asked for where the metric is computed.
+            // The computation of the metric checks facts of later catalogues.
             _ => return None,
         };
         (!known).then_some(SkipReason::FactAbsent(name))
     }
 
-    /// Whether the source is a recording.
+    /// True if the source is a recording.
     pub(crate) fn is_recording(&self) -> bool {
         matches!(self.field_source, FieldSource::Recording { .. })
     }
 }
 
-/// The facts of `study`, fed from `source`. `units` and `lights` lend their names to the presses.
+/// Gathers the facts of `study` from `source`. Presses borrow `units` and `lights`.
 pub(crate) struct Gather<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) study: &'a Study,
@@ -145,7 +145,7 @@ impl<'a> Gather<'a> {
         let footprint = self.footprint(sensor.and_then(|sensor| sensor.footprint))?;
         let frame = sensor.and_then(|sensor| sensor.frame);
         self.is_mapped(rig)?;
-        // Without a robot nothing is pressed, so there is nothing to limit.
+        // Without a robot nothing moves, so no limits apply.
         let limits = match rig.robot {
             Some(_) => Some(limits(scene, study, rig)?),
             None => None,
@@ -210,8 +210,8 @@ impl<'a> Gather<'a> {
         })
     }
 
-    /// The size at which frames are kept, if those of the sensor can be reduced to it; of one that does not state its frames that is seen once
-    /// it is open.
+    /// Size at which frames are stored, if those of the sensor can be reduced to it. If the sensor does not state its frames, the check
+    /// happens after it is opened.
     fn kept_frames(&self, frame: Option<FrameInfo>) -> Result<Option<FrameSize>, SceneError> {
         let Some(kept) = self.study.frames else {
             return Ok(None);
@@ -229,7 +229,7 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// A fact that the scene and the source may both state, if they do not contradict each other.
+    /// Merges a fact that the scene and the source may both state; a contradiction is an error.
     fn agreed(
         &self,
         key: &str,
@@ -248,7 +248,7 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// Refuses depths of the protocol that the limit forbids.
+    /// Rejects depths and thresholds of the protocol beyond their limits.
     fn depths(&self, limits: &RigLimits) -> Result<(), SceneError> {
         let protocol = &self.scene.protocol;
         for (key, depth) in [
@@ -290,7 +290,7 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// The ids of the metrics that are wanted; the names were checked when the scene was read.
+    /// Ids of the requested metrics; their names were checked when the scene was read.
     fn wanted(&self) -> Option<Vec<&'static str>> {
         let want = self.scene.metrics.want.as_ref()?;
         let names = want.iter().map(|name| name.value.as_str());
@@ -303,7 +303,7 @@ impl<'a> Gather<'a> {
     }
 }
 
-/// The scenes of light that are visited, that of calibration first.
+/// Scenes of light to visit, that of calibration first.
 pub(crate) fn lights(
     scene: &Scene,
     study: &Study,
@@ -329,7 +329,7 @@ pub(crate) fn lights(
         return Ok(known);
     };
     if known.is_empty() && rig.lighting.is_none() {
-        // Nothing sets it but hands, and those belong to a rig that exists.
+        // A person sets it, which needs a real rig.
         let is_real = |robot: &taceva_core::Descriptor| robot.source() == DriverSource::Real;
         return match rig.robot.as_ref().is_some_and(is_real) {
             true => Ok(written.value.clone()),
@@ -351,7 +351,7 @@ pub(crate) fn lights(
     }
 }
 
-/// The axis of the transducer that measures `channel`; positions have none.
+/// Axis of the transducer that measures `channel`; `None` for positions.
 pub(crate) fn axis_of(channel: &str) -> Option<Axis> {
     match channel {
         "Fx" => Some(Axis::Fx),
@@ -361,7 +361,7 @@ pub(crate) fn axis_of(channel: &str) -> Option<Axis> {
     }
 }
 
-/// The greatest whole number of nanometres that is not beyond `millimetres`.
+/// Rounds `millimetres` down to whole nanometres.
 fn whole_nanometres_within(millimetres: f64) -> Nanometre {
     let nearest = Nanometre::from_millimetres(millimetres).unwrap_or_default();
     if nearest.to_millimetres() > millimetres {
@@ -371,7 +371,7 @@ fn whole_nanometres_within(millimetres: f64) -> Nanometre {
     }
 }
 
-/// Fields that the protocol itself knows of each press.
+/// Fields of each press that the protocol itself knows.
 pub(crate) const OF_THE_PROTOCOL: [Field; 6] = [
     Field::Point,
     Field::DepthStep,

@@ -1,10 +1,10 @@
-//! How the axes of a device lie to those of the sensor.
+//! Mapping between the axes of a device and those of the sensor.
 
 use std::fmt;
 
 use taceva_core::{Axes, Axis};
 
-/// Which axis of a device each axis of the sensor is, with its sign: a turn by right angles.
+/// Signed axis of a device for each axis of the sensor: a rotation by right angles.
 ///
 /// ```
 /// use taceva_protocol::SignedAxes;
@@ -16,7 +16,7 @@ use taceva_core::{Axes, Axis};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignedAxes([Along; 3]);
 
-/// One axis of the device, or the opposite of one.
+/// One axis of the device, with its sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Along {
     /// 0 for x, 1 for y, 2 for z.
@@ -37,10 +37,10 @@ impl Along {
 }
 
 impl SignedAxes {
-    /// The axes that `words` name: for x, y and z of the sensor that of the device, `-` before it where it points the other way.
+    /// Parses the axis of the device for x, y and z of the sensor, with `-` for the opposite direction.
     ///
     /// # Errors
-    /// What is wrong with them and what is expected: a word that names no axis, an axis that is named twice, a left-handed frame.
+    /// A message with the fault and the expected words: a word that names no axis, an axis named twice, or a left-handed frame.
     pub fn read<T: AsRef<str>>(words: [T; 3]) -> Result<SignedAxes, String> {
         let mut axes = [Along { axis: 0, sign: 1.0 }; 3];
         for (along, word) in axes.iter_mut().zip(&words) {
@@ -64,12 +64,12 @@ impl SignedAxes {
         }
     }
 
-    /// A vector of the device in the sensor's frame.
+    /// Converts a vector from the frame of the device to that of the sensor.
     pub fn to_sensor(self, device: [f64; 3]) -> [f64; 3] {
         self.0.map(|along| along.sign * device[along.axis])
     }
 
-    /// A vector of the sensor in the frame of the device.
+    /// Converts a vector from the frame of the sensor to that of the device.
     pub fn to_device(self, sensor: [f64; 3]) -> [f64; 3] {
         let mut device = [0.0; 3];
         for (along, value) in self.0.iter().zip(sensor) {
@@ -78,7 +78,7 @@ impl SignedAxes {
         device
     }
 
-    /// Which components a transducer measures in the sensor's frame that measures `device` in its own.
+    /// Components measured in the sensor's frame by a transducer that measures `device` in its own.
     pub fn measured(self, device: Axes) -> Axes {
         let [forces, torques] = [
             [Axis::Fx, Axis::Fy, Axis::Fz],
@@ -95,8 +95,8 @@ impl SignedAxes {
         measured
     }
 
-    /// The axes that would let three forces be felt along x, y and z of the sensor which, with these, were felt along those of `felt`: each
-    /// the number of an axis, and 1 or −1. `None` if no turn explains them.
+    /// Corrects these axes from three forces along x, y and z of the sensor. `felt` holds, for each, the axis and sign (1 or −1) that these
+    /// axes report. `None` if the result is not right-handed.
     pub(crate) fn as_felt(self, felt: [(usize, f64); 3]) -> Option<SignedAxes> {
         let along = felt.map(|(axis, sign)| Along {
             axis: self.0[axis].axis,
@@ -106,7 +106,7 @@ impl SignedAxes {
         (axes.determinant() > 0.5).then_some(axes)
     }
 
-    /// 1 where they are right-handed, −1 where they are left-handed, 0 where one axis is named twice.
+    /// Determinant: 1 for right-handed axes, −1 for left-handed ones, 0 if one axis is named twice.
     fn determinant(self) -> f64 {
         let [x, y, z] = [0, 1, 2].map(|axis| {
             let mut row = [0.0; 3];
@@ -118,7 +118,7 @@ impl SignedAxes {
     }
 }
 
-/// As a rig file writes them.
+/// Formats the axes as in a rig file.
 impl fmt::Display for SignedAxes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let words = self.0.map(|along| {

@@ -1,4 +1,4 @@
-//! What changes things on a rig instead of hands: the table `[changers]` of a rig file.
+//! Table `[changers]` of a rig file: the devices that change specimen, unit and light.
 
 use std::time::Duration;
 
@@ -6,11 +6,11 @@ use serde::Deserialize;
 
 use crate::text::{SceneError, SceneProblem, Setting, Text};
 
-/// How long a change may take where the file does not say, in s, and the longest that it may say.
+/// Default and greatest duration of a change, in s.
 const USUAL_CHANGE_S: f64 = 60.0;
 const GREATEST_CHANGE_S: f64 = 3_600.0;
 
-/// The devices of a rig that bring things into place; what none of them holds is changed by hand.
+/// Changers of a rig; a person makes all other changes.
 ///
 /// ```
 /// use taceva_protocol::RigFile;
@@ -26,13 +26,13 @@ const GREATEST_CHANGE_S: f64 = 3_600.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigChangers {
-    /// The selector of the changer that mounts specimens on the robot.
+    /// Selector of the changer that mounts specimens on the robot.
     pub specimen: Option<Setting<String>>,
-    /// The selector of the changer that puts units of the sensor under the robot.
+    /// Selector of the changer that puts units of the sensor under the robot.
     pub unit: Option<Setting<String>>,
-    /// The selector of the lighting, in the place of the one that a scene names.
+    /// Selector of the lighting, which replaces that of the scene.
     pub light: Option<Setting<String>>,
-    /// How long one change of a specimen or a unit may take.
+    /// Longest duration of a change of specimen or unit.
     pub patience: Duration,
 }
 
@@ -60,7 +60,7 @@ pub(super) struct WrittenChangers {
 }
 
 impl WrittenChangers {
-    /// What it says, if its patience is one.
+    /// Checks the range of `patience_s`.
     pub(super) fn check(self, text: &Text) -> Result<RigChangers, SceneError> {
         let patience_s = match self.patience_s {
             None => USUAL_CHANGE_S,

@@ -1,4 +1,4 @@
-//! How much later each device of a rig says what is true, and how that is written into its file.
+//! Measured latencies of the devices of a rig, and their storage in the rig file.
 
 use super::RigFile;
 use crate::text::Setting;
@@ -7,15 +7,15 @@ use crate::text::Setting;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Latency {
-    /// In ms, by the stamps as they are corrected already; below 0 where the robot says it later.
+    /// Delay between the stamps as corrected so far, in ms; below 0 if the robot reports later.
     pub after_robot_ms: f64,
-    /// Two standard errors of that, in ms.
+    /// Two standard errors of the delay, in ms.
     pub error_ms: f64,
     /// Two standard deviations of a single tap, in ms.
     pub spread_ms: f64,
 }
 
-/// The latencies of the devices of a rig, in ms, each a tenth at finest: how long after it was true an observation is stamped.
+/// Latencies of the devices of a rig, in ms, rounded to tenths: the delay between an observation and its stamp.
 ///
 /// ```
 /// use taceva_protocol::{RigFile, RigLatencies};
@@ -28,20 +28,20 @@ pub struct Latency {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct RigLatencies {
-    /// Of the robot; `None` where it stays what it is.
+    /// Latency of the robot; `None` leaves it as it is.
     pub robot_ms: Option<f64>,
-    /// Of the transducer.
+    /// Latency of the transducer.
     pub force_ms: f64,
-    /// Of the sensor.
+    /// Latency of the sensor.
     pub sensor_ms: f64,
 }
 
 impl RigLatencies {
-    /// What taps say: `force` and `sensor` are by how much later than the robot they were with `before`, the latencies of robot, transducer and
-    /// sensor in ms that their stamps lacked already.
+    /// Computes the latencies from taps. `before` holds the latencies of robot, transducer and sensor that correct the stamps already.
+    /// `force` and `sensor` are the remaining delays behind the robot.
     ///
-    /// Taps see differences alone. The robot keeps its latency, unless another would be below 0 by more than it errs: then all are that much
-    /// later, so that the earliest device has none.
+    /// Taps measure differences only, so the robot keeps its latency. If another latency falls below 0 by more than its error, all three
+    /// are shifted until the earliest device has 0.
     pub fn measured(before: [f64; 3], force: &Latency, sensor: &Latency) -> RigLatencies {
         let [robot_ms, force_ms, sensor_ms] = before;
         let force_ms = force_ms + force.after_robot_ms;
@@ -51,7 +51,7 @@ impl RigLatencies {
             true => -force_ms.min(sensor_ms),
             false => 0.0,
         };
-        // An array in a file is read by people: no latency is known to less than a tenth.
+        // People read the file, and no latency is known to less than a tenth.
         let tenths = |latency_ms: f64| ((latency_ms + shift_ms).max(0.0) * 10.0).round() / 10.0;
         RigLatencies {
             robot_ms: is_early.then(|| tenths(robot_ms)),
@@ -62,8 +62,8 @@ impl RigLatencies {
 }
 
 impl RigFile {
-    /// Its text with `latencies`; everything else stays as it is written. `None` where a device is missing, or written so that a line cannot be
-    /// put behind it.
+    /// Text of the file with `latencies`; all else keeps its form. `None` if a device is missing, or if its table has no room for a line
+    /// behind the driver.
     pub fn with_latencies(&self, latencies: &RigLatencies) -> Option<String> {
         let (force, sensor) = (self.force.as_ref()?, self.sensor.as_ref()?);
         let mut written = vec![
@@ -75,12 +75,12 @@ impl RigFile {
             written.push((&robot.driver, robot.latency_ms, robot_ms));
         }
         let mut text = self.text.whole().to_owned();
-        // From behind, so that places before stay where they are.
+        // Edits the last place first, so that earlier places keep their offsets.
         written.sort_by_key(|(driver, ..)| std::cmp::Reverse(driver.at()));
         for (driver, before, latency_ms) in written {
             put(&mut text, driver, before, latency_ms)?;
         }
-        // A table that is written on one line, or by dotted keys, takes no line behind its driver.
+        // An inline table or dotted keys have no room for a line behind the driver.
         let read = RigFile::parse(self.name(), &text).ok()?;
         let latency = |setting: Option<Setting<f64>>| setting.map(|setting| setting.value);
         let expected = RigFile {
@@ -114,7 +114,7 @@ impl RigFile {
     }
 }
 
-/// Writes one latency in the place of the one that is there, or on a line behind the driver.
+/// Replaces a latency, or inserts it on a line behind the driver.
 fn put(
     text: &mut String,
     driver: &Setting<String>,
@@ -134,7 +134,7 @@ fn put(
         .get(from..)?
         .find('\n')
         .map_or(text.len(), |end| from + end);
-    // Behind a carriage return the line ends as the others do.
+    // Keeps the line endings of the file, `\n` or `\r\n`.
     let ending = match text.get(..end)?.ends_with('\r') {
         true => "\r\n",
         false => "\n",
@@ -179,7 +179,7 @@ mod tests {
             + "\nlatency_ms = 38.2";
         let written = with(TEXT, &MEASURED).expect("three tables");
         assert_eq!(written, expected);
-        // Once more changes nothing, and a robot that keeps its latency is not touched.
+        // A second call changes nothing, and a robot without a new latency is not touched.
         assert_eq!(with(&written, &MEASURED), Some(written.clone()));
         let kept = RigLatencies {
             robot_ms: None,
@@ -201,7 +201,7 @@ mod tests {
             "sensor = { driver = \"lab/camera\" }",
         );
         let inline = inline.replace("rig_version = 1\n", "rig_version = 1\n#\n");
-        // In TOML it would belong to [force] there.
+        // In TOML the line would belong to [force] there.
         let moved = inline.replace("sensor = { driver = \"lab/camera\" }", "");
         let moved = moved.replace("#\n", "sensor = { driver = \"lab/camera\" }\n");
         assert_eq!(with(&moved, &MEASURED), None);
@@ -215,10 +215,10 @@ mod tests {
         let measured = RigLatencies::measured([0.0, 0.0, 5.0], &force, &sensor);
         assert_eq!((measured.robot_ms, measured.force_ms), (None, 4.0));
         assert!((measured.sensor_ms - 38.0).abs() < 1e-9);
-        // Below 0 by less than it errs.
+        // Below 0 by less than the error.
         let measured = RigLatencies::measured([2.0, 0.0, 0.0], &late(-0.3), &sensor);
         assert_eq!((measured.robot_ms, measured.force_ms), (None, 0.0));
-        // The robot says it later than the transducer.
+        // The robot reports later than the transducer.
         let measured = RigLatencies::measured([2.0, 0.0, 0.0], &late(-6.0), &sensor);
         assert_eq!((measured.robot_ms, measured.force_ms), (Some(8.0), 0.0));
         assert!((measured.sensor_ms - 39.0).abs() < 1e-9);

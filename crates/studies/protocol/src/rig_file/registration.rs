@@ -1,15 +1,15 @@
-//! Poses of a robot in its base frame, and of the tip in the sensor's.
+//! Conversion of poses between the base frame of a robot and the frame of the sensor.
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 
 use super::{Carried, RigRobot, SignedAxes};
 
-/// How the base frame of a robot is placed and turned relative to that of the sensor.
+/// Place and rotation of the base frame of a robot relative to the frame of the sensor.
 ///
-/// With A the turn from base to sensor that `axes` say, o the `origin_mm`, and Q the turn of the tool since it stood as registered:
+/// Let A be the rotation from base to sensor by `axes`, o the `origin_mm`, and Q the rotation of the tool since registration:
 ///
-/// - A robot that carries the indenter has its tip at A·(p − o), turned by A·Q·Aᵀ.
-/// - One that carries the sensor has the tip, which rests at o in the base, at A·Qᵀ·(o − p), turned by A·Qᵀ·Aᵀ.
+/// - If the robot carries the indenter, the tip is at A·(p − o), rotated by A·Q·Aᵀ.
+/// - If it carries the sensor, the tip rests at o in the base. It is at A·Qᵀ·(o − p), rotated by A·Qᵀ·Aᵀ.
 ///
 /// # Units
 /// mm and degrees.
@@ -18,14 +18,14 @@ pub struct Registration {
     carries: Carried,
     origin_mm: [f64; 3],
     axes: SignedAxes,
-    /// The turn of the tool as it was registered.
+    /// Rotation of the tool at registration.
     turned: Rotation,
 }
 
 type Matrix = [[f64; 3]; 3];
 
 impl Registration {
-    /// That of `robot`, whose tool stood turned by `turned` in the base frame as it was registered.
+    /// Registration of `robot`; `turned` is the rotation of its tool in the base frame at registration.
     pub fn new(robot: &RigRobot, turned: Rotation) -> Registration {
         Registration {
             carries: robot.carries,
@@ -35,7 +35,7 @@ impl Registration {
         }
     }
 
-    /// The pose of the tip in the sensor's frame, of a robot that says it stands at `base`.
+    /// Pose of the tip in the sensor's frame, for a robot that reports `base`.
     pub fn to_sensor(&self, base: &Pose) -> Pose {
         let since = product(&matrix(&base.rotation), &transposed(&matrix(&self.turned)));
         let place = coordinates(&base.position);
@@ -54,7 +54,7 @@ impl Registration {
         )
     }
 
-    /// Where a robot is sent so that the tip has the pose `tip` in the sensor's frame.
+    /// Target of the robot for the pose `tip` in the sensor's frame.
     pub fn to_base(&self, tip: &Pose) -> Pose {
         let turn = self.turn_to_base(&matrix(&tip.rotation));
         let place = self.axes.to_device(coordinates(&tip.position));
@@ -71,7 +71,7 @@ impl Registration {
     }
 
     fn turn_to_sensor(&self, base: &Matrix) -> Matrix {
-        // A·M·Aᵀ: the columns of M, then those of what came of it as rows.
+        // A·M·Aᵀ: applies A to the columns of M, then to the rows of the product.
         let rows = transposed(&columns(base).map(|column| self.axes.to_sensor(column)));
         rows.map(|row| self.axes.to_sensor(row))
     }
@@ -86,7 +86,7 @@ fn coordinates(point: &Point) -> [f64; 3] {
     [point.x.0, point.y.0, point.z.0]
 }
 
-/// The pose at `place` turned by `turn`, its angles on the branch that is nearest to `near`.
+/// Pose at `place` with rotation `turn`; its angles are on the branch nearest to `near`.
 fn pose([x, y, z]: [f64; 3], turn: &Matrix, near: &Rotation) -> Pose {
     let [x, y, z] = [x, y, z].map(Millimetre);
     Pose {
@@ -96,7 +96,7 @@ fn pose([x, y, z]: [f64; 3], turn: &Matrix, near: &Rotation) -> Pose {
     .on_grid()
 }
 
-/// Rz·Ry·Rx: turns about the fixed x, then y, then z.
+/// Rz·Ry·Rx: rotations about the fixed x, then y, then z.
 fn matrix(rotation: &Rotation) -> Matrix {
     let [x, y, z] = [rotation.x, rotation.y, rotation.z].map(|angle| angle.0.to_radians());
     let ((sx, cx), (sy, cy), (sz, cz)) = (x.sin_cos(), y.sin_cos(), z.sin_cos());
@@ -107,7 +107,7 @@ fn matrix(rotation: &Rotation) -> Matrix {
     ]
 }
 
-/// The angles of a turn. Where y is a quarter turn, x and z turn about one line: then x is taken to be that of `near`.
+/// Angles of a rotation. At y = ±90° x and z share an axis; x is then that of `near`.
 fn rotation(turn: &Matrix, near: &Rotation) -> Rotation {
     let level = turn[0][0].hypot(turn[1][0]);
     let y = (-turn[2][0]).atan2(level).to_degrees();

@@ -1,17 +1,17 @@
-//! How a robot lies to a sensor, from three places to which somebody jogged it.
+//! Registration of a robot from three places to which an operator jogged it.
 
 use taceva_core::{Point, Pose};
 
 use super::{Carried, RigFile, SignedAxes};
 
-/// Shorter ways tell no direction, in mm.
+/// Shortest way that shows a direction, in mm.
 const SHORTEST_MM: f64 = 5.0;
-/// A way may end so far beside an axis of the base, in mm.
+/// Greatest distance of the end of a way from an axis of the base, in mm.
 const RESIDUAL_MM: f64 = 0.5;
-/// The tool may be turned by so much between two places, in degrees.
+/// Greatest rotation of the tool between two places, in degrees.
 const TURN_DEG: f64 = 0.5;
 
-/// Where a robot stood in its base frame when its tip was over three places of the gel.
+/// Poses of a robot in its base frame with its tip over three places of the gel.
 ///
 /// ```
 /// use taceva_core::{Millimetre, Pose};
@@ -28,76 +28,77 @@ const TURN_DEG: f64 = 0.5;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jogged {
-    /// Just touching the middle of the gel.
+    /// The tip just touches the middle of the gel.
     pub middle: Pose,
-    /// From there along x of the sensor.
+    /// From the middle along x of the sensor.
     pub along_x: Pose,
     /// From the middle along y of the sensor.
     pub along_y: Pose,
 }
 
-/// The frame that follows from three places.
+/// Frame computed from three places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taught {
     /// `origin_mm` of the rig file.
     pub origin_mm: [f64; 3],
     /// `axes` of its robot.
     pub axes: SignedAxes,
-    /// How far the worse of both ways ended beside its axis, in mm.
+    /// Distance from its axis at the end of the worse way, in mm.
     pub residual_mm: f64,
 }
 
-/// Why no frame follows from three places.
+/// Reasons for which three places define no frame.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TeachError {
-    /// A way that is too short.
+    /// The way is too short.
     #[error(
         "the way along {axis} is {way_mm:.2} mm long, expected at least {SHORTEST_MM} mm: jog farther"
     )]
     Short {
-        /// Along which axis of the sensor.
+        /// Axis of the sensor.
         axis: char,
-        /// Its length, in mm.
+        /// Length of the way, in mm.
         way_mm: f64,
     },
-    /// A way that lies along no axis of the base.
+    /// The way follows no axis of the base.
     #[error(
         "the way along {axis} ends {residual_mm:.2} mm beside the nearest axis of the base, expected at most {RESIDUAL_MM} mm: turn the sensor until it lies along the base, or jog along one axis of it alone"
     )]
     Askew {
-        /// Along which axis of the sensor.
+        /// Axis of the sensor.
         axis: char,
-        /// How far beside, in mm.
+        /// Distance from the nearest axis of the base, in mm.
         residual_mm: f64,
     },
-    /// Both ways along one line.
+    /// Both ways follow one line.
     #[error(
         "both ways lie along one line of the base: no frame; jog along x of the sensor first, and then from the middle along y"
     )]
     OneLine,
-    /// A tool that was turned on the way.
+    /// The tool was rotated on the way.
     #[error(
         "the tool was turned by {turn_deg:.1} degrees on the way along {axis}: jog without turning it"
     )]
     Turned {
-        /// Along which axis of the sensor.
+        /// Axis of the sensor.
         axis: char,
-        /// By how much, in degrees.
+        /// Rotation, in degrees.
         turn_deg: f64,
     },
 }
 
 impl Jogged {
-    /// The origin and the axes that the rig file must have for a robot that moves `carries`.
+    /// Computes origin and axes of the rig file for a robot that moves `carries`.
     ///
     /// # Errors
-    /// [`TeachError`] where the places are no turn by right angles, within half a millimetre.
+    /// [`TeachError`] if a way is shorter than 5 mm, or more than half a millimetre off the axes of the base. Also if the tool was rotated,
+    /// or both ways follow one line.
     pub fn taught(&self, carries: Carried) -> Result<Taught, TeachError> {
         let (x, beside_x) = way(&self.middle, &self.along_x, 'x')?;
         let (y, beside_y) = way(&self.middle, &self.along_y, 'y')?;
         let side = match carries {
             Carried::Indenter => 1.0,
-            // The tip goes along the sensor the other way.
+            // The tip moves along the sensor in the opposite direction.
             Carried::Sensor => -1.0,
         };
         let (x, y) = ((x.0, side * x.1), (y.0, side * y.1));
@@ -113,7 +114,7 @@ impl Jogged {
         let axes = SignedAxes::read([x, y, z].map(word));
         let Point { x, y, z } = self.middle.position;
         Ok(Taught {
-            // Whole micrometres: no arm shows more.
+            // Whole micrometres: no arm is more exact.
             origin_mm: [x.0, y.0, z.0].map(|side| (side * 1e3).round() / 1e3),
             axes: axes.expect("the third is at right angles to both others"),
             residual_mm: beside_x.max(beside_y),
@@ -121,7 +122,7 @@ impl Jogged {
     }
 }
 
-/// Along which axis of the base a way leads, with its sign, and how far it ends beside it.
+/// Axis of the base that a way follows, with its sign, and its distance from the axis at the end, in mm.
 fn way(from: &Pose, to: &Pose, axis: char) -> Result<((usize, f64), f64), TeachError> {
     let (one, other) = (&from.position, &to.position);
     let way = [
@@ -141,7 +142,7 @@ fn way(from: &Pose, to: &Pose, axis: char) -> Result<((usize, f64), f64), TeachE
         return Err(TeachError::Turned { axis, turn_deg });
     }
     let way_mm = way.iter().map(|side| side * side).sum::<f64>().sqrt();
-    // What is no number is no way either.
+    // NaN is rejected too.
     if way_mm.is_nan() || way_mm < SHORTEST_MM {
         return Err(TeachError::Short { axis, way_mm });
     }
@@ -156,7 +157,7 @@ fn way(from: &Pose, to: &Pose, axis: char) -> Result<((usize, f64), f64), TeachE
 }
 
 impl RigFile {
-    /// Its text with the origin and the axes of `taught`; `None` if it names no robot. Everything else stays as it is written.
+    /// Text of the file with the origin and axes of `taught`; all else keeps its form. `None` if the file has no robot.
     pub fn with_taught(&self, taught: &Taught) -> Option<String> {
         let robot = self.robot.as_ref()?;
         let text = self.text.whole();
@@ -165,11 +166,11 @@ impl RigFile {
             (robot.origin_mm.at()?, format!("[{x:?}, {y:?}, {z:?}]")),
             (robot.axes.at()?, taught.axes.to_string()),
         ];
-        // From behind, so that places before stay where they are.
+        // Edits the last place first, so that earlier places keep their offsets.
         written.sort_by_key(|(at, _)| std::cmp::Reverse(*at));
         let mut text = text.to_owned();
         for (at, value) in written {
-            // An array of numbers or of names of axes holds no other bracket, but a comment in it may.
+            // An array of numbers or axis names contains no other bracket, except in comments.
             let end = at + end_of_array(text.get(at..)?)?;
             text.replace_range(at..end, &value);
         }
@@ -177,7 +178,7 @@ impl RigFile {
     }
 }
 
-/// Where the array ends with which `text` begins.
+/// Byte offset behind the array at the start of `text`; `None` if it has no end.
 fn end_of_array(text: &str) -> Option<usize> {
     let mut is_comment = false;
     for (at, letter) in text.char_indices() {

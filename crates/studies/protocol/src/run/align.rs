@@ -1,26 +1,26 @@
-//! Frame, pose and force are read one after the other; a sample says what all three were at one moment.
+//! Interpolation of force and pose to the time of a frame, since the three are read one after the other.
 
 use taceva_core::{Degree, Millimetre, Newton, NewtonMillimetre, Point, Pose, Rotation, Wrench};
 
-/// Force and pose as they were read together.
+/// Force and pose of one reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Look {
     pub(crate) wrench: Wrench,
     pub(crate) wrench_s: f64,
-    /// The number that the transducer gave the reading, if it numbers them.
+    /// Sequence number of the reading, if the transducer numbers them.
     pub(crate) number: Option<u64>,
     pub(crate) pose: Pose,
     pub(crate) pose_s: f64,
 }
 
 impl Look {
-    /// The time from which on everything in it is news.
+    /// Time from which both force and pose are current.
     pub(crate) fn since_s(&self) -> f64 {
         self.wrench_s.max(self.pose_s)
     }
 }
 
-/// Force and pose at `at_s`, on the straight lines between two looks; a time outside is that of the nearer look.
+/// Force and pose at `at_s`, interpolated between two readings; a time outside takes the nearer reading.
 pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) {
     let wrench = Mix::new(before.wrench_s, after.wrench_s, at_s);
     let pose = Mix::new(before.pose_s, after.pose_s, at_s);
@@ -30,8 +30,7 @@ pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) 
     )
 }
 
-/// What a transducer would have said at `at_s`, on the straight line between two readings and the times in s at which they were true; a time
-/// outside is that of the nearer reading.
+/// Force at `at_s`, interpolated between two readings, each with its time in s; a time outside takes the nearer reading.
 ///
 /// ```
 /// use taceva_core::{Newton, Wrench};
@@ -44,11 +43,11 @@ pub fn wrench_between(before: (&Wrench, f64), after: (&Wrench, f64), at_s: f64) 
     Mix::new(before.1, after.1, at_s).wrench(before.0, after.0)
 }
 
-/// How much of the later value there is.
+/// Weight of the later value.
 struct Mix(f64);
 
 impl Mix {
-    /// In whole nanoseconds, as clocks count, so that the hour of the day does not show in the last bits.
+    /// Counts whole nanoseconds, as clocks do, so that the hour of the day does not change the last bits.
     fn new(before_s: f64, after_s: f64, at_s: f64) -> Mix {
         let [span_ns, part_ns] = [after_s, at_s].map(|time_s| ((time_s - before_s) * 1e9).round());
         if span_ns > 0.0 {
@@ -58,7 +57,7 @@ impl Mix {
         }
     }
 
-    /// At both ends the value itself, to the bit.
+    /// Interpolates; returns the exact value at both ends.
     fn of(&self, before: f64, after: f64) -> f64 {
         before * (1.0 - self.0) + after * self.0
     }
@@ -71,7 +70,7 @@ impl Mix {
         Wrench { force, torque }
     }
 
-    /// Angles change by less than a turn between two looks at a tip that rests.
+    /// Interpolates poses of a resting tip, whose angles change by less than a turn.
     fn pose(&self, before: &Pose, after: &Pose) -> Pose {
         let (from, to) = (&before.position, &after.position);
         let (from_turn, to_turn) = (&before.rotation, &after.rotation);
@@ -113,7 +112,7 @@ mod tests {
         let (before, after) = (look(1.0, 0.4), look(1.2, 0.8));
         let (wrench, pose) = between(&before, &after, 1.1);
         assert!((wrench.force[2].0 - 0.6).abs() < 1e-12);
-        // The pose was read 10 ms later, so at 1.1 s it is 0.09 s of 0.2 s on its way.
+        // The pose was read 10 ms later, so 1.1 s is 0.09 s of 0.2 s between its readings.
         assert!((pose.position.z.0 - 0.29).abs() < 1e-12);
     }
 

@@ -1,11 +1,11 @@
-//! Where the tip may be sent. The box is convex, so a straight line between two places in it stays in it.
+//! Workspace of the tip. The box is convex, so a straight line between two places in it stays in it.
 
 use taceva_core::{Footprint, Nanometre, Pose};
 
 use super::error::StopCause;
 use crate::plan::Plan;
 
-/// The workspace of a plan, in mm of the sensor's frame.
+/// Workspace of a plan, in mm of the sensor's frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     half_x: f64,
@@ -14,11 +14,12 @@ pub(super) struct Bounds {
     deepest: f64,
 }
 
-/// What binary64 makes of sums of a few lengths.
+/// Rounding error of sums of a few lengths, in mm.
 const ROUNDING_MM: f64 = 1e-9;
 
 impl Bounds {
-    /// Over the surface and the shears of `plan`, from `height_mm` above the clearance down to the end of the search.
+    /// Workspace over the footprint and the shears of `plan`, from `height_mm` above the clearance down to the greatest depth below the
+    /// search. `None` if the plan moves nothing.
     pub(super) fn of(plan: &Plan, height_mm: f64) -> Option<Bounds> {
         let [half_x, half_y] = plan.footprint.as_ref().map(Footprint::half_extent)?;
         let shear = plan
@@ -28,7 +29,7 @@ impl Bounds {
         let shear = shear.flat_map(|waypoint| waypoint.shear);
         let shear = shear.map(|shear| shear.0.abs()).max().unwrap_or(0);
         let limits = plan.limits.as_ref()?;
-        // A way begins where the tip was seen, which noise puts beyond where it may be sent.
+        // A motion starts at the reported pose, which noise can place outside.
         let slack_mm = ROUNDING_MM + limits.signals.slack_mm();
         let side = |half: Nanometre| Nanometre(half.0 + shear).to_millimetres() + slack_mm;
         Some(Bounds {
@@ -39,7 +40,7 @@ impl Bounds {
         })
     }
 
-    /// Lets `target` through.
+    /// Accepts `target` if it is in the workspace.
     pub(super) fn admit(&self, target: &Pose) -> Result<(), StopCause> {
         let [x, y, z] = [
             target.position.x.0,
@@ -69,7 +70,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::source::SourceInfo;
 
-    /// Half extents of 8 mm and 10 mm, shears of up to 0.25 mm, 2 mm of clearance, 0.5 mm of search and 1 mm of depth.
+    /// Plan with half extents of 8 mm and 10 mm and shears of up to 0.25 mm. Clearance is 2 mm, search 0.5 mm, depth 1 mm.
     fn plan() -> Plan {
         let scene = Scene::parse("small", SMALL).expect("a scene");
         let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));

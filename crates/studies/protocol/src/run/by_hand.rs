@@ -1,4 +1,4 @@
-//! What a press needs and no device of the rig can do: somebody is asked, and nothing moves meanwhile.
+//! Manual steps of a press: the operator is asked while nothing moves.
 
 use taceva_core::Fault;
 
@@ -10,7 +10,7 @@ use super::tip::Step;
 use crate::plan::PlannedPress;
 
 impl Run<'_> {
-    /// Mounts the specimen and sets the light of a press that a changer or hands must change; whether somebody skipped one of them.
+    /// Mounts the specimen and sets the light of a press, by a changer or by the operator. Returns true if the operator skipped a step.
     pub(super) fn is_skipped(&mut self, planned: &PlannedPress) -> Result<bool, RunError> {
         let failed = |run: &mut Self, cause| run.abandoned(Some(planned.id), cause);
         if self.needs_what_was_skipped(planned) {
@@ -51,8 +51,8 @@ impl Run<'_> {
             .any(|question| self.skipped.contains(question))
     }
 
-    /// Somebody who skipped what was asked for has not said that hands are out of reach, and the robot is still halted: that is asked before
-    /// anything moves which nobody is asked for.
+    /// Asks for clearance to continue after a skipped step, before anything moves without a question. An operator who skips a step has not
+    /// confirmed that hands are out of reach, and the robot is still halted.
     fn ask_to_go_on(&mut self, planned: &PlannedPress) -> Result<(), RunError> {
         let specimen = planned.press.specimen;
         let is_changed = self.mounted != Some(specimen) && self.is_held_by_changer(specimen);
@@ -68,7 +68,7 @@ impl Run<'_> {
         }
     }
 
-    /// What hands must change before `planned`, where there is somebody.
+    /// Manual steps before `planned`; empty without an operator.
     fn needed_by_hand(&mut self, planned: &PlannedPress) -> Vec<Question> {
         let press = &planned.press;
         let has_lighting = self.lighting.is_some()
@@ -103,7 +103,8 @@ impl Run<'_> {
         }
     }
 
-    /// Asks while the robot is halted at the height of travel or above it, and lets it move again only if hands are out of reach.
+    /// Asks while the robot is halted at or above the height of travel. Releases it only if the operator confirms that hands are out of
+    /// reach.
     pub(super) fn ask(&mut self, question: &Question) -> Step<Answer> {
         if self.operator.is_none() {
             return Ok(Answer::Stop);
@@ -120,7 +121,7 @@ impl Run<'_> {
         Ok(answer)
     }
 
-    /// After a fault of the robot: somebody looks and acknowledges it there, then the tip leaves the gel.
+    /// Continues after a fault of the robot: the operator checks and acknowledges it there, then the tip leaves the gel.
     pub(super) fn go_on_after(&mut self, fault: Fault, error: RunError) -> Result<(), RunError> {
         let Some(operator) = &mut self.operator else {
             return Err(error);
@@ -146,7 +147,7 @@ mod tests {
     use crate::run::time::Cancel;
     use crate::run::{Controls, Devices, Mode, RunSpec};
 
-    /// Notes where the tip stands, and whether it is halted, when asked and when answering.
+    /// Stores the height of the tip and the state of the halt at each question.
     struct Person(Rig, Answer, Vec<(f64, bool)>);
 
     impl Operator for Person {

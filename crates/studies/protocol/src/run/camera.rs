@@ -1,4 +1,4 @@
-//! The sensor of a rig, asked for frames that are no older than the rest of the tip.
+//! Captures frames taken after the tip came to rest.
 
 use std::time::Duration;
 
@@ -8,14 +8,14 @@ use super::error::StopCause;
 use super::event::Event;
 use super::tip::{Step, Tip};
 
-/// Frames that are lost, damaged or older than the rest of the tip before the run gives up.
+/// Lost, damaged or outdated frames after which the run gives up.
 const FRAME_TRIES: u32 = 10;
-/// A camera that is slower than this is dead.
+/// Deadline for one frame.
 const FRAME_DEADLINE: Deadline = Deadline::after(Duration::from_secs(1));
-/// A frame from further ahead than this has another clock, in s.
+/// Greatest lead of a frame over the clock of the run, in s; a greater one means another clock.
 const AHEAD_S: f64 = 0.001;
 
-/// A sensor and the buffer its frames are written into.
+/// A sensor that captures frames.
 pub(super) struct Camera<'a> {
     pub(super) sensor: &'a mut dyn Sensor,
 }
@@ -25,7 +25,7 @@ impl<'a> Camera<'a> {
         Camera { sensor }
     }
 
-    /// The first frame that was true no earlier than `from_s`.
+    /// First frame taken at or after `from_s`.
     pub(super) fn frame(
         &mut self,
         from_s: f64,
@@ -46,7 +46,7 @@ impl<'a> Camera<'a> {
                         .expect("the buffer was made with the length of the frame");
                     return Ok((frame, stamp));
                 }
-                // A driver that streams holds the newest frame for whoever asks: one that was there already is not lost, nor is it late.
+                // A streaming driver returns its newest frame. One received before this call is neither lost nor late.
                 Ok(stamp) if stamp.received_s.is_some_and(|at_s| at_s < asked_s) => {}
                 Ok(_) => events(&Event::FrameRetried),
                 Err(error) if [ErrorKind::Timeout, ErrorKind::Protocol].contains(&error.kind()) => {
@@ -63,7 +63,7 @@ impl<'a> Camera<'a> {
     }
 }
 
-/// Whether a frame was taken between then and now.
+/// True if a frame was taken between `from_s` and now.
 fn is_news(stamp: &Stamp, from_s: f64, now_s: f64) -> bool {
     (from_s..=now_s + AHEAD_S).contains(&stamp.valid_s)
 }

@@ -1,4 +1,4 @@
-//! A changer that moves to mount what a press needs: the robot is halted away from the gel for as long as it does.
+//! Mounting by a changer that moves; the robot is halted away from the gel meanwhile.
 
 use std::time::Duration;
 
@@ -10,21 +10,20 @@ use super::session::Run;
 use super::tip::Step;
 use crate::plan::PlannedPress;
 
-/// Why a changer that moves did not mount a specimen.
+/// Reasons for which a moving changer did not mount a specimen.
 enum Unmounted {
-    /// The changer itself failed: the robot is halted, and nobody knows what is mounted.
+    /// The changer failed: the robot is halted, and the mounted specimen is unknown.
     Failed(StopCause),
-    /// The robot did not come out of the way, or could not be let move again.
+    /// The robot did not retreat, or could not be released.
     Robot(StopCause),
 }
 
 impl Run<'_> {
-    /// Has the changer mount the specimen of `planned`, where it must move to do so and holds it. Why not, where somebody is there who can do
-    /// it instead: from then on the changer is out of use.
+    /// Mounts the specimen of `planned` by the changer, if it holds the specimen and must move. If the changer fails and an operator is
+    /// present, returns the reason; the changer is not used again.
     ///
     /// # Errors
-    /// [`RunError`] where it failed and nobody is there, or the specimen is one that it does not hold and nobody is there. The tip is above
-    /// the gel, halted.
+    /// [`RunError`] if no operator is present and the changer fails or does not hold the specimen. The tip is above the gel, halted.
     pub(super) fn change(&mut self, planned: &PlannedPress) -> Result<Option<String>, RunError> {
         let specimen = planned.press.specimen;
         let Some(patience) = self
@@ -52,7 +51,7 @@ impl Run<'_> {
             Ok(()) => Ok(None),
             Err(Unmounted::Robot(cause)) => Err(self.abandoned(Some(planned.id), cause)),
             Err(Unmounted::Failed(cause)) => {
-                // Nobody knows what it holds up: what stands under the robot is a matter for a person.
+                // After a failure the state of the changer is unknown: a person must check it.
                 self.specimens = None;
                 self.mounted = None;
                 if self.tip.cancel.is_cancelled() {
@@ -66,7 +65,7 @@ impl Run<'_> {
         }
     }
 
-    /// Whether there is a changer, and it holds `specimen`.
+    /// True if a changer holds `specimen`.
     pub(super) fn is_held_by_changer(&self, specimen: Specimen) -> bool {
         let changer = self.specimens.as_ref();
         changer.is_some_and(|changer| changer.holds(specimen))
@@ -89,17 +88,17 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Something else is on the robot now.
+    /// Stores the mounted specimen and resets zero and surface height.
     pub(super) fn has_mounted(&mut self, specimen: Specimen) {
         self.mounted = Some(specimen);
-        // Another specimen is another load on the transducer.
+        // Another specimen changes the load on the transducer.
         self.tip.is_zero_known = false;
-        // And it may be longer.
+        // Another specimen may be longer.
         self.tip.surface_mm = None;
         (self.events)(&Event::Mounted(specimen));
     }
 
-    /// Brings the tip to the height of travel, where it stands lower, and halts the robot there.
+    /// Raises the tip to the height of travel if it is lower, and halts the robot there.
     pub(super) fn stand_out_of_the_way(&mut self) -> Step<()> {
         if !self.tip.is_high() {
             self.wait_until_held()?;

@@ -1,4 +1,4 @@
-//! Out of the way of hands: the tip is brought up before somebody changes what is under it.
+//! Raises the tip before somebody changes anything below it.
 
 use taceva_core::{ForceTransducer, Robot};
 
@@ -12,12 +12,11 @@ use super::time::Cancel;
 use super::tip::{DEADLINE, Pace, Step, Tip};
 use crate::plan::Plan;
 
-/// Brings the tip straight up to the height of travel, where it stands lower, and halts the robot there: whoever changes something by hand
-/// finds it out of the way. Whether it moved.
+/// Raises the tip straight to the height of travel if it is lower, and halts the robot there, clear of hands. Returns true if it moved.
 ///
-/// Before it moves, `robot` is enabled by somebody, if that names one; a tip that is high enough is halted where it is, and nobody is asked.
-/// `supervisor` is over this robot, and is shown every reading of force as under [`run_guarded`](super::run_guarded). On a rig with an enabling switch
-/// nothing moves until somebody holds it, which is waited for `patience_s`.
+/// If `robot` is a name, the operator enables that robot before it moves. A tip that is high enough is only halted. `supervisor` watches
+/// this robot and receives every reading of force as under [`run_guarded`](super::run_guarded). On a rig with an enabling switch nothing
+/// moves until somebody holds it, for up to `patience_s`.
 ///
 /// # Errors
 /// [`RunError`] as of [`run`](super::run).
@@ -77,7 +76,7 @@ pub fn raise(
     Ok(true)
 }
 
-/// Has `robot` enabled by whoever must, before it moves for the first time.
+/// Asks the operator to enable `robot` before its first motion.
 pub(super) fn enable(
     robot: &str,
     operator: Option<&mut dyn Operator>,
@@ -93,7 +92,7 @@ pub(super) fn enable(
     }
 }
 
-/// Nothing has moved: where the tip stands is where somebody left it.
+/// Error before any motion: the tip was left where it was found.
 fn unmoved(cause: StopCause) -> RunError {
     RunError {
         press: None,
@@ -103,12 +102,12 @@ fn unmoved(cause: StopCause) -> RunError {
 }
 
 impl Tip<'_> {
-    /// Whether it stands at the height of travel or above it.
+    /// True if the tip is at or above the height of travel.
     pub(super) fn is_high(&self) -> bool {
         self.here().position.z.0 <= -self.pace.clearance_mm
     }
 
-    /// Halts the robot, which moves again only when somebody ends the halt.
+    /// Halts the robot until an explicit release.
     pub(super) fn hold(&mut self) -> Step<()> {
         Ok(self.robot.halt()?)
     }

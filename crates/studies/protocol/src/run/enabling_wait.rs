@@ -1,4 +1,4 @@
-//! Waiting for somebody to hold the enabling switch, while nothing moves.
+//! Waits for a held enabling switch while nothing moves.
 
 use std::time::Duration;
 
@@ -10,19 +10,19 @@ use super::session::Run;
 use super::tip::{Step, Tip};
 use crate::content_id::ContentId;
 
-/// From one look at the switch to the next.
+/// Interval between readings of the switch.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Who is called to hold the enabling switch, and for how long that is waited for.
+/// Operator who is called to hold the enabling switch, with the longest wait.
 pub(super) struct Attendant<'c> {
     pub(super) operator: Option<&'c mut dyn Operator>,
     pub(super) events: &'c mut dyn FnMut(&Event),
-    /// In s; of a rig without a switch never waited.
+    /// Longest wait, in s; unused on a rig without a switch.
     pub(super) patience_s: f64,
 }
 
 impl Tip<'_> {
-    /// Waits until the enabling switch is held, at most for as long as the rig file says; returns at once on a rig without one.
+    /// Waits until the enabling switch is held, at most `patience_s`; returns at once on a rig without one.
     pub(super) fn wait_until_held(&mut self, attendant: &mut Attendant<'_>) -> Step<()> {
         let withheld = |tip: &Tip<'_>| tip.supervisor.lock().withheld();
         if withheld(self).is_none() {
@@ -47,8 +47,8 @@ impl Tip<'_> {
         }
     }
 
-    /// The error that ends a run, after the tip was brought above the gel: never while nobody holds the enabling switch, and again each time that it
-    /// is held anew.
+    /// Error that ends a run, after the tip was raised above the gel. The tip moves only while the enabling switch is held; each release is
+    /// followed by another wait and try.
     pub(super) fn abandoned(&mut self, cause: StopCause, mut attendant: Attendant<'_>) -> RunError {
         if let StopCause::Tripped(trip) = cause {
             (attendant.events)(&Event::Halted(trip));
@@ -61,13 +61,13 @@ impl Tip<'_> {
         }
     }
 
-    /// Whether the tip is above the gel after a halt, and the cause that ends the run.
+    /// Raises the tip after a halt. Returns the cause that ends the run, and the place of the tip.
     fn leave(&mut self, cause: StopCause, attendant: &mut Attendant<'_>) -> (StopCause, Left) {
         loop {
             let _ = self.robot.halt();
             match self.wait_until_held(attendant) {
                 Ok(()) => {}
-                // Why it was to leave the gel says more than that nobody lets it.
+                // The original cause says more than the missing hold.
                 Err(_) if !cause.is_release() => return (cause, Left::InPlace),
                 Err(unheld) => return (unheld, Left::InPlace),
             }
@@ -96,7 +96,7 @@ impl Run<'_> {
         self.tip.wait_until_held(&mut attendant)
     }
 
-    /// The same, before a motion of which nothing has begun.
+    /// Waits until the enabling switch is held, before a motion begins.
     pub(super) fn hold(&mut self, press: Option<ContentId>) -> Result<(), RunError> {
         let left = match self.tip.contact_mm {
             None => Left::Clear,
@@ -106,7 +106,7 @@ impl Run<'_> {
             .map_err(|cause| RunError { press, cause, left })
     }
 
-    /// The error that ends the run, after the tip was brought to where it can be left.
+    /// Error that ends the run, after the tip was brought to a safe place.
     pub(super) fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
         let attendant = Attendant {
             operator: match &mut self.operator {

@@ -1,4 +1,4 @@
-//! Why a run stopped, and how it left the tip.
+//! Causes that stop a run, and the place of the tip.
 
 use std::fmt;
 
@@ -9,81 +9,81 @@ use super::reference_touch::TouchFault;
 use crate::content_id::ContentId;
 use crate::text::SceneError;
 
-/// A run that stopped before its end. Everything finished is durable, and the same call resumes it.
+/// A run that stopped before its end. All finished presses are durable, and the same call resumes it.
 #[derive(Debug)]
 pub struct RunError {
-    /// The press that was not finished, if one had begun; it will be made again from its start.
+    /// Unfinished press, if one had begun; it is repeated from its start.
     pub press: Option<ContentId>,
-    /// Why it stopped.
+    /// Cause.
     pub cause: StopCause,
-    /// Where the tip was left.
+    /// Place of the tip.
     pub left: Left,
 }
 
-/// Why a run stopped.
+/// Causes that stop a run.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StopCause {
-    /// Somebody asked the run to stop.
+    /// The run was cancelled.
     #[error("stopped on request")]
     Cancelled,
-    /// Presses were left out because somebody skipped what they need; every other one is made.
+    /// Presses are left because the operator skipped a step; all others are made.
     #[error(
         "{presses} presses are left, for which somebody skipped what they need: go on with the same run"
     )]
     Skipped {
-        /// How many.
+        /// Number of presses left.
         presses: usize,
     },
     /// A device failed.
     #[error("{0}")]
     Device(#[from] DriverError),
-    /// The supervisor halted the robot, and no limit of the gel was the reason.
+    /// The supervisor halted the robot for a reason other than a limit of the gel.
     #[error("halted: {0}")]
     Tripped(Trip),
-    /// What was acquired could not be made durable.
+    /// A press could not be made durable.
     #[error("cannot record the press: {0}")]
     Log(SinkError),
-    /// No frame came that was taken after the tip rested.
+    /// No frame was taken after the tip came to rest.
     #[error("{attempts} frames in a row were lost, damaged or older than the contact{}", of_last(.last))]
     Frames {
-        /// How many were tried.
+        /// Number of tries.
         attempts: u32,
-        /// What the sensor said of the last one that it could not give; `None` if it gave them all, too old.
+        /// Last error of the sensor; `None` if it returned only outdated frames.
         last: Option<String>,
     },
-    /// A motion that would leave the surface or the limits; none was made.
+    /// A motion would leave the workspace; it was not made.
     #[error("a motion to {place} would leave the workspace of the plan")]
     Workspace {
         /// The target, in mm.
         place: String,
     },
-    /// What the rig file says does not hold on the rig.
+    /// The rig contradicts its rig file.
     #[error("{0}")]
     Rig(Box<SceneError>),
-    /// The machine looks on so late that a limit would be passed too far.
+    /// The guard reacts so late that a limit would be passed too far.
     #[error(
         "readings of force come up to {reaction_ms:.0} ms late on this machine, in which the tip goes on by {overshoot_mm:.3} mm: expected at most {greatest_mm:.3} mm, a part of the depth; leave the machine to the run, start it by `chrt -f 10 taceva run …`, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
     )]
     SlowGuard {
-        /// From a limit to the halt, in ms; 999 of 1,000 are sooner.
+        /// Time from a limit to the halt, in ms: the 99.9th percentile.
         reaction_ms: f64,
-        /// How far the tip goes on until it rests, in mm.
+        /// Travel of the tip until it rests, in mm.
         overshoot_mm: f64,
-        /// The most that is allowed, in mm.
+        /// Greatest allowed travel, in mm.
         greatest_mm: f64,
-        /// The speed in contact at which it would be allowed, in mm/s.
+        /// Greatest allowed speed in contact, in mm/s.
         speed_mm_s: f64,
     },
-    /// In the gentle touch before the first press, force or picture did not behave as those of a gel.
+    /// In the gentle touch before the first press, force or picture did not respond like a gel.
     #[error("{0}")]
     Touch(TouchFault),
-    /// Nobody held the enabling switch for as long as the rig file waits.
+    /// The enabling switch was not held within the wait of the rig file.
     #[error(
         "nobody held the enabling switch within {patience_s} s: hold it and go on with `--resume`; `patience_s` of [operator] is how long a run waits"
     )]
     Unheld {
-        /// How long, in s.
+        /// Wait, in s.
         patience_s: f64,
     },
     /// The plan needs something that the run was not given.
@@ -92,7 +92,7 @@ pub enum StopCause {
 }
 
 impl StopCause {
-    /// Whether signals were silent: nothing is wrong but that nobody knows what is. The press is made again.
+    /// True if force, pose or frames failed to arrive in time, so that the press can be repeated.
     pub fn is_silence(&self) -> bool {
         matches!(
             self,
@@ -101,12 +101,12 @@ impl StopCause {
         )
     }
 
-    /// Whether the enabling switch was released: the press is made again once it is held.
+    /// True if the enabling switch was released: the press is repeated once it is held.
     pub fn is_release(&self) -> bool {
         matches!(self, StopCause::Tripped(Trip::Released))
     }
 
-    /// The fault for which a device stopped by itself: a person acknowledges it there before anything moves again.
+    /// Fault for which a device stopped itself: a person acknowledges it there before anything moves again.
     pub fn fault(&self) -> Option<Fault> {
         match self {
             StopCause::Device(error) => error.fault(),
@@ -120,14 +120,14 @@ fn of_last(last: &Option<String>) -> String {
         .map_or_else(String::new, |last| format!("; the last: {last}"))
 }
 
-/// Where the tip was left.
+/// Place of the tip after a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Left {
-    /// Where it was found: nothing was moved.
+    /// Unchanged: nothing moved.
     Untouched,
     /// Above the gel.
     Clear,
-    /// Halted where it was: the force could not be trusted, or the robot did not obey, and nobody moves blind.
+    /// Halted in place: the force could not be trusted, or the robot did not obey.
     InPlace,
 }
 

@@ -1,26 +1,26 @@
-//! What happens in a run, as it happens, for whoever shows it.
+//! Events of a run, for display while it goes on.
 
 use taceva_core::{Millimetre, PressOutcome, Specimen};
 
 use super::halt_reason::Trip;
 use crate::content_id::ContentId;
 
-/// Something that happened.
+/// An event of a run.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Event {
     /// The run begins.
     Started {
-        /// Presses of this unit.
+        /// Number of presses of this unit.
         presses: usize,
-        /// Of those, finished before.
+        /// Number of those finished in earlier runs.
         finished: usize,
     },
     /// A specimen was mounted.
     Mounted(Specimen),
     /// The light was set.
     Lit(String),
-    /// A press is left for another run, because somebody skipped what it needs.
+    /// A press is left for another run, because the operator skipped a step that it needs.
     Skipped(ContentId),
     /// A press begins.
     Approaching {
@@ -31,10 +31,10 @@ pub enum Event {
     },
     /// The gel was touched.
     Contact {
-        /// At this height in the sensor's frame, positive into the gel.
+        /// Height of the contact in the sensor's frame, positive into the gel.
         height: Millimetre,
     },
-    /// A frame was not usable and another is awaited.
+    /// A frame was unusable; the sensor is asked again.
     FrameRetried,
     /// A sample was taken.
     Sampled {
@@ -43,24 +43,24 @@ pub enum Event {
     },
     /// The supervisor halted the robot.
     Halted(Trip),
-    /// The tip went back from the gel after a halt.
+    /// The tip left the gel after a halt.
     Retracted,
-    /// Nobody holds the enabling switch, and nothing moves until somebody does.
+    /// The enabling switch is not held, and nothing moves until it is.
     Unheld,
-    /// A press was broken off because signals were silent or the enabling switch was released, and is made again from its start.
+    /// A press was interrupted by stale signals or a released enabling switch, and is repeated from its start.
     Redone {
         /// The press.
         press: ContentId,
-        /// How many times it was broken off.
+        /// Number of interruptions of this press.
         times: u32,
     },
     /// A press is finished and durable.
     Finished {
         /// The press.
         press: ContentId,
-        /// How it ended.
+        /// Outcome.
         outcome: PressOutcome,
     },
-    /// A place was visited in the air, in a dry run.
+    /// A place was visited in the air, in a rehearsal.
     Rehearsed(ContentId),
 }

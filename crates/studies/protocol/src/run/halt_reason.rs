@@ -1,57 +1,57 @@
-//! Why the supervisor halted the robot.
+//! Reasons for which the supervisor halts the robot.
 
 use std::fmt;
 
 use taceva_core::Limit;
 
-/// Why the supervisor halted the robot.
+/// Reasons for which the supervisor halts the robot.
 ///
 /// # Units
 /// mm, N, N/s and s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Trip {
-    /// Deeper than allowed.
+    /// The depth exceeds its limit.
     Depth {
         /// Depth from the first contact.
         depth_mm: f64,
         /// The limit.
         limit_mm: f64,
     },
-    /// More normal force than allowed, pressing or pulling.
+    /// The normal force exceeds its limit, pressing or pulling.
     NormalForce {
         /// The force.
         force_n: f64,
         /// The limit.
         limit_n: f64,
     },
-    /// More shear than allowed.
+    /// The shear force exceeds its limit.
     ShearForce {
-        /// Its magnitude.
+        /// Magnitude of the shear force.
         force_n: f64,
         /// The limit.
         limit_n: f64,
     },
-    /// Force where nothing should be touched.
+    /// A force out of contact.
     UnexpectedContact {
         /// The force.
         force_n: f64,
     },
-    /// A force that rises faster than any gel makes it.
+    /// The force rises faster than any gel allows.
     ForceRate {
         /// The rate.
         rate_n_s: f64,
     },
-    /// A force as great as the transducer can measure: how great it is, nobody knows.
+    /// The transducer is saturated, so the true force is unknown.
     Saturated {
         /// The reading.
         force_n: f64,
     },
-    /// A reading that is no number.
+    /// A reading is not finite.
     NotFinite,
-    /// Readings equal to the last bit although the tip moved.
+    /// Readings are equal to the last bit although the tip moved.
     Frozen {
-        /// How many.
+        /// Number of equal readings.
         readings: u32,
     },
     /// The last force is too old.
@@ -64,19 +64,19 @@ pub enum Trip {
         /// Its age.
         age_s: f64,
     },
-    /// Nobody holds the enabling switch.
+    /// The enabling switch is not held.
     Released,
-    /// The enabling switch cannot be read any more.
+    /// The enabling switch can no longer be read.
     SwitchLost,
-    /// The tip is not where it was sent.
+    /// The tip is not at its target.
     Diverged {
-        /// The distance.
+        /// Distance from the target.
         distance_mm: f64,
     },
 }
 
 impl Trip {
-    /// The limit of the gel that was reached with all signals healthy: the press ends, the run goes on. `None` of everything else.
+    /// Limit of the gel that was reached with healthy signals: the press ends, the run continues. `None` for other reasons.
     pub fn limit(self) -> Option<Limit> {
         match self {
             Trip::Depth { .. } => Some(Limit::Depth),

@@ -1,4 +1,4 @@
-//! The waypoints of a press, and what is left of them once a limit of the gel was reached.
+//! Waypoints of a press, and the rest of them after a limit of the gel.
 
 use taceva_core::{Limit, Nanometre, Phase, PressOutcome};
 
@@ -10,14 +10,14 @@ use super::tip::{Step, Tip};
 use crate::plan::PlannedPress;
 use crate::press::Waypoint;
 
-/// Times that the tip draws back at one waypoint, each a segment at least: noise at the limit takes one or two.
+/// Greatest number of draw-backs at one waypoint, each at least one segment: noise at the limit needs one or two.
 const DRAW_BACKS: u32 = 32;
 
 impl Run<'_> {
     /// Visits the waypoints below a first contact at `height_mm`.
     ///
-    /// Where a limit of the gel stops the tip, it draws back to where it may rest, and the sample of that waypoint is taken there. What lies
-    /// deeper is left out; a press that comes out by waypoints does so from there.
+    /// If a limit of the gel stops the tip, it draws back until it may rest and takes the sample of that waypoint there. Deeper waypoints
+    /// are skipped. Waypoints on the way out are visited from that depth.
     pub(super) fn indent(
         &mut self,
         planned: &PlannedPress,
@@ -55,7 +55,7 @@ impl Run<'_> {
         Ok(ended_by.map_or(PressOutcome::Complete, PressOutcome::Limited))
     }
 
-    /// Goes to a waypoint, unless the tip is to be seen where it is, and takes its sample.
+    /// Moves to a waypoint, unless a limit was reached there, and takes its sample.
     fn visit(&mut self, planned: &PlannedPress, spot: Spot, gathered: &mut Gathered) -> Step<()> {
         let press = &planned.press;
         let waypoint = usize::try_from(spot.number)
@@ -70,7 +70,7 @@ impl Run<'_> {
         self.sample(planned, spot, rested, gathered)
     }
 
-    /// The limit of the gel that stopped the tip, reported as an event; any other cause stops the run.
+    /// Limit of the gel that stopped the tip, reported as an event; any other cause is returned as an error.
     pub(super) fn limit_of(&mut self, cause: StopCause) -> Step<Limit> {
         let StopCause::Tripped(trip) = cause else {
             return Err(cause);
@@ -80,7 +80,7 @@ impl Run<'_> {
         Ok(limit)
     }
 
-    /// Takes the sample of a waypoint that a limit keeps out of reach as near to it as the tip may rest; the depth there, in mm.
+    /// Takes the sample of an unreachable waypoint as near to it as the tip may rest; returns the depth there, in mm.
     fn visit_at_limit(
         &mut self,
         planned: &PlannedPress,
@@ -100,18 +100,18 @@ impl Run<'_> {
     }
 }
 
-/// What becomes of a waypoint after a limit.
+/// Treatment of a waypoint after a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Visit {
-    /// It is left out.
+    /// Skip the waypoint.
     Not,
-    /// It is the turning point: its sample is taken at the depth that was reached.
+    /// Turning point: sample at the depth that was reached.
     WhereItIs,
-    /// It is visited.
+    /// Visit the waypoint.
     Waypoint,
 }
 
-/// What becomes of the waypoint at `place` after a limit stopped the tip at `reached_mm`.
+/// Treatment of the waypoint at `place` after a limit stopped the tip at `reached_mm`.
 fn after_limit(waypoints: &[Waypoint], place: usize, reached_mm: f64) -> Visit {
     let is_on_way_out = |waypoint: &Waypoint| waypoint.phase == Phase::Unload;
     let is_deeper = |depth: Nanometre| depth.to_millimetres() > reached_mm;
@@ -155,7 +155,7 @@ mod tests {
         assert_eq!(visits(0.05), [Not, Not, Not, Not, WhereItIs]);
         // A depth that was just reached is visited on the way out.
         assert_eq!(visits(0.3), [Not, WhereItIs, Visited, Visited, Visited]);
-        // On the way out itself: the gel pushes harder than it did a moment before.
+        // The limit acts on the way out: the gel pushes harder than a moment before.
         assert_eq!(visits(0.39), [Not, WhereItIs, Visited, Visited, Visited]);
     }
 
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn a_limit_that_holds_at_the_first_contact_too_ends_the_press_after_so_many_draw_backs() {
-        // Once it was pressed, this gel pushes too hard for as long as it is touched.
+        // After the first press this gel exceeds the limit at any contact.
         let mut pressed = false;
         let mut rig = Rig::new(-3.0, move |question, height_mm| {
             pressed |= height_mm > CONTACT_MM + 0.25;

@@ -1,26 +1,26 @@
-//! What a gel bears, and how far it may be pressed on at once by what it has shown of its stiffness.
+//! Limits of a gel, and the length of the next stride by its measured stiffness.
 
 use taceva_core::Wrench;
 
-/// From a tip that feels nothing, this part of the depth that the gel is pressed to passes no limit of it.
+/// Part of the greatest depth that a tip without contact may travel at once without passing a limit.
 const UNFELT_PART: f64 = 0.125;
-/// So many times as deep as it has been felt, a gel is taken to be known ...
+/// Multiple of the measured depth to which the stiffness of a gel is extrapolated.
 const KNOWN_DEPTHS: f64 = 2.0;
-/// ... to so many times the stiffness that its force by its depth is: pressed by a sphere it is as stiff as that to six times the depth (force
-/// by depth to the power of 1.5), and to the side it is softer.
+/// Factor on the ratio of force to depth that bounds the stiffness. A sphere reaches it at six times the depth (force ∝ depth^1.5);
+/// sideways the gel is softer.
 const STIFFER: f64 = 3.0;
 
-/// What a gel bears.
+/// Limits of a gel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bearing {
     pub(super) depth_max_mm: f64,
     pub(super) normal_max_n: f64,
     pub(super) shear_max_n: f64,
-    /// Less than this is nothing.
+    /// Least force that counts as contact.
     pub(super) threshold_n: f64,
 }
 
-/// What was felt last, in N.
+/// Last measured force, in N.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Felt {
     pub(super) normal_n: f64,
@@ -38,7 +38,7 @@ impl Felt {
 }
 
 impl Bearing {
-    /// How far the tip may go on at once, inward or aside, in a gel that is felt so at `depth_mm`, in mm.
+    /// Longest stride of the tip inward or sideways at `depth_mm` under the force `felt`, in mm.
     pub(super) fn room_mm(&self, depth_mm: f64, felt: &Felt) -> f64 {
         let normal_n = felt.normal_n.abs().max(self.threshold_n);
         let stiffness_n_mm = STIFFER * normal_n / depth_mm.max(0.0);
@@ -48,7 +48,7 @@ impl Bearing {
         by_force_mm.min(by_depth_mm).max(0.0)
     }
 
-    /// How far the tip may go at once that feels nothing.
+    /// Longest stride of the tip without contact, in mm.
     pub(super) fn unfelt_mm(&self) -> f64 {
         UNFELT_PART * self.depth_max_mm
     }
@@ -81,7 +81,7 @@ mod tests {
                 let room_mm = GEL.room_mm(depth_mm, &pressed(force_n(depth_mm)));
                 let after_mm = depth_mm + room_mm;
                 assert!(after_mm <= 1.0 + 1e-12 && force_n(after_mm) <= 1.8 + 1e-9);
-                // As a run goes on where there is no room.
+                // The least stride of a run.
                 depth_mm += room_mm.max(0.015);
             }
         }
@@ -105,9 +105,9 @@ mod tests {
                 "{depth_mm} mm, {felt:?}"
             );
         }
-        // Soft as it is, it was felt to a tenth of a millimetre alone.
+        // The gel is soft, but measured to 0.1 mm only.
         assert!((GEL.room_mm(0.1, &pressed(0.03)) - 0.2).abs() < 1e-12);
-        // 1.2 N to the side are left of a gel that is taken to be of 6 N/mm.
+        // 1.2 N of shear are left, at an assumed 6 N/mm.
         assert!((GEL.room_mm(0.3, &pressed(0.6)) - 0.2).abs() < 1e-12);
     }
 }

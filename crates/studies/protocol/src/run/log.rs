@@ -1,4 +1,4 @@
-//! What a run writes to: it learns what is finished, and waits until what it hands over is durable.
+//! Log of a run: it knows the finished presses, and makes new ones durable.
 
 use taceva_core::{Frame, PressOutcome, Sample, SinkError};
 
@@ -7,26 +7,26 @@ use crate::content_id::ContentId;
 
 /// A record of finished presses that outlives the process.
 pub trait PressLog {
-    /// Whether `press` was appended, in this run or an earlier one.
+    /// True if `press` was appended, in this run or an earlier one.
     fn is_finished(&self, press: ContentId) -> bool;
 
-    /// Takes a whole press and returns once it is durable: all of it, or, after an interruption, none.
+    /// Appends a whole press and returns once it is durable. After an interruption the log has all of it or nothing.
     ///
     /// # Errors
-    /// Whatever keeps it from being durable; the run stops, and the press counts as not made.
+    /// Any failure to make it durable; the run stops, and the press counts as not made.
     fn append(&mut self, record: &PressRecord) -> Result<(), SinkError>;
 
-    /// Takes what the sensor sees while nothing touches it, in the light that others are compared with. It comes before the first press with
-    /// pictures of each unit, and again whenever that press is made again.
+    /// Stores a picture without contact, in the reference light. It comes before the first press with pictures of each unit, and again if
+    /// that press is repeated.
     ///
     /// # Errors
-    /// Whatever keeps it from being durable; the run stops.
+    /// Any failure to make it durable; the run stops.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError>;
 
-    /// Takes how a session on the rig of a rig file began, before its first press.
+    /// Stores the start of a session on the rig of a rig file, before its first press.
     ///
     /// # Errors
-    /// Whatever keeps it from being durable; the run stops.
+    /// Any failure to make it durable; the run stops.
     fn session(&mut self, record: &SessionRecord) -> Result<(), SinkError> {
         let _ = record;
         Ok(())
@@ -36,15 +36,15 @@ pub trait PressLog {
 /// A finished press.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PressRecord {
-    /// Its name.
+    /// Id of the press.
     pub press: ContentId,
-    /// How it ended.
+    /// Outcome.
     pub outcome: PressOutcome,
-    /// Its samples in order, called `<press>/<number>`, where the number is that of the waypoint or picture in the press: those that a
-    /// limited press left out are not there.
+    /// Samples in order, called `<press>/<number>` by the number of the waypoint or picture. Waypoints that a limited press skipped have
+    /// none.
     ///
-    /// Truth is in the channels of the plan, in its order. `Pz` is the depth from the first contact, `surface_z` the height in the
-    /// sensor's frame at which a surface was felt, positive into the gel; each is absent where the other is meant. Those that a limit kept
-    /// from their waypoint name it and have no `depth_step`.
+    /// Truth holds the channels of the plan, in its order. `Pz` is the depth from the first contact. `surface_z` is the height in the
+    /// sensor's frame at which a surface was felt, positive into the gel. A press gives one of the two. Samples that a limit kept from
+    /// their waypoint name the limit and have no `depth_step`.
     pub samples: Vec<Sample>,
 }

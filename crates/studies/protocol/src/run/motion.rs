@@ -1,4 +1,4 @@
-//! One motion of the tip: admitted, made under watch, and followed by a look.
+//! One motion of the tip: checked, executed under supervision, and followed by a reading.
 
 use std::time::Duration;
 
@@ -9,14 +9,15 @@ use super::tip::{Step, Tip};
 use super::way::{distance, is_straight_up};
 
 impl Tip<'_> {
-    /// One straight motion, then a look.
+    /// Makes one straight motion, then reads force and pose.
     pub(super) fn go(&mut self, target: Pose, speed: Speed) -> Step<()> {
         self.go_by(target, speed, |robot, deadline| {
             robot.move_to(target, speed, deadline)
         })
     }
 
-    /// The same at the speed of contact, by a robot that stands by itself should this host fall silent, if it can.
+    /// Makes one straight motion at the speed of contact, as an expiring motion if the robot supports it: it stops by itself if this host
+    /// falls silent.
     pub(super) fn go_expiring(&mut self, target: Pose) -> Step<()> {
         let speed = self.pace.contact;
         self.go_by(target, speed, |robot, deadline| {

@@ -7,7 +7,7 @@ use super::camera::Camera;
 use super::event::Event;
 use super::tip::{Step, Tip};
 
-/// What was true at one moment.
+/// Observation of one moment.
 pub(super) struct Observed {
     pub(super) wrench: Wrench,
     pub(super) pose: Pose,

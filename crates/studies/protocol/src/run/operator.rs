@@ -1,4 +1,4 @@
-//! The person at a rig: what only hands can do, and how they are asked.
+//! The operator at a rig, and the questions for manual steps.
 
 use std::fmt;
 
@@ -6,21 +6,20 @@ use taceva_core::{Fault, Specimen};
 
 use super::time::Cancel;
 
-/// Somebody who is asked, at a terminal or on a page. Nothing moves until the answer comes, and it has no deadline.
+/// Operator at a terminal or on a page. Nothing moves until the answer, which has no deadline.
 pub trait Operator {
     /// Asks `question` and waits for the answer; returns [`Answer::Stop`] soon after `cancel` was cancelled.
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer;
 
-    /// Says that the enabling switch must be held before anything moves, for so many seconds at most; returns at once. Whoever has no place to
-    /// say it at says nothing.
+    /// Asks for a held enabling switch before anything moves, for `patience_s` at most; returns at once. Does nothing without a display.
     fn call_to_hold(&mut self, _patience_s: f64) {}
 }
 
-/// What somebody is asked for. [`Display`](fmt::Display) says it in words.
+/// Questions to the operator. [`Display`](fmt::Display) formats them.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Question {
-    /// Let this robot move: its name must be typed, or a button pressed that says it.
+    /// Let this robot move: the operator types its name, or presses a button with it.
     Enable(String),
     /// Mount this specimen on the robot, turned straight.
     Mount(Specimen),
@@ -28,51 +27,51 @@ pub enum Question {
     Unit(String),
     /// Set this scene of light.
     Light(String),
-    /// Look what happened, and acknowledge this fault at the robot, which then moves again.
+    /// Check and acknowledge this fault at the robot, which then moves again.
     Acknowledge(Fault),
     /// Jog the tip to this place with the robot's own tool.
     Jog(Spot),
-    /// Do this by hand, because the changer that does it failed.
+    /// Do this by hand, because the changer failed.
     Instead {
-        /// What is to be done: [`Mount`](Question::Mount) or [`Unit`](Question::Unit).
+        /// Step: [`Mount`](Question::Mount) or [`Unit`](Question::Unit).
         of_changer: Box<Question>,
-        /// Why it failed.
+        /// Reason of the failure.
         why: String,
     },
-    /// Take all hands out of reach: after something was skipped the robot goes on with what needs nobody.
+    /// Take all hands out of reach: after a skipped step the robot continues with presses that need no operator.
     GoOn,
-    /// Go on although the gel is not touched as in an earlier session of this recording.
+    /// Continue although the touch differs from that of an earlier session of this recording.
     Resume(ChangedTouch),
 }
 
-/// A place over a gel to which a robot is jogged.
+/// Places over the gel to which the operator jogs the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spot {
-    /// Its middle.
+    /// Middle of the gel.
     Middle,
-    /// Along x of the sensor from there.
+    /// Along x of the sensor from the middle.
     AlongX,
     /// Along y of the sensor from the middle.
     AlongY,
 }
 
-/// How a touch differs from that of an earlier session.
+/// Difference between a touch and that of an earlier session.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChangedTouch {
-    /// How much deeper the gel begins, in mm.
+    /// Change of the height of the gel, in mm; positive means deeper.
     pub height_mm: f64,
-    /// How much harder it presses at the same depth, as a part of what it did.
+    /// Relative change of the force at equal depth.
     pub force_part: f64,
 }
 
-/// What somebody answered.
+/// Answers of the operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// It is done, and all hands are out of reach.
+    /// Done, and all hands are out of reach.
     Done,
-    /// It cannot be done now: what needs it is left out of this run.
+    /// Not possible now: the run skips presses that need it.
     Skip,
-    /// The run ends here.
+    /// Stop the run.
     Stop,
 }
 

@@ -1,12 +1,12 @@
-//! Guard of a run: who watches the robot while it moves, and what must be tried before the first press.
+//! Guard of a run: its supervisor, and the checks before the first press.
 
 use super::reference_touch::SessionSpec;
 use super::supervisor::SharedSupervisor;
 
 /// Guard of a run on a robot that threads watch.
 ///
-/// `supervisor` is over the robot of the run. A thread of the caller shows it every reading of force, another one poses under way; the
-/// transducer of the run only passes on the readings of that thread.
+/// `supervisor` watches the robot of the run. One thread of the caller shows it every reading of force, another one poses in motion. The
+/// transducer of the run only passes on the readings of the first thread.
 pub struct Oversight<'a> {
     pub(super) supervisor: SharedSupervisor,
     pub(super) session: Option<SessionSpec<'a>>,
@@ -14,7 +14,7 @@ pub struct Oversight<'a> {
 }
 
 impl<'a> Oversight<'a> {
-    /// A guard without a session, whose run does not wait for an enabling switch.
+    /// Creates a guard without a session, whose run does not wait for an enabling switch.
     pub fn new(supervisor: SharedSupervisor) -> Oversight<'a> {
         Oversight {
             supervisor,
@@ -23,10 +23,10 @@ impl<'a> Oversight<'a> {
         }
     }
 
-    /// The guard of a session on the rig of a rig file, whose patience is that of the file.
+    /// Adds a session on the rig of a rig file, with the patience of that file.
     ///
-    /// Before the first press somebody enables the robot, the tip passes through the air and touches the gel gently. The touch is compared with
-    /// the rig file and with earlier sessions of the recording.
+    /// Before the first press the operator enables the robot, the tip passes through the air and touches the gel gently. The touch is
+    /// compared with the rig file and with earlier sessions of the recording.
     #[must_use]
     pub fn with_session(self, session: SessionSpec<'a>) -> Oversight<'a> {
         Oversight {
@@ -36,7 +36,7 @@ impl<'a> Oversight<'a> {
         }
     }
 
-    /// The guard of a rig with an enabling switch, for which a run waits `patience_s` at most.
+    /// Sets the longest wait for a held enabling switch, in s.
     #[must_use]
     pub fn with_patience_s(self, patience_s: f64) -> Oversight<'a> {
         Oversight { patience_s, ..self }

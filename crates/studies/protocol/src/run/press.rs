@@ -1,4 +1,4 @@
-//! One press: specimen, light and place, then what is done there.
+//! One press: sets specimen, light and place, then executes the motion.
 
 use taceva_core::{Degree, Millimetre, Nanometre, PressOutcome};
 
@@ -14,7 +14,7 @@ use crate::plan::PlannedPress;
 use crate::press::Motion;
 
 impl Run<'_> {
-    /// One press, from the height of travel and back to it. Before it, what is seen there goes to `untouched`, where somebody asks.
+    /// Makes one press, from the height of travel and back. Stores a picture without contact in `untouched` before, if given.
     pub(super) fn acquire(
         &mut self,
         planned: &PlannedPress,
@@ -25,7 +25,7 @@ impl Run<'_> {
             let now_s = self.tip.clock.now_s();
             let (frame, _) = camera.frame(now_s, &self.tip, self.events)?;
             log.untouched(&frame).map_err(StopCause::Log)?;
-            // The force has been silent for as long as the picture took.
+            // No force was read while the picture was taken.
             self.tip.look()?;
         }
         let mut gathered = Gathered::default();
@@ -44,12 +44,12 @@ impl Run<'_> {
         })
     }
 
-    /// The specimen, the light and the place.
+    /// Sets specimen, light and place.
     fn prepare(&mut self, planned: &PlannedPress) -> Step<()> {
         let press = &planned.press;
         if self.mounted != Some(press.specimen) {
             match &mut self.specimens {
-                // One that moves was asked before the press, while the robot was halted.
+                // A changer that moves has mounted before the press, while the robot was halted.
                 Some(changer) if changer.patience().is_none() => {
                     changer.mount(press.specimen, DEADLINE)?;
                     (self.events)(&Event::Mounted(press.specimen));
@@ -103,14 +103,14 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// What happens between the approach and the retreat.
+    /// Executes the motion between approach and retreat.
     fn press(&mut self, planned: &PlannedPress, gathered: &mut Gathered) -> Step<PressOutcome> {
         let press = &planned.press;
         if let Motion::Rest { frames } = press.motion {
             let mut before = self.tip.settle()?;
             for number in 0..frames {
                 self.sample(planned, Spot::reached(number, 0.0), before, gathered)?;
-                // No rest between: the pictures come as fast as the sensor gives them.
+                // No pause between pictures: the sensor sets the rate.
                 before = self.tip.look()?;
             }
             return Ok(PressOutcome::Complete);

@@ -1,4 +1,4 @@
-//! A look at force and pose of a tip that rests, and how what is read is shown to the supervisor.
+//! Reads force and pose of a resting tip and shows them to the supervisor.
 
 use std::time::Duration;
 
@@ -11,11 +11,11 @@ use super::load_limit::Felt;
 use super::supervisor::Observation;
 use super::tip::{DEADLINE, Step, Tip, is_silent};
 
-/// A transducer that says nothing for so long is asked again, until the supervisor calls it silent.
+/// Deadline of one reading; reading is retried until the supervisor finds the force stale.
 pub(super) const READ_DEADLINE: Duration = Duration::from_millis(20);
-/// Before a transducer that said what was true too early is asked again.
+/// Delay before the next reading after an outdated one.
 const LATE_REST: Duration = Duration::from_millis(1);
-/// Questions in a row that remain without answer, should the clock stand still.
+/// Greatest number of readings without a current one, in case the clock stands still.
 const READ_TRIES: u32 = 64;
 
 impl Tip<'_> {
@@ -25,7 +25,7 @@ impl Tip<'_> {
         let asked_s = self.clock.now_s();
         let (pose, stamp) = match self.robot.pose(DEADLINE) {
             Ok(read) => read,
-            // A robot that says nothing is silent, as a transducer is.
+            // A robot that does not answer has a stale pose.
             Err(error) if is_silent(&error) => {
                 let age_s = self.clock.now_s() - asked_s;
                 return Err(self.halt_for(Trip::StalePose { age_s }));
@@ -50,10 +50,10 @@ impl Tip<'_> {
         })
     }
 
-    /// The force as it was when it was asked for, or later.
+    /// Reads a force measured after this call.
     ///
-    /// The tip rests meanwhile, so that links and filters that deliver late cost time and no way: what they still hold of before the end
-    /// of the last motion is shown to the supervisor, and the next reading awaited.
+    /// The tip rests meanwhile, so late links and filters cost time and no travel. Readings from before the end of the last motion are
+    /// shown to the supervisor, then the next one is read.
     pub(super) fn read_force(&mut self) -> Step<Reading> {
         let asked_s = self.clock.now_s();
         for _ in 0..READ_TRIES {
@@ -96,7 +96,7 @@ impl Tip<'_> {
             Observation::Force(..) | Observation::Numbered(..)
         );
         let seen = match (self.is_guarded && is_force, supervisor.tripped()) {
-            // Whoever read it has shown it, and shown twice it would be a signal that repeats itself.
+            // The guard thread has shown this reading already. Shown twice, it would count as a repeated signal.
             (true, Some(trip)) => Err(trip),
             (true, None) => Ok(()),
             (false, _) => supervisor.observe(observation, now_s),
@@ -105,18 +105,18 @@ impl Tip<'_> {
     }
 }
 
-/// What the transducer said.
+/// A reading of the transducer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
-    /// With its own zero.
+    /// Force as reported, with the zero of the transducer.
     pub(super) said: Wrench,
-    /// When that was true.
+    /// Time of the measurement, in s.
     pub(super) valid_s: f64,
-    /// The number that it gave the reading.
+    /// Sequence number, if the transducer gives one.
     number: Option<u64>,
 }
 
-/// A reading of force, with its number if it has one.
+/// Observation of a force, with its sequence number if it has one.
 fn observation(said: Wrench, stamp: Stamp, number: Option<u64>) -> Observation {
     match number {
         Some(number) => Observation::Numbered(said, stamp, number),

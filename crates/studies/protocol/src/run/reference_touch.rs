@@ -1,4 +1,4 @@
-//! What a session on the rig of a rig file begins with: what it must know, what it touches, and what a touch may show to be wrong.
+//! Start of a session on the rig of a rig file: its inputs, its reference touch, and the faults that the touch can reveal.
 
 use std::fmt;
 
@@ -7,14 +7,14 @@ use taceva_core::{Specimen, Wrench};
 use super::operator::ChangedTouch;
 use crate::rig_file::RigFile;
 
-/// What a session must know before it begins.
+/// Inputs of a session.
 #[derive(Clone, Debug)]
 pub struct SessionSpec<'a> {
     /// The rig.
     pub rig: &'a RigFile,
-    /// The robot that somebody must enable by its name; `None` of one that is emulated.
+    /// Name of the robot that the operator must enable; `None` for an emulated one.
     pub robot: Option<&'a str>,
-    /// What earlier sessions of this recording touched.
+    /// Reference touches of earlier sessions of this recording.
     pub touched: &'a [ReferenceTouch],
 }
 
@@ -23,82 +23,82 @@ pub struct SessionSpec<'a> {
 pub struct ReferenceTouch {
     /// The unit of the sensor.
     pub unit: String,
-    /// What touched the gel.
+    /// Specimen that touched the gel.
     pub specimen: Specimen,
-    /// Where the gel begins in the sensor's frame, in mm, positive into the gel.
+    /// Height of the gel in the sensor's frame, in mm, positive into the gel.
     pub height_mm: f64,
-    /// How deep it was pressed below that, in mm.
+    /// Depth of the touch below that height, in mm.
     pub depth_mm: f64,
-    /// The normal force at that depth, in N.
+    /// Normal force at that depth, in N.
     pub force_n: f64,
 }
 
 impl ReferenceTouch {
-    /// How far the gel may seem to have moved between two sessions, in mm: arms come back to tenths.
+    /// Greatest apparent motion of the gel between two sessions, in mm: arms repeat to tenths.
     const HEIGHT_MM: f64 = 0.1;
-    /// And by what part its force may differ.
+    /// Greatest relative change of its force.
     const FORCE_PART: f64 = 0.1;
 
-    /// How this touch differs from the `earlier` one, where it does so by more than arms and gels do by themselves.
+    /// Change since the `earlier` touch; `None` if it is within the repeatability of arms and gels.
     pub(super) fn changed_since(&self, earlier: &ReferenceTouch) -> Option<ChangedTouch> {
         let changed = ChangedTouch {
             height_mm: self.height_mm - earlier.height_mm,
             force_part: self.force_n / earlier.force_n - 1.0,
         };
-        // What is no number is a change too.
+        // NaN counts as a change.
         let is_same = changed.height_mm.abs() <= ReferenceTouch::HEIGHT_MM
             && changed.force_part.abs() <= ReferenceTouch::FORCE_PART;
         (!is_same).then_some(changed)
     }
 }
 
-/// How a session began.
+/// Start of a session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SessionRecord {
-    /// The touch.
+    /// Reference touch.
     pub touch: ReferenceTouch,
-    /// What the transducer said while nothing was touched.
+    /// Force reported without contact.
     pub zero: Wrench,
-    /// Whether a push to +x, and one to +y, was felt: their signs are as the rig file says.
+    /// True for each push, to +x and to +y, that was felt with the sign of the rig file.
     pub pushes_felt: [bool; 2],
-    /// Whether the picture was seen to change in contact, and in contact alone; `false` where no picture is taken.
+    /// True if the picture changed in contact and only then; false if no picture is taken.
     pub picture_changed: bool,
-    /// From a limit to the halt, in ms; 999 of 1,000 are sooner.
+    /// Time from a limit to the halt, in ms: the 99.9th percentile.
     pub reaction_ms: f64,
-    /// How far the tip would go on in that time until it rests, in mm.
+    /// Travel of the tip in that time until it rests, in mm.
     pub overshoot_mm: f64,
 }
 
-/// What was wrong with a gentle touch.
+/// Faults found by a reference touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TouchFault {
-    /// The force did not rise to what was wanted within half of the depth that is allowed.
+    /// The force did not rise to the target within half of the allowed depth.
     Weak {
-        /// What was felt, in N.
+        /// Force, in N.
         force_n: f64,
-        /// What was wanted, in N.
+        /// Target, in N.
         wanted_n: f64,
-        /// At this depth, in mm.
+        /// Depth reached, in mm.
         depth_mm: f64,
     },
-    /// A force that stays after the tip has left.
+    /// A force remains after the tip has left.
     Clings {
-        /// How much, in N.
+        /// Remaining force, in N.
         force_n: f64,
     },
-    /// A picture that is in contact as it is in the air.
+    /// The picture does not change in contact.
     Unseen {
-        /// The greatest change of a part of it in contact, in steps of a pixel of 8 bits.
+        /// Greatest change of a part of it in contact, in steps of an 8-bit pixel.
         in_contact: f64,
-        /// And in the air.
+        /// Greatest change in the air, in the same steps.
         in_air: f64,
     },
-    /// A picture that stays changed after the tip has left.
+    /// The picture stays changed after the tip has left.
     Stays {
-        /// The greatest change of a part of it in contact, in steps of a pixel of 8 bits.
+        /// Greatest change of a part of it in contact, in steps of an 8-bit pixel.
         in_contact: f64,
-        /// And after it.
+        /// Greatest change after contact, in the same steps.
         after: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! The way out of the gel: after a press, after a halt, and after a fault whose signals must first be trusted again.
+//! Leaving the gel: after a press, after a halt, and after a fault once signals are trusted again.
 
 use std::time::Duration;
 
@@ -7,14 +7,14 @@ use taceva_core::{Millimetre, Point, Pose};
 use super::supervisor::MotionStage;
 use super::tip::{Step, Tip};
 
-/// Above the first contact by this much the tip is in the air again, in mm.
+/// Height above the first contact from which the tip counts as in the air, in mm.
 const AIR_MM: f64 = 0.5;
-/// Looks that must find force and pose healthy before the tip moves again after a fault.
+/// Tries to find force and pose healthy after a fault, before the tip moves again.
 const RECOVERY_TRIES: u32 = 10;
 const RECOVERY_REST: Duration = Duration::from_millis(20);
 
 impl Tip<'_> {
-    /// Leaves the gel along the way it came, under watch, up to the height of travel, over the place where it was sent.
+    /// Retreats along the approach path, supervised, to the height of travel above the target.
     pub(super) fn retreat(&mut self) -> Step<()> {
         self.turn_back()?;
         let Point { x, y, z } = self.target.position;
@@ -35,8 +35,8 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// After a halt at a limit: goes straight up, segment by segment, until a limit no longer keeps it from resting; at most to the height
-    /// of the first contact. From there the press is watched again.
+    /// After a halt at a limit: moves straight up by segments until the tip may rest, at most to the height of the first contact. Then
+    /// resumes the supervision of the press.
     pub(super) fn draw_back(&mut self, height_mm: f64) -> Step<()> {
         self.turn_back()?;
         loop {
@@ -53,7 +53,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Ends a halt, and begins to watch that the force does not rise above what it is now.
+    /// Ends a halt and starts supervision against a rise of the force above its present value.
     fn turn_back(&mut self) -> Step<()> {
         self.release()?;
         self.find_pose()?;
@@ -62,7 +62,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// After a fault: leaves the gel if force and pose can be trusted again, else stays halted. Whether it is in the air.
+    /// After a fault: leaves the gel once force and pose can be trusted, else stays halted. Returns true if the tip is in the air.
     pub(super) fn abandon(&mut self) -> bool {
         let _ = self.robot.halt();
         if self.robot_failed {
@@ -83,14 +83,14 @@ impl Tip<'_> {
     }
 
     fn go_clear(&mut self) -> Step<()> {
-        // Cancellation must not interrupt the retraction.
+        // Cancellation must not interrupt the retreat.
         self.ignores_cancel = true;
         let done = self.retreat();
         self.ignores_cancel = false;
         done
     }
 
-    /// Whether two looks at the resting tip are healthy and differ, as those of a live transducer do.
+    /// True if two readings of the resting tip are healthy and differ, as those of a live transducer do.
     fn is_trustworthy(&mut self) -> bool {
         if self.release().is_err() || self.find_pose().is_err() {
             return false;

@@ -1,4 +1,4 @@
-//! A rig of which a test sets the behaviour, and that records every motion.
+//! A test rig with scripted behaviour that records every motion.
 
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
@@ -18,16 +18,16 @@ use crate::plan::{Plan, plan_study};
 use crate::scene::Scene;
 use crate::source::SourceInfo;
 
-/// The gel begins here; all lengths are parts of powers of two, so that sums of them are exact.
+/// Height of the gel; all lengths are sums of powers of two, so that arithmetic is exact.
 pub(super) const CONTACT_MM: f64 = 0.25;
 pub(super) const SEGMENT_MM: f64 = 0.125;
 pub(super) const CONTACT_MM_S: f64 = 4.0;
 pub(super) const TRAVEL_MM_S: f64 = 16.0;
 
-/// What the transducer says to each question at the height of the tip, in N; `None` is silence.
+/// Force at each reading by its number and the height of the tip, in N; `None` is a timeout.
 type Force = Box<dyn FnMut(u32, f64) -> Option<f64> + Send>;
 
-/// A live transducer that feels nothing: no two readings are equal.
+/// A live transducer without contact: no two readings are equal.
 pub(super) fn nothing(question: u32, _: f64) -> Option<f64> {
     Some(f64::from(question) * 1e-6)
 }
@@ -43,11 +43,11 @@ pub(super) struct State {
     pub(super) now_s: f64,
     pub(super) height_mm: f64,
     pub(super) halted: bool,
-    /// Whether the robot says it moved and stays where it is.
+    /// True if the robot reports motions that it does not make.
     pub(super) stuck: bool,
-    /// How often it does not answer when a halt is to end.
+    /// Number of timeouts when a halt is cleared.
     pub(super) unheard: u32,
-    /// Below this height, in mm, a thread that looks on feels something hard, once, and shows it to this supervisor.
+    /// Height in mm of an obstacle, which a guard thread reports once to this supervisor.
     pub(super) obstacle: Option<(f64, SharedSupervisor)>,
     questions: u32,
     force: Force,
@@ -91,7 +91,7 @@ fn now(state: &State) -> Stamp {
     }
 }
 
-/// What an obstacle is felt as, in N.
+/// Force of an obstacle, in N.
 const HARD_N: f64 = 1.0;
 
 fn pressing(force_n: f64) -> Wrench {
@@ -201,7 +201,7 @@ impl Timekeeper for Rig {
     }
 }
 
-/// 2 mm of clearance, 1 mm of depth and a quarter beyond it, in segments of an eighth.
+/// Plan with 2 mm of clearance, 1 mm of depth, an overshoot of 0.25 mm and segments of 0.125 mm.
 pub(super) fn plan() -> Plan {
     let scene = Scene::parse("small", SMALL).expect("a scene");
     let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));

@@ -1,4 +1,4 @@
-//! The sample of a waypoint or of a picture: what was observed, and what the plan says of it.
+//! Builds the sample of a waypoint or picture from the observation and the plan.
 
 use taceva_core::{Limit, Nanometre, Readings, Sample, Specimen};
 
@@ -6,19 +6,19 @@ use super::observe::Observed;
 use crate::plan::{PlannedPress, SURFACE};
 use crate::press::Motion;
 
-/// Which sample of a press is taken.
+/// Position of a sample in its press.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
-    /// Its number: that of its waypoint, or of its picture.
+    /// Number of its waypoint or picture.
     pub(super) number: u32,
-    /// The height from which depths count, in mm.
+    /// Height from which depths count, in mm.
     pub(super) zero_mm: f64,
-    /// The limit of the gel that kept the tip from the waypoint.
+    /// Limit of the gel that kept the tip from the waypoint.
     pub(super) limited_by: Option<Limit>,
 }
 
 impl Spot {
-    /// A sample of a place that was reached.
+    /// A waypoint that was reached.
     pub(super) fn reached(number: u32, zero_mm: f64) -> Spot {
         Spot {
             number,
@@ -28,13 +28,13 @@ impl Spot {
     }
 }
 
-/// What a press has given so far.
+/// Samples of a press so far.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
     pub(super) samples: Vec<Sample>,
 }
 
-/// The sample of `spot`; channels that nobody measures are absent.
+/// Sample at `spot`; channels that are not measured are absent.
 pub(super) fn sample(
     planned: &PlannedPress,
     spot: Spot,
@@ -67,7 +67,7 @@ pub(super) fn sample(
         .with_unit_id(press.unit.clone())
         .with_scene_id(press.light.clone())
         .with_point_id(press.point_id())
-        // A depth at which a limit stopped the tip is no level that repeats share.
+        // The depth of a limited sample is no level that repeats share.
         .with_depth_step(
             waypoint
                 .filter(|_| spot.limited_by.is_none())
@@ -91,7 +91,7 @@ mod tests {
     use crate::press::Waypoint;
     use crate::run::rig::plan;
 
-    /// The sample of the second of two waypoints, half a millimetre below a contact at 0.25 mm.
+    /// Sample of the second of two waypoints, half a millimetre below a contact at 0.25 mm.
     fn second(motion: Motion, limited_by: Option<Limit>) -> Sample {
         let mut plan = plan();
         let planned = &mut plan.presses[0];
@@ -169,7 +169,7 @@ mod tests {
             truths(&sample),
             [x, y, z, force[0], force[1], force[2], None, None]
         );
-        // Where a limit stopped the tip the depth is no level, and all else is as it was.
+        // A limited sample has no depth level; all else is unchanged.
         let limited = second(Motion::Indent(waypoints), Some(Limit::Depth));
         assert_eq!(
             (limited.depth_step, limited.phase),

@@ -1,8 +1,7 @@
-//! The search for the first contact: step by step, each followed by rest, so that the gel is found where it is at rest.
+//! Search for the first contact by steps, each followed by rest, so that the gel is found in its resting state.
 //!
-//! A gel that was felt before begins about there at other places too. Where threads look on, the steps that end well above it are made as one
-//! motion, which they halt at a collision: nothing is felt in the air, and every step would cost a rest. The steps that are left are those
-//! that a search without this makes, at the same heights.
+//! Once felt, a gel begins at a similar height elsewhere. Guard threads allow one motion through the steps that end well above it, and halt
+//! it at a collision. This saves the rest after each step. The remaining steps have the same heights as in a search without guard.
 
 use taceva_core::Millimetre;
 
@@ -12,16 +11,16 @@ use super::halt_reason::Trip;
 use super::supervisor::MotionStage;
 use super::tip::{Step, Tip};
 
-/// The gel of one sensor may begin so much higher at another place than wherever it was felt before, in mm: a millimetre on 20 is 3 degrees.
+/// Greatest rise of the gel above the highest height felt so far, in mm: a millimetre on 20 is 3 degrees.
 const UNEVEN_MM: f64 = 0.4;
 
 impl Tip<'_> {
-    /// Goes down until the gel is felt at the end of a step; the height of the tip then, or `None` at the end of the search.
+    /// Descends until the gel is felt at the end of a step. Returns the reading there; `None` at the end of the search.
     pub(super) fn search(&mut self) -> Step<Option<Look>> {
         let start_mm = self.target.position.z.0;
         let passed = self.pass_air(start_mm)?;
         self.watch(MotionStage::Search);
-        // Until it is felt, the gel may be anywhere below.
+        // Until contact, the gel may be at any height below.
         self.contact_mm = Some(start_mm);
         for step in passed + 1.. {
             let z_mm = self.height_of_step(start_mm, step);
@@ -29,7 +28,7 @@ impl Tip<'_> {
                 break;
             }
             self.descend(z_mm)?;
-            // A gel gives way while it rests: what is not felt before will not be felt after.
+            // A gel relaxes at rest: a force below the threshold before the rest stays below.
             if self.is_guarded && self.felt.normal_n < self.pace.threshold_n {
                 continue;
             }
@@ -45,14 +44,14 @@ impl Tip<'_> {
         Ok(None)
     }
 
-    /// Learns where the gel begins at one place.
+    /// Updates the highest known height of the gel.
     pub(super) fn is_felt_at(&mut self, height_mm: f64) {
         let highest_mm = self.surface_mm.unwrap_or(height_mm);
         self.surface_mm = Some(height_mm.min(highest_mm));
     }
 
-    /// Goes down from `start_mm` in one motion for as many steps as end well above where the gel was felt before; how many. What is touched
-    /// there all the same is left again, and every step of the search is made.
+    /// Descends from `start_mm` in one motion through all steps that end well above the known gel. Returns their number. After an
+    /// unexpected contact the tip retreats and the search makes every step.
     fn pass_air(&mut self, start_mm: f64) -> Step<u32> {
         let Some(surface_mm) = self.surface_mm.filter(|_| self.is_guarded) else {
             return Ok(0);
@@ -76,12 +75,12 @@ impl Tip<'_> {
         }
     }
 
-    /// The height of the tip at the end of a step, in mm.
+    /// Height of the tip at the end of a step, in mm.
     fn height_of_step(&self, start_mm: f64, step: u32) -> f64 {
         start_mm + f64::from(step) * self.pace.step_mm
     }
 
-    /// The same where nothing is expected: in one motion, where the robot stands by itself should this host fall silent.
+    /// Descends through air in one motion, which a robot with expiring motions stops by itself if this host falls silent.
     fn descend_through_air(&mut self, z_mm: f64) -> Step<()> {
         if self.robot.expiring_motion().is_none() {
             return self.descend(z_mm);
@@ -91,7 +90,7 @@ impl Tip<'_> {
         self.go_expiring(target)
     }
 
-    /// Goes straight down to `z_mm`.
+    /// Descends straight to `z_mm`.
     fn descend(&mut self, z_mm: f64) -> Step<()> {
         let place = self.target.position;
         self.approach([place.x.0, place.y.0, z_mm])
@@ -111,7 +110,7 @@ mod tests {
         })
     }
 
-    /// Where contact is found, and by which motions, after what `know` says of the gel.
+    /// Height of contact, and the motions of the search, after `know` has set the knowledge of the gel.
     fn found(know: impl FnOnce(&mut Tip<'_>, &Rig)) -> (f64, Vec<Motion>) {
         let rig = over_a_gel();
         let look = with_tip(&rig, |tip| {
@@ -132,7 +131,7 @@ mod tests {
             tip.surface_mm = Some(CONTACT_MM);
         });
         assert_eq!(again_mm.to_bits(), contact_mm.to_bits());
-        // To 0.4 mm above it in motions of a millimetre at most, and from there step by step.
+        // To 0.4 mm above it in motions of a millimetre at most, from there step by step.
         assert_eq!((few[0].from_mm, few[0].to_mm), (-2.0, -1.0));
         assert!((few[1].to_mm + 0.2).abs() < 1e-12, "{few:?}");
         assert!(few.len() < 9 && every.len() > 20, "{few:?}");

@@ -1,4 +1,4 @@
-//! A run from its start to its end: which presses are made, in which order, and how it stops.
+//! A run from start to end: the order of its presses, and its stop.
 
 use taceva_core::{Lighting, Nanometre, PressOutcome, Sensor, Specimen};
 
@@ -16,7 +16,7 @@ use super::tip::{DEADLINE, Pace, Step, Tip};
 use super::{Controls, Mode, RunReport, RunSpec};
 use crate::plan::{Plan, PlannedPress};
 
-/// A run that goes on, with the devices that it borrows.
+/// A run in progress, with its borrowed devices.
 pub(super) struct Run<'a> {
     pub(super) tip: Tip<'a>,
     pub(super) camera: Option<Camera<'a>>,
@@ -27,23 +27,23 @@ pub(super) struct Run<'a> {
     pub(super) plan: &'a Plan,
     pub(super) mounted: Option<Specimen>,
     pub(super) lit: Option<String>,
-    /// Presses that silence broke off.
+    /// Presses interrupted by stale signals.
     silences: u32,
-    /// Presses that a released switch broke off.
+    /// Presses interrupted by a released switch.
     releases: u32,
-    /// How long nobody may hold the enabling switch, in s.
+    /// Longest wait for a held enabling switch, in s.
     pub(super) patience_s: f64,
-    /// What somebody skipped.
+    /// Steps that the operator skipped.
     pub(super) skipped: Vec<Question>,
-    /// Whether somebody skipped something and has not said since that hands are out of reach.
+    /// True from a skipped step until the operator confirms that hands are out of reach.
     pub(super) is_reach_unknown: bool,
-    /// The session that has not begun yet; `None` of a rig without a rig file, and from the first press on.
+    /// Session that has not begun; `None` without a rig file, and from the first press on.
     pub(super) session: Option<SessionSpec<'a>>,
 }
 
-/// A press that silence breaks off so many times ends the run.
+/// Interruptions of one press by stale signals that end the run.
 const SILENCES_OF_A_PRESS: u32 = 3;
-/// As do so many of a run.
+/// Interruptions by stale signals in a run that end it.
 const SILENCES_OF_A_RUN: u32 = 20;
 
 impl<'a> Run<'a> {
@@ -151,7 +151,7 @@ impl<'a> Run<'a> {
         });
         let is_finished = |press: &&PlannedPress| log.is_finished(press.id);
         if self.session.is_some() && spec.mode == Mode::Acquire && presses.iter().all(is_finished) {
-            // Nothing moves that nobody enabled.
+            // Without presses left, the robot is not enabled.
             return Ok(report);
         }
         self.enable()?;
@@ -207,8 +207,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// One press, again from its start where silence broke it off and the tip could be brought above the gel, or where a fault did and somebody
-    /// acknowledged it.
+    /// Makes one press. After stale signals or a release it repeats the press from its start, if the tip was raised above the gel. The same
+    /// follows a fault that the operator acknowledged.
     fn acquire_patiently(
         &mut self,
         planned: &PlannedPress,
@@ -233,7 +233,7 @@ impl<'a> Run<'a> {
             }
             times += 1;
             if is_release {
-                // As often as somebody lets go: each time somebody is there who holds it again.
+                // Without a count: each time somebody holds the switch again.
                 self.releases += 1;
             } else {
                 silences += 1;
@@ -247,7 +247,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// One place in the air, again where a released switch broke it off.
+    /// Visits one place in the air; repeats it after a released switch.
     fn rehearse_patiently(
         &mut self,
         planned: &PlannedPress,

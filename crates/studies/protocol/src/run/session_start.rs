@@ -1,5 +1,5 @@
-//! The beginning of a session on the rig of a rig file: somebody enables the robot, the tip passes through the air and touches gently, and
-//! what is felt and seen is held against what the rig file and earlier sessions say. Only then is anything pressed.
+//! Start of a session on the rig of a rig file: the operator enables the robot, the tip passes through the air and touches gently. The run
+//! presses only if the measurements agree with the rig file and earlier sessions.
 
 pub(super) mod picture;
 mod signs;
@@ -19,16 +19,16 @@ use super::tip::Step;
 use crate::limits::RigLimits;
 use crate::plan::PlannedPress;
 
-/// How long readings are timed.
+/// Duration of the timing of readings.
 const TIMED: Duration = Duration::from_secs(2);
-/// Of the depth that is allowed, so much may be passed by a machine that reacts late.
+/// Greatest overshoot of a late guard, as a part of the allowed depth.
 const OVERSHOOT_PART: f64 = 0.3;
-/// How fast the tip passes through the air for the first time, in mm/s.
+/// Speed of the first passage through the air, in mm/s.
 const AIR_MM_S: f64 = 10.0;
-/// Times that silence may break the beginning off.
+/// Interruptions by stale signals that end the start.
 const TRIES: u32 = 3;
 
-/// What the machine makes of readings.
+/// Reaction of the guard on this machine.
 #[derive(Clone, Copy, Debug)]
 struct Reaction {
     reaction_ms: f64,
@@ -36,7 +36,7 @@ struct Reaction {
 }
 
 impl Run<'_> {
-    /// Has the robot enabled by whoever must, before it moves for the first time.
+    /// Asks the operator to enable the robot before its first motion.
     pub(super) fn enable(&mut self) -> Result<(), RunError> {
         let robot = self.session.as_ref().and_then(|session| session.robot);
         let Some(robot) = robot else {
@@ -49,7 +49,7 @@ impl Run<'_> {
         enable(robot, operator, self.tip.cancel)
     }
 
-    /// Begins the session, if it has not begun: at the first press that is going to be made, with what it is pressed with.
+    /// Begins the session, once, before the first press and with its specimen.
     pub(super) fn begin(
         &mut self,
         places: &[[Nanometre; 2]],
@@ -108,13 +108,13 @@ impl Run<'_> {
         Ok(record)
     }
 
-    /// Measures how late readings come on this machine, and refuses one on which the tip would go on too far.
+    /// Measures the delay of readings on this machine, and rejects a machine with too great an overshoot.
     fn time_readings(&mut self) -> Step<Reaction> {
         let supervisor = self.tip.supervisor.clone();
         supervisor.lock().time_readings();
         let until_s = self.tip.clock.now_s() + TIMED.as_secs_f64();
         while self.tip.clock.now_s() < until_s {
-            // Threads read meanwhile; that they still do is seen here.
+            // Guard threads read meanwhile; this reading checks that they still do.
             self.tip.look()?;
             if self.tip.cancel.is_cancelled() {
                 return Err(StopCause::Cancelled);
@@ -129,7 +129,7 @@ impl Run<'_> {
         allowed(reaction_s, limits, self.plan.contact.speed_mm_s.value)
     }
 
-    /// Goes over three of the places slowly, so that whoever looks on sees where the robot is going to move.
+    /// Moves slowly over three of the places, so that the operator sees the workspace of the robot.
     fn pass_through_the_air(&mut self, places: &[[Nanometre; 2]]) -> Step<()> {
         let usual = self.tip.pace;
         self.tip.pace.travel = slowly(usual.travel);
@@ -143,7 +143,7 @@ impl Run<'_> {
     }
 }
 
-/// At most as fast as somebody with a hand on the stop can follow.
+/// Caps a speed so that a person at the stop can follow.
 fn slowly(travel: Speed) -> Speed {
     match Speed::try_new(AIR_MM_S) {
         Ok(slow) if slow.mm_per_s() < travel.mm_per_s() => slow,
@@ -151,7 +151,7 @@ fn slowly(travel: Speed) -> Speed {
     }
 }
 
-/// Lets a guard pass that halts `reaction_s` after a limit was passed.
+/// Accepts a guard that halts `reaction_s` after a limit is passed, if its overshoot is small enough.
 fn allowed(reaction_s: f64, limits: &RigLimits, speed_mm_s: f64) -> Step<Reaction> {
     let overshoot_mm = speed_mm_s * reaction_s + limits.braking_mm();
     let greatest_mm = OVERSHOOT_PART * limits.depth_max.0;
@@ -170,7 +170,7 @@ fn allowed(reaction_s: f64, limits: &RigLimits, speed_mm_s: f64) -> Step<Reactio
     })
 }
 
-/// Up to three places that lie far apart: the first along x, the last, and the one farthest from both.
+/// Up to three distant places: the first along x, the last, and the one farthest from both.
 fn farthest(places: &[[Nanometre; 2]]) -> Vec<[Nanometre; 2]> {
     let (Some(first), Some(last)) = (places.iter().min(), places.iter().max()) else {
         return Vec::new();

@@ -1,8 +1,7 @@
-//! How far the tip goes in one motion where it may touch the gel.
+//! Length of one motion where the tip may touch the gel.
 //!
-//! Alone, a run sees a limit only at the end of a motion, so that motions are segments of 15 ms. Where threads look on, they halt within a
-//! motion. It may be longer then, but only where it would pass no limit if nobody looked: what is stated of the overshoot holds for a
-//! guard that is late, too.
+//! Without guard threads a run sees a limit only at the end of a motion, so its motions are segments of 15 ms. Guard threads halt within a
+//! motion, so it may be longer, but only as far as no limit is expected. The stated overshoot therefore holds even for a late guard.
 
 use taceva_core::Pose;
 
@@ -10,10 +9,10 @@ use super::supervisor::MotionStage;
 use super::tip::Tip;
 use super::way::{is_straight_down, is_straight_up};
 
-/// The longest motion near the gel, in mm: a robot whose host is gone goes no further.
+/// Longest motion near the gel, in mm: it bounds the travel of a robot that lost its host.
 const LONGEST_MM: f64 = 1.0;
 impl Tip<'_> {
-    /// The length of the next motion from `here` towards `goal`, in mm.
+    /// Length of the next motion from `here` towards `goal`, in mm.
     pub(super) fn stride_mm(&self, here: &Pose, goal: &Pose) -> f64 {
         let segment_mm = self.pace.segment_mm;
         if !self.is_guarded {

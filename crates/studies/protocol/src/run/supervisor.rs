@@ -1,7 +1,7 @@
-//! Checks every reading of force and every pose, and halts the robot where one breaks a limit or cannot be trusted. It moves nothing, decides
-//! nothing else, and may be shown readings by several threads.
+//! Checks every reading of force and every pose, and halts the robot if one exceeds a limit or cannot be trusted. It moves nothing; several
+//! threads may show readings.
 //!
-//! It is no safety function: the emergency stop, the collision sensitivity of the robot and the guards are the site's duty.
+//! The supervisor is no safety function: the emergency stop, the collision sensitivity of the robot and the guards are the site's duty.
 
 mod enabling;
 mod observation;
@@ -24,36 +24,35 @@ use crate::limits::{FROZEN_READINGS, RigLimits};
 use reaction::Lateness;
 use repeats::Repeats;
 
-/// Farther from where it was sent, or from the way there, the tip has gone astray, in mm.
+/// Distance from target or path at which the tip has diverged, in mm.
 const DIVERGED_MM: f64 = 0.5;
-/// Or farther than so many standard deviations of the reported pose.
+/// The same in standard deviations of the reported pose, if that is more.
 const DIVERGED_NOISES: f64 = 5.0;
-/// No gel that is pressed at 5 mm/s or less makes force rise faster, in N/s.
+/// Greatest rate of force of a gel that is pressed at 5 mm/s or less, in N/s.
 const RATE_MAX_N_S: f64 = 200.0;
-/// Two readings this near in time have no rate that noise does not make, in s.
+/// Least time between two readings for a rate that noise does not dominate, in s.
 const RATE_SPAN_S: f64 = 0.005;
-/// While the tip retreats the force may be this much above that of the halt, in N: the noise of a transducer.
+/// Allowed rise of the force above its start in a retreat, in N: the noise of a transducer.
 const RETREAT_MARGIN_N: f64 = 0.05;
-/// Less than this is no motion, in mm: what a robot without noise reports at rest.
+/// Greatest change of pose that counts as rest without noise, in mm.
 const MOVED_MM: f64 = 1e-6;
 
-/// A supervisor that several threads show readings to.
+/// A supervisor shared by several threads.
 #[derive(Clone)]
 pub struct SharedSupervisor(Arc<Mutex<Supervisor>>);
 
 impl SharedSupervisor {
-    /// `supervisor`, shared by clones of this.
+    /// Shares `supervisor` among clones.
     pub fn new(supervisor: Supervisor) -> SharedSupervisor {
         SharedSupervisor(Arc::new(Mutex::new(supervisor)))
     }
 
-    /// The supervisor, for one reading or one change of stage. A thread that panicked with it has left it whole: it changes in no step that
-    /// can panic.
+    /// Locks the supervisor for one reading or one change of stage. Ignores poisoning: no state changes in a step that can panic.
     pub fn lock(&self) -> MutexGuard<'_, Supervisor> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The supervisor, or `None` while another thread has it: a thread in simulated time cannot wait.
+    /// Locks the supervisor; `None` while another thread holds it. A thread in simulated time cannot wait.
     pub fn try_lock(&self) -> Option<MutexGuard<'_, Supervisor>> {
         match self.0.try_lock() {
             Ok(held) => Some(held),
@@ -63,37 +62,37 @@ impl SharedSupervisor {
     }
 }
 
-/// Halts a robot as soon as a reading says so, and holds it halted until somebody asks for another stage.
+/// Halts a robot on a bad reading, and keeps the trip until [`release`](Supervisor::release).
 pub struct Supervisor {
     limits: RigLimits,
     halt: Arc<dyn Halt>,
     stage: MotionStage,
-    /// What the transducer says where nothing presses.
+    /// Reading of the transducer without load.
     zero: Wrench,
-    /// From where to where the tip goes, while it does.
+    /// Start and end of the motion in progress.
     way: Option<[Pose; 2]>,
-    /// The fault that the robot reported to somebody who looked on.
+    /// Fault that the robot reported to a guard thread.
     fault: Option<Fault>,
-    /// Where it was seen under way last.
+    /// Last pose seen in motion.
     seen: Option<Pose>,
-    /// The last force and when it was true, for its rate.
+    /// Last force and its time in s, for the rate.
     last: Option<(Wrench, f64)>,
-    /// When the last force or, before one, the watch began.
+    /// Time of the last force or, before one, of the start of the stage, in s.
     heard_s: f64,
     repeats: Repeats,
     tripped: Option<Trip>,
     enabling: Enabling,
-    /// How late readings come, while somebody measures that.
+    /// Delays of readings, while they are measured.
     lateness: Option<Lateness>,
 }
 
 impl Supervisor {
-    /// A supervisor with these limits over the robot that `halt` stops.
+    /// Creates a supervisor with these limits for the robot that `halt` stops.
     pub fn new(limits: RigLimits, halt: Arc<dyn Halt>) -> Supervisor {
         Supervisor {
             limits,
             halt,
-            // Before anybody says what the tip does, nothing is known of its zero.
+            // Until the first stage is set, the zero is unknown.
             stage: MotionStage::Retreat {
                 force_n: f64::INFINITY,
             },
@@ -110,14 +109,13 @@ impl Supervisor {
         }
     }
 
-    /// Begins to watch `stage` at `now_s`; until then the tip rested, and silence meant nothing. What it halted for stays: the robot is halted
-    /// until somebody ends that.
+    /// Begins to watch `stage` at `now_s`; staleness counts from now. A trip remains: the robot is halted until a release.
     pub fn watch(&mut self, stage: MotionStage, now_s: f64) {
         self.stage = stage;
         self.heard_s = now_s;
-        // In the air the zero of the transducer may have moved: what it said before gives no rate. Readings that repeat are counted on, or
-        // a signal that froze in the air would have the tip go on for as long again from each stage to the next. Only a zero of the
-        // transducer's own, once a run, begins anew.
+        // In the air the zero of the transducer may have changed, so earlier readings give no rate. The count of repeats continues across
+        // stages, or a signal that froze in the air would get the full allowance in each stage. Only a zero set by the transducer itself,
+        // once a run, resets it.
         match stage {
             MotionStage::Travel { .. } => self.last = None,
             MotionStage::Zeroing => {
@@ -128,61 +126,61 @@ impl Supervisor {
         }
     }
 
-    /// The same, once the halt of the robot was ended: what it was halted for is over.
+    /// Clears the trip and watches `stage`, after the halt of the robot was ended.
     pub fn release(&mut self, stage: MotionStage, now_s: f64) {
         self.tripped = None;
         self.watch(stage, now_s);
     }
 
-    /// Learns that the tip rests, wherever it is.
+    /// Marks the tip as at rest.
     pub fn rests(&mut self) {
         self.way = None;
     }
 
-    /// Whether the tip was sent somewhere and does not rest yet: then silence is a danger.
+    /// True from a sent motion until the tip rests: then missing readings are a danger.
     pub fn is_under_way(&self) -> bool {
         self.way.is_some()
     }
 
-    /// Halts because the robot reported a fault to somebody who looked on.
+    /// Halts because a guard thread saw a fault of the robot.
     pub fn fail(&mut self, fault: Fault) {
         self.fault = Some(fault);
         self.halt();
     }
 
-    /// The fault that the robot reported.
+    /// Fault that the robot reported.
     pub fn fault(&self) -> Option<Fault> {
         self.fault
     }
 
-    /// Forgets a fault that a person acknowledged at the robot.
+    /// Clears a fault that a person acknowledged at the robot.
     pub fn acknowledge(&mut self) {
         self.fault = None;
     }
 
-    /// Halts because a reading was clipped: how great the force is, nobody knows.
+    /// Halts because a reading was clipped, so the true force is unknown.
     pub fn saturated(&mut self) -> Trip {
         let force_n = f64::INFINITY;
         self.trip(Trip::Saturated { force_n })
     }
 
-    /// Halts for a reason that is no reading, such as a wish to stop.
+    /// Halts for a reason other than a reading, such as a cancellation.
     pub fn halt(&mut self) {
-        // Halting twice is halting once; a link that is gone leaves nothing else to be said.
+        // A second halt is harmless, and no error of a lost link could be reported otherwise.
         let _ = self.halt.halt();
     }
 
-    /// Takes `zero` off every later force before it is compared with a limit of the gel.
+    /// Sets the zero that is subtracted from every later force before comparison with a limit of the gel.
     pub fn call_zero(&mut self, zero: Wrench) {
         self.zero = zero;
     }
 
-    /// What is taken off every force.
+    /// Zero that is subtracted from every force.
     pub(super) fn zero(&self) -> Wrench {
         self.zero
     }
 
-    /// What presses on the gel by what the transducer said.
+    /// Subtracts the zero from a reading: the load on the gel.
     pub fn zeroed(&self, said: &Wrench) -> Wrench {
         let axes = [0, 1, 2];
         Wrench {
@@ -192,7 +190,7 @@ impl Supervisor {
         }
     }
 
-    /// Whether two looks at a tip that rests differ as those at a live transducer do.
+    /// True if two readings of a resting tip differ as those of a live transducer do.
     pub(super) fn is_live(&self, one: &Look, other: &Look) -> bool {
         match (one.number, other.number) {
             (Some(one), Some(other)) if one == other => false,
@@ -202,36 +200,36 @@ impl Supervisor {
         }
     }
 
-    /// Begins to measure how late readings come.
+    /// Begins to measure the delay of readings.
     pub(super) fn time_readings(&mut self) {
         self.lateness = Some(Lateness::default());
     }
 
-    /// From a limit that is passed to a halt that is sent, in s, by the readings since
-    /// [`time_readings`](Supervisor::time_readings): 999 of 1,000 come sooner. `None` of fewer than two readings.
+    /// Time from a passed limit to a sent halt, in s: the 99.9th percentile of the readings since
+    /// [`time_readings`](Supervisor::time_readings). `None` for fewer than two readings.
     pub(super) fn reaction_s(&mut self) -> Option<f64> {
         self.lateness.take()?.reaction_s()
     }
 
-    /// Whether the tip may rest at this depth under this force.
+    /// True if the tip may rest at this depth under this force.
     pub(super) fn lets_rest(&self, depth_mm: f64, wrench: &Wrench) -> bool {
         self.limits.hold(depth_mm, wrench)
     }
 
-    /// What it halted for, if it did.
+    /// Reason of the halt; `None` if it did not halt.
     pub fn tripped(&self) -> Option<Trip> {
         self.tripped
     }
 
-    /// Whether the last reading of force differs from that before the last motion: at rest, only such a reading is news.
+    /// True if the last force differs from the one before the last motion, which rules out a frozen signal.
     pub fn is_fresh(&self) -> bool {
         self.repeats.count() == 0
     }
 
-    /// Takes a reading; if it must not go on, the robot is halted before this returns.
+    /// Checks an observation; a bad one halts the robot before this returns.
     ///
     /// # Errors
-    /// The [`Trip`], which holds until the next [`release`](Supervisor::release).
+    /// The [`Trip`], which remains until the next [`release`](Supervisor::release).
     pub fn observe(&mut self, observation: &Observation, now_s: f64) -> Result<(), Trip> {
         let trip = self.tripped.or_else(|| match observation {
             Observation::Force(wrench, stamp) => self.force(wrench, stamp, None, now_s),
@@ -256,7 +254,7 @@ impl Supervisor {
         }
     }
 
-    /// Halts for a reason that only the driver knew, such as a clipped reading.
+    /// Halts for `trip`; returns the first trip since the last release.
     pub(crate) fn trip(&mut self, trip: Trip) -> Trip {
         self.halt();
         *self.tripped.get_or_insert(trip)
@@ -302,7 +300,7 @@ impl Supervisor {
     }
 
     fn force_trip(&self, wrench: &Wrench) -> Option<Trip> {
-        // What the transducer can measure is a matter of what it says; what the gel bears, of what presses on it.
+        // Saturation applies to the raw reading, limits of the gel to the zeroed one.
         let greatest = wrench.force.map(|force| force.0.abs());
         let greatest = greatest.into_iter().fold(0.0, f64::max);
         if let Some(saturation) = self.limits.saturation
@@ -312,7 +310,7 @@ impl Supervisor {
         }
         let [x, y, z] = self.zeroed(wrench).force.map(|force| force.0);
         let (normal_max, shear_max) = (self.limits.normal_max.0, self.limits.shear_max.0);
-        // A root is taken where it can matter: √2/2 of the limit is within it.
+        // Computes the root only near the limit: √2/2 of it is within.
         let shear = if x.abs().max(y.abs()) > 0.5 * shear_max {
             x.hypot(y)
         } else {
@@ -344,7 +342,7 @@ impl Supervisor {
         })
     }
 
-    /// A tip that moves is on its way; one that rests under a watch of its own is no news for its force.
+    /// Checks a pose in motion. A pose that has not changed does not count as a motion between readings.
     fn under_way(&mut self, pose: &Pose, stamp: &Stamp, now_s: f64) -> Option<Trip> {
         let seen = *self.seen.get_or_insert(*pose);
         if distance(pose, &seen) > MOVED_MM.max(self.limits.signals.slack_mm()) {
@@ -358,7 +356,7 @@ impl Supervisor {
         })
     }
 
-    /// Whether a pose is a place, is news, and is not too deep.
+    /// Checks that a pose is finite, fresh and not too deep.
     fn place(&self, pose: &Pose, stamp: &Stamp, now_s: f64) -> Option<Trip> {
         if check_pose(pose).is_err() || !stamp.valid_s.is_finite() {
             return Some(Trip::NotFinite);
@@ -372,7 +370,7 @@ impl Supervisor {
         };
         let depth_mm = pose.position.z.0 - height_mm;
         let limit_mm = self.limits.depth_max.0;
-        // A tip that reaches the limit itself does what it was allowed; the robot's own noise is not a trespass.
+        // The allowed overshoot includes the noise of the robot at the limit itself.
         let is_trespass = depth_mm > limit_mm + self.limits.overshoot.healthy_mm;
         is_trespass.then_some(Trip::Depth { depth_mm, limit_mm })
     }

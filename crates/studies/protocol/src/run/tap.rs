@@ -1,7 +1,7 @@
-//! Taps: the tip touches the gel at one place again and again, fast and slowly in turn, while others listen to every device.
+//! Taps: the tip touches the gel at one place repeatedly, alternating fast and slow, while listeners record every device.
 //!
-//! Tip, force and picture change at the same moment; what a device says later is its latency. A force that is read at half of its rise was
-//! felt a little beside the height at which the pose is taken: that way takes less time the faster the tip goes, and a latency does not.
+//! Position, force and picture change at the same moment; the delay of a device is its latency. The force reaches half of its rise at an
+//! offset from the reference height of the pose. The time over this offset shrinks with speed; a latency does not.
 
 mod edges;
 mod heard;
@@ -24,33 +24,33 @@ use super::{Controls, Devices, Mode, RunSpec};
 use crate::content_id::ContentId;
 use crate::plan::Plan;
 
-/// The slow ones go at this part of the speed of contact.
+/// Speed of slow taps, as a part of the speed of contact.
 const SLOW_PART: f64 = 1.0 / 3.0;
-/// So far above the gel a tap begins, in mm: far enough for a few frames in the air.
+/// Height above the gel at which a tap begins, in mm: it leaves time for a few frames in the air.
 const LEAD_MM: f64 = 0.5;
-/// It ends at this part of the greatest depth, and of the greatest force as far as the first touch foretells it.
+/// Depth and force at the end of a tap, as parts of their limits; the force is predicted from the first touch.
 const PART: f64 = 0.4;
-/// How long is listened before the tip moves, and after it came to rest: the latest device has spoken then.
+/// Time of recording before the motion, and after it: even the latest device has reacted then.
 const BEFORE: Duration = Duration::from_millis(150);
 const AFTER: Duration = Duration::from_millis(600);
-/// Silence may break a tap off so many times in a row.
+/// Interruptions of a tap by stale signals in a row that end the run.
 const TRIES: u32 = 3;
 
-/// Somebody who listens to the devices of a rig while it taps, in threads of its own.
+/// Listener to the devices of a rig during taps, in threads of its own.
 pub trait TapListener {
-    /// A tap begins, with the tip at rest above the gel.
+    /// Starts recording, with the tip at rest above the gel.
     fn begins(&mut self);
-    /// The tap is over, or was broken off: what was heard since it began.
+    /// Stops recording and returns it, after a tap or its interruption.
     fn ends(&mut self) -> TapHeard;
-    /// The tap was made to its end, and is not made again.
+    /// Confirms the last tap, which is not repeated.
     fn counts(&mut self);
 }
 
-/// Taps the gel at its middle, and says by how much later each device says it than the robot says where the tip is.
+/// Taps the gel at its middle and measures the latency of each device behind the pose of the robot.
 ///
-/// It begins as a session does (see [`run_guarded`](super::run_guarded)): somebody enables the robot, readings are timed, and a gentle touch
-/// must contradict nothing in the rig file. `supervisor` is shown every reading of force and every pose by threads. The presses of `plan` are
-/// not made; they have no pictures, since the sensor is the listener's.
+/// Starts like a session (see [`run_guarded`](super::run_guarded)): the operator enables the robot, readings are timed, and a gentle touch
+/// must agree with the rig file. Threads show every reading of force and every pose to `supervisor`. The presses of `plan` are not made,
+/// and no pictures are taken here, since the listener holds the sensor.
 ///
 /// # Errors
 /// [`RunError`] as of [`run_guarded`](super::run_guarded).
@@ -125,7 +125,7 @@ impl Run<'_> {
         Ok(tapped)
     }
 
-    /// One tap, again from its beginning where silence or a released switch broke it off.
+    /// Makes one tap; repeats it after stale signals or a released switch.
     fn tap_patiently(
         &mut self,
         way: &Way,
@@ -179,13 +179,13 @@ impl Run<'_> {
     }
 }
 
-/// From where to where a tap goes, in mm of the sensor's frame.
+/// Heights of a tap, in mm of the sensor's frame.
 #[derive(Clone, Copy, Debug)]
 struct Way {
     from_mm: f64,
     contact_mm: f64,
     bottom_mm: f64,
-    /// The height whose passage is the moment of a tap.
+    /// Reference height; its passage is the time of a tap.
     reference_mm: f64,
 }
 
@@ -194,10 +194,10 @@ impl Way {
         let limits = plan.limits.as_ref();
         let [depth_max_mm, normal_max_n] =
             limits.map_or([0.0; 2], |limits| [limits.depth_max.0, limits.normal_max.0]);
-        // A ball on a gel is pressed by a force that grows as the depth to 3/2 (Hertz 1881), a flat tip by one that grows slower.
+        // The force of a ball on a gel grows with depth^(3/2) (Hertz 1881), that of a flat tip more slowly.
         let rise = (PART * normal_max_n / touch.force_n).powf(2.0 / 3.0);
         let by_force_mm = touch.depth_mm * rise;
-        // What was touched gently before may be touched again.
+        // The depth of the gentle touch is allowed again.
         let depth_mm = by_force_mm
             .min(PART * depth_max_mm)
             .max(touch.depth_mm.min(depth_max_mm));
@@ -210,7 +210,7 @@ impl Way {
     }
 }
 
-/// Keeps how the session began; nothing is recorded.
+/// Stores the start of the session; records no press.
 struct Begun(Option<SessionRecord>);
 
 impl PressLog for Begun {

@@ -1,36 +1,36 @@
-//! The clock of a run and the request to stop it: the caller gives both, and nothing here reads a clock of its own.
+//! Clock and cancellation of a run, both given by the caller; this crate reads no clock of its own.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// The clock of a run: the same that the stamps of the devices are of, in s; it never goes back.
+/// Clock of a run, in s: the clock of the stamps of the devices. It never goes back.
 ///
-/// (Core's [`Clock`](taceva_core::Clock) only says which kind of clock a recording used.)
+/// (Core's [`Clock`](taceva_core::Clock) names only the kind of clock of a recording.)
 pub trait Timekeeper {
-    /// The time now.
+    /// Current time, in s.
     fn now_s(&self) -> f64;
 
-    /// Lets `rest` pass.
+    /// Waits for `rest`.
     fn rest(&mut self, rest: Duration);
 }
 
-/// A wish to stop that anybody may express from any thread; a run sees it before its next motion.
+/// A cancellation, from any thread; a run stops before its next motion.
 #[derive(Clone, Debug, Default)]
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// Not cancelled.
+    /// Creates a cancellation that is not set.
     pub fn new() -> Cancel {
         Cancel::default()
     }
 
-    /// Cancels; this cannot be undone.
+    /// Cancels for good.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Release);
     }
 
-    /// Whether it was cancelled.
+    /// True once cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Acquire)
     }

@@ -1,4 +1,4 @@
-//! The tip of the robot: every motion is admitted, cut into segments where the gel may be touched, and followed by a look.
+//! The tip of the robot: every motion is checked, cut into segments where it may touch the gel, and followed by a reading.
 
 use std::time::Duration;
 
@@ -20,55 +20,55 @@ use super::way::{distance, part_way, settled};
 use crate::limits::FROZEN_READINGS;
 use crate::plan::Plan;
 
-/// For everything that is no motion.
+/// Deadline of every call except motions.
 pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 /// Segments that a motion may take beyond twice those of its way, before the robot counts as stuck.
 const SPARE_SEGMENTS: f64 = 8.0;
 
-/// While the zero is not known, or the force in which a halt left the tip: what the transducer can measure is the only limit.
+/// Stage while the zero or the present force is unknown: only saturation of the transducer limits the force.
 pub(super) const ANY_FORCE: MotionStage = MotionStage::Retreat {
     force_n: f64::INFINITY,
 };
-/// So many times the force that counts as contact is a collision in the air: arms shake what they carry.
+/// Force of a collision in the air, in multiples of the contact threshold: arms shake what they carry.
 const COLLISION_THRESHOLDS: f64 = 10.0;
 
-/// A step of a press: done, or the reason why the run must stop.
+/// Result of a step of a press; the error is the cause that stops it.
 pub(super) type Step<T> = Result<T, StopCause>;
 
-/// The tip, and those who watch it.
+/// The tip, with the devices and the supervisor that watch it.
 pub(super) struct Tip<'a> {
     pub(super) robot: &'a mut dyn Robot,
     pub(super) force: &'a mut dyn ForceTransducer,
     pub(super) clock: &'a mut dyn Timekeeper,
     pub(super) cancel: &'a Cancel,
     pub(super) supervisor: SharedSupervisor,
-    /// Whether threads show every reading of force to the supervisor.
+    /// True if threads show every reading of force to the supervisor.
     pub(super) is_guarded: bool,
     pub(super) bounds: Bounds,
     pub(super) pace: Pace,
-    /// Where it was seen last.
+    /// Last pose read.
     pub(super) at: Pose,
-    /// Where it was sent last.
+    /// Last target.
     pub(super) target: Pose,
-    /// The height of the first contact, while it may be in the gel.
+    /// Height of the first contact, while the tip may be in the gel.
     pub(super) contact_mm: Option<f64>,
-    /// What is watched.
+    /// Present stage.
     pub(super) stage: MotionStage,
-    /// What was felt last.
+    /// Last force.
     pub(super) felt: Felt,
-    /// Where the gel begins that was felt highest, in mm.
+    /// Highest height at which the gel was felt, in mm.
     pub(super) surface_mm: Option<f64>,
-    /// Whether the robot itself reported a fault: then a person must look first.
+    /// True if the robot reported a fault: then a person must check it first.
     pub(super) robot_failed: bool,
-    /// Whether cancellation is ignored, because the tip is retracting already.
+    /// True while a retreat ignores cancellation.
     pub(super) ignores_cancel: bool,
-    /// Whether the transducer was asked to set its own zero, which is done once where the host finds the zero by itself.
+    /// True once the transducer has set its own zero, which happens once if the host zeroes the force.
     pub(super) is_box_zeroed: bool,
-    /// Whether the zero is that of what the robot carries now.
+    /// True if the zero holds for the present load of the robot.
     pub(super) is_zero_known: bool,
 }
 
-/// How fast, how far, how hard.
+/// Speeds, lengths and forces of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
     pub(super) contact: Speed,
@@ -78,18 +78,18 @@ pub(super) struct Pace {
     pub(super) search_mm: f64,
     settle: Duration,
     pub(super) threshold_n: f64,
-    /// The force above which something is touched at rest in the air: that of contact, or what noise is not.
+    /// Least force that counts as contact at rest in the air, in N: the threshold, or more if noise demands it.
     pub(super) air_n: f64,
     pub(super) normal_max_n: f64,
     pub(super) bearing: Bearing,
     pub(super) clearance_mm: f64,
-    /// A pose within this of where the tip was sent is there, along each axis.
+    /// Tolerance of a reported pose along each axis, in mm: a pose this close to its target has arrived.
     pub(super) slack_mm: f64,
     pub(super) host_zero: bool,
 }
 
 impl Pace {
-    /// The pace of `plan`; `None` of a plan in which nothing moves.
+    /// Pace of `plan`; `None` if the plan moves nothing.
     pub(super) fn of(plan: &Plan) -> Option<Pace> {
         let limits = plan.limits.as_ref()?;
         let contact = &plan.contact;
@@ -116,7 +116,7 @@ impl Pace {
     }
 }
 
-/// Whether a robot says nothing, and no more is wrong.
+/// True for a timeout without a fault.
 pub(super) fn is_silent(error: &DriverError) -> bool {
     error.kind() == ErrorKind::Timeout && error.fault().is_none()
 }
@@ -153,25 +153,25 @@ impl<'a> Tip<'a> {
         }
     }
 
-    /// Where it is taken to be: where it was sent, if nothing but noise tells that from where it was seen.
+    /// Assumed pose: the target, if only noise separates it from the reported pose.
     pub(super) fn here(&self) -> Pose {
         settled(&self.at, &self.target, self.pace.slack_mm)
     }
 
-    /// Learns where it stands, and goes straight up to the height of travel if it stands below.
+    /// Reads the pose, and raises the tip straight to the height of travel if it is lower.
     pub(super) fn find(&mut self) -> Step<()> {
         self.release()?;
         self.find_pose()?;
         let height = -self.pace.clearance_mm;
         if self.target.position.z.0 > height {
-            // Whoever left it there may have left it in the gel.
+            // The tip may have been left in the gel.
             self.contact_mm = Some(self.target.position.z.0);
             self.retreat()?;
         }
         Ok(())
     }
 
-    /// Goes through the air to `place` at `height_mm`, and calls the force there zero.
+    /// Moves through the air to `place` at `height_mm`, and zeroes the force there.
     pub(super) fn travel(&mut self, place: [f64; 2], turn: Degree, height_mm: f64) -> Step<()> {
         let [x, y] = place.map(Millimetre);
         let z = Millimetre(height_mm);
@@ -182,7 +182,7 @@ impl<'a> Tip<'a> {
                 ..Rotation::default()
             },
         };
-        // The tip stands at this height or above it, so the way there is in the air.
+        // The tip is at this height or above it, so the way is in the air.
         self.watch_way()?;
         self.go(over, self.pace.travel)?;
         self.call_zero()?;
@@ -191,7 +191,7 @@ impl<'a> Tip<'a> {
         self.look().map(drop)
     }
 
-    /// Begins to watch the way through the air: for a collision, where threads look on and the zero is known that holds there.
+    /// Sets the stage for a way through the air. Guard threads check it for collisions if the zero is known.
     pub(super) fn watch_way(&mut self) -> Step<()> {
         if self.is_zero_known || !self.pace.host_zero {
             let threshold_n = match self.is_guarded {
@@ -207,9 +207,9 @@ impl<'a> Tip<'a> {
         Ok(())
     }
 
-    /// Goes straight to a place in mm, in motions as long as may be, each followed by a look.
+    /// Moves straight to a place in mm, by the longest allowed motions, each followed by a reading.
     ///
-    /// Each begins where the tip really is, so that one that lagged behind does not leap after its target.
+    /// Each motion starts at the actual pose, so a lagging tip does not leap after its target.
     pub(super) fn approach(&mut self, [x, y, z]: [f64; 3]) -> Step<()> {
         let [x, y, z] = [x, y, z].map(Millimetre);
         let goal = Pose {
@@ -223,7 +223,7 @@ impl<'a> Tip<'a> {
             let (way_mm, stride_mm) = (distance(&here, &goal), self.stride_mm(&here, &goal));
             if way_mm <= stride_mm {
                 self.go(goal, self.pace.contact)?;
-                // One that stuck in a long motion goes on; in the last segment it may lag, which its label says.
+                // A tip that lags after a long motion continues. In the last segment it may lag, as its label shows.
                 if way_mm <= segment_mm || distance(&self.here(), &goal) <= segment_mm {
                     return Ok(());
                 }
@@ -239,7 +239,7 @@ impl<'a> Tip<'a> {
         }
     }
 
-    /// Lets the gel come to rest, and looks until the force is not that of before the last motion.
+    /// Waits until the gel rests, then reads until the force differs from that before the last motion.
     pub(super) fn settle(&mut self) -> Step<Look> {
         self.clock.rest(self.pace.settle);
         for _ in 0..FROZEN_READINGS {
@@ -252,21 +252,21 @@ impl<'a> Tip<'a> {
         Err(self.halt_for(Trip::Frozen { readings }))
     }
 
-    /// Begins to watch `stage`. What a thread that looks on halted for a moment ago stays, as the halt of the robot does.
+    /// Sets the stage. A trip of a guard thread remains, as does the halt of the robot.
     pub(super) fn watch(&mut self, stage: MotionStage) {
         self.stage = stage;
         let now_s = self.clock.now_s();
         self.supervisor.lock().watch(stage, now_s);
     }
 
-    /// Ends a halt. Nobody halts again for the force that is there, before it is known how great it is.
+    /// Ends a halt. No stage limits the present force until it is known.
     pub(super) fn release(&mut self) -> Step<()> {
         let supervisor = self.supervisor.clone();
-        // Threads that look on wait meanwhile: what they see next belongs to the new stage.
+        // Guard threads wait meanwhile: their next readings belong to the new stage.
         let mut held = supervisor.lock();
         let asked_s = self.clock.now_s();
         match self.clear_halt() {
-            // A robot that says nothing is silent, as a transducer is: it stays halted.
+            // A robot that does not answer has a stale pose and stays halted.
             Err(StopCause::Device(error)) if is_silent(&error) => {
                 let age_s = self.clock.now_s() - asked_s;
                 return Err(StopCause::Tripped(held.trip(Trip::StalePose { age_s })));
@@ -284,13 +284,13 @@ impl<'a> Tip<'a> {
 
     fn clear_halt(&mut self) -> Step<()> {
         self.robot.clear_halt(DEADLINE).map_err(|error| {
-            // One that says nothing may yet; everything else is a matter for a person.
+            // A timeout may pass; any other error needs a person.
             self.robot_failed |= !is_silent(&error);
             StopCause::Device(error)
         })
     }
 
-    /// Learns where the tip is; it is where it should be. What noise alone makes of where it was sent is not believed.
+    /// Reads the pose and makes it the target. Differences from the old target within the noise are ignored.
     pub(super) fn find_pose(&mut self) -> Step<()> {
         let (pose, _) = match self.robot.pose(DEADLINE) {
             Ok(read) => read,
@@ -301,9 +301,9 @@ impl<'a> Tip<'a> {
         Ok(())
     }
 
-    /// A robot that fails is halted, whatever it says.
+    /// Halts a robot that failed, and returns the cause.
     ///
-    /// After a [`Fault`](taceva_core::Fault) it is not moved again, nor is the fault cleared.
+    /// After a [`Fault`](taceva_core::Fault) the robot is not moved again, and the fault is not cleared.
     pub(super) fn failed(&mut self, error: DriverError) -> StopCause {
         let _ = self.robot.halt();
         let is_grave = [ErrorKind::DeviceFault, ErrorKind::Disconnected].contains(&error.kind());
@@ -320,7 +320,7 @@ impl<'a> Tip<'a> {
         if !may_be_halted || error.fault().is_some() {
             return StopCause::Device(error);
         }
-        // Somebody who looked on halted it, or saw before the robot did that nothing comes from it.
+        // A guard thread halted the robot, or saw first that a signal is missing.
         match tripped {
             Some(trip) => StopCause::Tripped(trip),
             None if error.kind() == ErrorKind::Timeout => StopCause::Device(error),
@@ -332,7 +332,7 @@ impl<'a> Tip<'a> {
         }
     }
 
-    /// The place of a waypoint: over `place`, sheared, at `depth` below `height_mm`.
+    /// Place of a waypoint: over `place`, sheared, at `depth` below `height_mm`.
     pub(super) fn waypoint(
         place: [Nanometre; 2],
         shear: [Nanometre; 2],
@@ -362,7 +362,7 @@ mod tests {
         let cause = cause.expect_err("it stands where it stood");
         let stuck = StopCause::Tripped(Trip::Diverged { distance_mm: 1.0 });
         assert_eq!(cause.to_string(), stuck.to_string());
-        // 16 for the way, 8 to spare, and the one that finds patience at its end.
+        // 16 for the way, 8 to spare, and the one that exceeds the allowance.
         assert_eq!(rig.motions().len(), 16 + 8 + 1);
         for motion in rig.motions() {
             assert_eq!((motion.from_mm, motion.to_mm), (1.0, 1.0 - SEGMENT_MM));
@@ -377,7 +377,7 @@ mod tests {
             tip.release()?;
             tip.find_pose()?;
             tip.look()?;
-            // It reads nothing for 60 ms, just before the next stage is watched.
+            // A guard thread reads nothing for 60 ms, just before the next stage is set.
             let late_s = tip.clock.now_s() + 0.06;
             let seen = tip.supervisor.lock().observe(&Observation::Silence, late_s);
             assert!(seen.is_err());

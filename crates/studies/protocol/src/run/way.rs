@@ -1,26 +1,26 @@
-//! Ways of the tip: how far places are apart, and which of them are one place to a robot whose reported pose is noisy.
+//! Distances between places, and their equality under the noise of a reported pose.
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 
-/// Nearer than this, in degrees, a robot whose pose is noisy counts as turned as it was asked to be: arms come back to hundredths.
+/// Tolerance of the rotation of a robot with a noisy pose, in degrees: arms repeat to hundredths.
 const TURN_SLACK_DEG: f64 = 0.1;
 
-/// A way that leads aside by no more than this part of itself leads straight on.
+/// Greatest sideways part of a straight way.
 const ASIDE_PART: f64 = 0.01;
 
-/// How far two tips are apart, in mm.
+/// Distance between two tips, in mm.
 pub(crate) fn distance(one: &Pose, other: &Pose) -> f64 {
     let (one, other) = (&one.position, &other.position);
     let [x, y] = [one.x.0 - other.x.0, one.y.0 - other.y.0];
     let z = one.z.0 - other.z.0;
-    // Most ways are straight down: then nothing is left of the roots.
+    // Most ways are straight down: this avoids the roots.
     if x == 0.0 && y == 0.0 {
         return z.abs();
     }
     x.hypot(y).hypot(z)
 }
 
-/// How far a tip is from the straight way between two others, its ends included, in mm.
+/// Distance of a tip from the straight way between two others, ends included, in mm.
 pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
     let coordinates = |pose: &Pose| {
         let Point { x, y, z } = pose.position;
@@ -41,8 +41,7 @@ pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
     distance(tip, &part_way(from, to, part))
 }
 
-/// Where the tip is taken to be that was seen at `seen` after it was sent to `sent`: along each axis where it was sent if it was seen
-/// within `slack_mm` of it, else where it was seen.
+/// Assumed pose of a tip: along each axis `sent` if `seen` is within `slack_mm` of it, else `seen`.
 pub(super) fn settled(seen: &Pose, sent: &Pose, slack_mm: f64) -> Pose {
     let settle = |seen: Millimetre, sent: Millimetre| {
         let is_there = (seen.0 - sent.0).abs() < slack_mm;
@@ -68,20 +67,20 @@ pub(super) fn settled(seen: &Pose, sent: &Pose, slack_mm: f64) -> Pose {
     }
 }
 
-/// Whether a motion only leaves the gel: that is allowed from wherever the tip was found.
+/// True if a motion only leaves the gel, which is allowed from any place.
 pub(super) fn is_straight_up(from: &Pose, to: &Pose) -> bool {
     let (start, end) = (&from.position, &to.position);
     start.x == end.x && start.y == end.y && end.z <= start.z
 }
 
-/// Whether a motion goes into the gel, and along it by no more than what links round of poses: a hundredth of the way.
+/// True if a motion goes into the gel and sideways by at most a hundredth of the way, as links round poses.
 pub(super) fn is_straight_down(from: &Pose, to: &Pose) -> bool {
     let (start, end) = (&from.position, &to.position);
     let aside_mm = (end.x.0 - start.x.0).hypot(end.y.0 - start.y.0);
     aside_mm <= ASIDE_PART * (end.z.0 - start.z.0)
 }
 
-/// A pose between two, turned as the second.
+/// A pose between two, with the rotation of the second.
 pub(super) fn part_way(from: &Pose, to: &Pose, part: f64) -> Pose {
     let mix = |from: Millimetre, to: Millimetre| Millimetre(from.0 + (to.0 - from.0) * part);
     let (start, end) = (&from.position, &to.position);
@@ -120,7 +119,7 @@ mod tests {
             let found = distance_from_way(&pose(tip), &from, &to);
             assert!((found - expected).abs() < 1e-12, "{tip:?}: {found}");
         }
-        // A way of no length is a place.
+        // A way of length 0 is a place.
         let found = distance_from_way(&pose([1.0, 2.0, 1.0]), &to, &to);
         assert!((found - 1.0).abs() < 1e-12, "{found}");
     }

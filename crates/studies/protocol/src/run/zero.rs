@@ -1,17 +1,17 @@
-//! The zero of the force: that of the transducer, or, where it runs in the time of the machine, the mean of what it says in the air.
+//! The zero of the force: set by the transducer, or, on a real rig, computed as the mean of readings in the air.
 
 use taceva_core::{Newton, NewtonMillimetre, Wrench};
 
 use super::supervisor::MotionStage;
 use super::tip::{ANY_FORCE, DEADLINE, Step, Tip};
 
-/// How long the host listens, in s: a box that answers a command of its own for a new zero takes up to seconds, at every press.
+/// Duration of the mean, in s; a command that zeroes an amplifier takes up to seconds at every press.
 const LISTEN_S: f64 = 0.25;
-/// Readings that a mean has at least, of a transducer that gives few in that time.
+/// Least number of readings of a mean, for slow transducers.
 const LEAST_READINGS: u32 = 4;
 
 impl Tip<'_> {
-    /// Calls what presses now zero; the tip is in the air.
+    /// Zeroes the force; the tip is in the air.
     pub(super) fn call_zero(&mut self) -> Step<()> {
         if self.pace.host_zero {
             return self.call_zero_by_host();
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn the_host_calls_the_mean_of_a_quarter_of_a_second_zero() {
-        // A load of 0.5 N rests on the transducer, which errs by 1 mN in turn.
+        // A load of 0.5 N rests on the transducer, with an error that alternates by 1 mN.
         let rig = Rig::new(-3.0, |question, _| {
             Some(0.5 + 0.001 * f64::from(question % 2) + f64::from(question) * 1e-9)
         });
@@ -86,7 +86,7 @@ mod tests {
         });
         let force_n = force_n.expect("it rests");
         assert!(force_n.abs() < 0.000_6, "{force_n} N");
-        // Readings come every millisecond.
+        // One reading takes a millisecond.
         let listened_s = rig.state().now_s - before_s;
         assert!((0.25..0.26).contains(&listened_s), "{listened_s} s");
     }

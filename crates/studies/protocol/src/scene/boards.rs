@@ -1,27 +1,27 @@
-//! The catalogue of boards there are.
+//! Catalogue of the boards.
 
 use taceva_core::Nanometre;
 
 use crate::scene::Gratings;
 use crate::text::SceneProblem;
 
-/// The finest board of the catalogue (TacEva 2025, spatial resolution).
+/// Finest spacing of the catalogue (TacEva 2025, spatial resolution).
 const FINEST: Nanometre = Nanometre(250_000);
-/// The coarsest.
+/// Coarsest spacing.
 const COARSEST: Nanometre = Nanometre(1_750_000);
-/// From one board to the next.
+/// Step between spacings.
 const STEP: Nanometre = Nanometre(50_000);
 const CATALOGUE: &str = "0.25 mm to 1.75 mm in steps of 0.05 mm, lines and dots";
 
-/// Why gratings are refused.
+/// Error for gratings outside the catalogue.
 pub(crate) struct RefusedGratings {
-    /// Where it was written.
+    /// Byte offset in the scene.
     pub(crate) at: Option<usize>,
-    /// What is wrong.
+    /// Problem.
     pub(crate) problem: SceneProblem,
 }
 
-/// The spacings that `gratings` asks for, each of which is in the catalogue.
+/// Spacings that `gratings` requests, checked against the catalogue.
 pub(crate) fn spacings(gratings: &Gratings) -> Result<Vec<Nanometre>, RefusedGratings> {
     let Gratings {
         from_mm,

@@ -1,9 +1,9 @@
-//! Scenes that are compiled in.
+//! Scenes compiled into the program.
 
 use super::Scene;
 use crate::text::SceneError;
 
-/// A scene that is compiled in.
+/// A scene compiled into the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BuiltinScene {
     /// Four simulated sensors, all metrics, small counts and a light model.
@@ -13,10 +13,10 @@ pub enum BuiltinScene {
 }
 
 impl BuiltinScene {
-    /// Every one.
+    /// All built-in scenes.
     pub const ALL: [BuiltinScene; 2] = [BuiltinScene::Quick, BuiltinScene::Paper];
 
-    /// What a person types.
+    /// Name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             BuiltinScene::Quick => "quick",
@@ -24,14 +24,14 @@ impl BuiltinScene {
         }
     }
 
-    /// The scene written as `name`.
+    /// Finds a scene by its name.
     pub fn from_name(name: &str) -> Option<BuiltinScene> {
         BuiltinScene::ALL
             .into_iter()
             .find(|scene| scene.name() == name)
     }
 
-    /// Its TOML, to be read, copied and changed.
+    /// TOML text, to read, copy and change.
     pub const fn text(self) -> &'static str {
         match self {
             BuiltinScene::Quick => include_str!("../scenes/quick.toml"),
@@ -39,10 +39,10 @@ impl BuiltinScene {
         }
     }
 
-    /// The scene.
+    /// Parses the scene.
     ///
     /// # Errors
-    /// As [`Scene::parse`]; a test reads every one.
+    /// As [`Scene::parse`]; a test parses every one.
     pub fn scene(self) -> Result<Scene, SceneError> {
         Scene::parse(self.name(), self.text())
     }

@@ -1,4 +1,4 @@
-//! From what is written to a scene: the checks that a parser of types cannot make.
+//! Checks of a scene beyond the types of its keys.
 
 mod document;
 mod protocol;
@@ -17,10 +17,10 @@ use crate::text::Text;
 use crate::text::{SceneError, SceneProblem};
 use document::WrittenScene;
 
-/// The longest length in a scene, in mm.
+/// Longest length in a scene, in mm.
 const GREATEST_LENGTH: f64 = 1_000.0;
 
-/// The scene that `text` says, checked.
+/// Parses and checks the scene `text`.
 pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError> {
     let written: WrittenScene = text.read()?;
     let named_by = match &written.rig {
@@ -72,12 +72,12 @@ impl Check<'_> {
         }
     }
 
-    /// Whether another file names the devices.
+    /// True if a rig file names the devices.
     fn is_named_elsewhere(&self) -> bool {
         self.named_by == NamedBy::Rig
     }
 
-    /// A name that can be printed, and become part of a file's name.
+    /// Checks a name, which must be printable and can become part of a file name.
     fn name(&self, what: &str, name: &Setting<String>) -> Checked {
         let is_plain = |text: &str| {
             let is_short = (1..=80).contains(&text.len());

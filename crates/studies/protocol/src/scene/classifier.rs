@@ -1,8 +1,8 @@
-//! How the spacing of a grating is classified.
+//! Classifiers of the spacing of a grating.
 
 use serde::{Deserialize, Serialize};
 
-/// What classifies the spacing of a grating from a picture of it, lines and dots apart.
+/// Classifier of the spacing of a grating from its picture, with separate fits for lines and dots.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum GratingClassifier {
@@ -14,6 +14,6 @@ pub enum GratingClassifier {
     LinfaLogistic,
     /// A small network with an output for each spacing.
     Cnn,
-    /// A small network with one output, the spacing itself, which may lie between those of the training samples.
+    /// A small network with one output, the spacing, which may be between those of the training samples.
     CnnLength,
 }

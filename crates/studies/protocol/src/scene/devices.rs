@@ -1,4 +1,4 @@
-//! The devices that a scene names, and the facts it states about a sensor.
+//! Devices of a scene, and stated facts of a sensor.
 
 use std::collections::BTreeMap;
 
@@ -7,11 +7,11 @@ use taceva_core::Footprint;
 
 use crate::text::Setting;
 
-/// A device by the name of its driver.
+/// A device, named by its driver.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `driver`")]
 pub struct DeviceSpec {
-    /// A selector, `kind/name` or `kind/name:key=value;key=value`.
+    /// Selector, `kind/name` or `kind/name:key=value;key=value`.
     pub driver: Setting<String>,
 }
 
@@ -19,41 +19,40 @@ pub struct DeviceSpec {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `driver` or `scenes`")]
 pub struct LightingSpec {
-    /// A selector, as of every device; without one the sensor's own light is set, and where that has none somebody sets it by hand.
+    /// Selector. Without one the light of the sensor is set; if it has none, a person sets the light.
     pub driver: Option<Setting<String>>,
-    /// The scenes of light to visit; all that the driver has when absent, which light that is set by hand must not. The first is the one of
-    /// calibration.
+    /// Scenes of light to visit, that of calibration first. All scenes of the driver if absent; required for light that a person sets.
     pub scenes: Option<Setting<Vec<String>>>,
 }
 
-/// A sensor: a driver, or a recording of one.
+/// A sensor: a driver or a recording.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `driver` or `dataset`")]
 pub struct SensorSpec {
-    /// A selector, as of every device.
+    /// Selector of the driver.
     pub driver: Option<Setting<String>>,
-    /// The folder of a recording, instead of a driver; relative to the scene.
+    /// Folder of a recording instead of a driver, relative to the scene.
     pub dataset: Option<Setting<String>>,
-    /// The units of the sensor model that are measured, by name; one that is called `1` when absent.
+    /// Names of the units to measure; a single unit `1` if absent.
     pub units: Option<Setting<Vec<String>>>,
-    /// Whether ambient light cannot reach the camera.
+    /// True if ambient light cannot reach the camera.
     pub opaque: Option<Setting<bool>>,
-    /// Whether the gel carries markers.
+    /// True if the gel has markers.
     pub markers: Option<Setting<bool>>,
-    /// The outline of the surface that senses, seen from above.
+    /// Outline of the sensing surface, seen from above.
     pub footprint: Option<Setting<FootprintSpec>>,
 }
 
-/// The sensing surface seen from above.
+/// Sensing surface, seen from above.
 ///
 /// # Units
 /// mm.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `shape`")]
 pub struct FootprintSpec {
-    /// Its outline.
+    /// Shape of the outline.
     pub shape: Shape,
-    /// Of a disc.
+    /// Radius of a disc.
     pub radius_mm: Option<f64>,
     /// Half the width of a rectangle.
     pub half_x_mm: Option<f64>,
@@ -71,26 +70,26 @@ pub enum Shape {
     Rect,
 }
 
-/// The model that turns pictures into positions and forces: one to fit, or a finished one.
+/// Model from pictures to positions and forces: an estimator to fit, or a finished model.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `name` or `file`")]
 pub struct ModelSpec {
-    /// The name of an estimator: `ridge`, `pls`, `forest` and so on.
+    /// Name of an estimator: `ridge`, `pls`, `forest` and so on.
     pub name: Option<Setting<String>>,
-    /// A finished model, instead of a name; relative to the scene.
+    /// Path of a finished model instead of a name, relative to the scene.
     pub file: Option<Setting<String>>,
-    /// Its settings, by name.
+    /// Settings of the estimator, by name.
     #[serde(default)]
     pub set: BTreeMap<String, toml::Value>,
 }
 
-/// The key of a selector: what stands before its arguments.
+/// Key of a selector: the part before its arguments.
 pub(crate) fn key_of(selector: &str) -> &str {
     selector.split_once(':').map_or(selector, |(key, _)| key)
 }
 
 impl FootprintSpec {
-    /// The footprint it says, or what is missing or too much.
+    /// Builds the footprint; the error names the missing or superfluous length.
     pub(crate) fn footprint(&self, depth_max_mm: Option<f64>) -> Result<Footprint, String> {
         let FootprintSpec {
             shape,

@@ -1,4 +1,4 @@
-//! What a scene wants computed and written.
+//! Metrics and reports of a scene.
 
 use std::fmt;
 
@@ -14,13 +14,13 @@ use crate::text::Setting;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(remote = "Self", deny_unknown_fields, default)]
 pub struct MetricsSpec {
-    /// Names of metrics or groups; all that apply when absent. A metric named by itself must apply to some sensor of the scene.
+    /// Names of metrics or groups; all that apply if absent. A metric named by itself must apply to some sensor of the scene.
     pub want: Option<Vec<Setting<String>>>,
-    /// How they are computed.
+    /// Settings of the metrics.
     pub settings: MetricSettings,
 }
 
-// What is derived would take a list for the fields in order, and then miss a list in its first element.
+// A derived implementation would accept a list as fields in order, and then expect a list in its first element.
 impl<'de> Deserialize<'de> for MetricsSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<MetricsSpec, D::Error> {
         struct Table;
@@ -41,25 +41,25 @@ impl<'de> Deserialize<'de> for MetricsSpec {
     }
 }
 
-/// How metrics are computed; absent settings are those of the metric.
+/// Settings of the metrics; absent ones take the default of the metric.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table of settings")]
 pub struct MetricSettings {
-    /// Cells of a map along each side.
+    /// Cells along each side of a map.
     pub bins: Option<Setting<u32>>,
-    /// Samples a cell or bin needs to count.
+    /// Least number of samples in a cell or bin.
     pub n_min: Option<Setting<u32>>,
-    /// Presses with less force do not count in sensitivity, in N.
+    /// Least force of a press that counts in sensitivity, in N.
     #[serde(rename = "gate_N")]
     pub gate_n: Option<Setting<f64>>,
-    /// Bins a smoothed curve averages; odd.
+    /// Width of the moving average of a curve, in bins; odd.
     pub smoothing: Option<Setting<u32>>,
-    /// The error up to which a spacing counts as recognised, in mm.
+    /// Greatest error of a recognised spacing, in mm.
     pub tolerance_mm: Option<Setting<f64>>,
 }
 
 impl MetricSettings {
-    /// The settings, with the defaults of the metrics where the scene gives none.
+    /// Settings, with the defaults of the metrics where the scene gives none.
     pub fn settings(&self) -> Settings {
         let default = Settings::default();
         let tolerance = self
@@ -80,7 +80,7 @@ impl MetricSettings {
     }
 }
 
-/// How results are written.
+/// Formats of the report.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table with `formats`")]
 pub struct ReportSpec {
@@ -89,6 +89,6 @@ pub struct ReportSpec {
 }
 
 impl ReportSpec {
-    /// Every format there is.
+    /// All formats.
     pub const FORMATS: [&'static str; 6] = ["text", "json", "csv", "md", "tex", "html"];
 }

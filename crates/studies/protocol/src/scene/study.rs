@@ -12,31 +12,31 @@ use crate::rig_file::RigFile;
 use crate::text::Setting;
 use crate::text::Text;
 
-/// What one sensor is measured with.
+/// A sensor with its rig, limits and model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// What it is called in the report; the name of the scene if the scene has one sensor.
+    /// Name in the report; that of the scene if the scene has one sensor.
     pub name: String,
     /// The sensor.
     pub sensor: SensorSpec,
-    /// The robot that carries the indenter.
+    /// Robot that carries the indenter.
     pub robot: Option<DeviceSpec>,
     /// The force transducer.
     pub force: Option<DeviceSpec>,
     /// The light around the sensor.
     pub lighting: Option<LightingSpec>,
-    /// Its limits, with those of the scene where it has none.
+    /// Limits, with those of the scene as defaults.
     pub limits: LimitSpec,
-    /// The model; without one nothing is predicted.
+    /// Model; `None` predicts nothing.
     pub model: Option<ModelSpec>,
-    /// The size to which frames are reduced before they are kept; as they come without one.
+    /// Size to which frames are reduced before they are stored; `None` keeps them whole.
     pub frames: Option<Setting<FrameSize>>,
-    /// The rig file that names its devices, where one does.
+    /// Rig file that names the devices, if any.
     pub rig: Option<Arc<RigFile>>,
 }
 
 impl Study {
-    /// The text that names its sensor, its robot and its force transducer: that of a rig file, or that of `scene`.
+    /// Text that names sensor, robot and force transducer: that of the rig file, or that of `scene`.
     pub(crate) fn device_text<'a>(&'a self, scene: &'a Scene) -> &'a Text {
         match &self.rig {
             Some(rig) => &rig.text,
@@ -44,13 +44,13 @@ impl Study {
         }
     }
 
-    /// Whether the rig file names the lighting.
+    /// True if the rig file names the lighting.
     pub(crate) fn is_lit_by_rig(&self) -> bool {
         let rig = self.rig.as_ref();
         rig.is_some_and(|rig| rig.changers.light.is_some())
     }
 
-    /// The drivers it names, with the changers of its rig file.
+    /// Drivers of the study, with the changers of its rig file.
     pub fn drivers(&self) -> impl Iterator<Item = (DriverKind, &Setting<String>)> {
         let changers = self.rig.as_ref().map(|rig| &rig.changers);
         [
@@ -82,7 +82,7 @@ impl Study {
         .filter_map(|(kind, driver)| Some((kind, driver?)))
     }
 
-    /// The names of the units that are measured.
+    /// Names of the units to measure.
     pub fn units(&self) -> Vec<String> {
         match &self.sensor.units {
             Some(units) => units.value.clone(),

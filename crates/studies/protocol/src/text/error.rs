@@ -1,4 +1,4 @@
-//! What is wrong with a scene, where, and what would have been accepted.
+//! Errors of a scene or rig file: the problem, its line, and the accepted values.
 
 use std::fmt;
 
@@ -7,14 +7,14 @@ use taceva_core::FrameInfo;
 use crate::frame_size::FrameSize;
 use crate::reason::PlanReason;
 
-/// A scene that is refused.
+/// Error of a rejected scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneError {
-    /// The name of the scene's text, such as its file.
+    /// Name of the text, such as its file.
     pub source_name: String,
-    /// The line, from 1, if one line is to blame.
+    /// Line, from 1, if one line is at fault.
     pub line: Option<u64>,
-    /// What is wrong.
+    /// Problem.
     pub problem: Box<SceneProblem>,
 }
 
@@ -30,172 +30,172 @@ impl fmt::Display for SceneError {
 
 impl std::error::Error for SceneError {}
 
-/// What is wrong with a scene.
+/// Problems of a scene or rig file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneProblem {
     /// Not TOML, or a value of the wrong type.
     #[error("{0}")]
     Syntax(String),
-    /// A text larger than any scene.
+    /// The text is too large.
     #[error("the scene has {bytes} bytes, expected at most {greatest}")]
     Size {
-        /// Its bytes.
+        /// Size, in bytes.
         bytes: usize,
-        /// The most that is read.
+        /// Greatest accepted size, in bytes.
         greatest: usize,
     },
-    /// A key that nothing reads.
+    /// An unknown key.
     #[error("`{key}`: unknown key{}; known here: {known}", did_you_mean(.nearest))]
     UnknownKey {
-        /// As written.
+        /// Key as written.
         key: String,
         /// The nearest known key.
         nearest: Option<String>,
-        /// Every known key.
+        /// All known keys.
         known: String,
     },
-    /// A key without which there is no scene.
+    /// A required key is missing.
     #[error("the key `{0}` is missing")]
     MissingKey(String),
-    /// A scene for another program version.
+    /// The scene has an unknown version.
     #[error("scene version {0} is not known here, expected 1")]
     Version(u32),
-    /// A rig file for another program version.
+    /// The rig file has an unknown version.
     #[error("rig version {0} is not known here, expected 1")]
     RigVersion(u32),
-    /// A name out of a closed list that is not in it.
+    /// An unknown name from a closed list.
     #[error("`{name}`: unknown {what}{}; known: {known}{}", did_you_mean(.nearest), found_where(.what, .name))]
     UnknownName {
-        /// What it should name: `driver of a sensor`, `metric`, `report format`.
+        /// Kind of thing: `driver of a sensor`, `metric`, `report format`.
         what: &'static str,
-        /// As written.
+        /// Name as written.
         name: String,
         /// The nearest known name.
         nearest: Option<String>,
-        /// Every known name.
+        /// All known names.
         known: String,
     },
-    /// A name that is given twice.
+    /// A name is given twice.
     #[error("`{name}` is the name of two {what}", name = taceva_core::shown(name))]
     Twice {
-        /// What kind of thing has the name, such as a unit.
+        /// Kind of thing, such as a unit.
         what: &'static str,
         /// The name.
         name: String,
     },
-    /// A count of zero, or beyond what a bench can do.
+    /// A count is out of range.
     #[error("`{key}` is {found}, expected a whole number from {least} to {greatest}")]
     Count {
         /// The key.
         key: &'static str,
-        /// As written.
+        /// Value as written.
         found: u64,
         /// The least accepted.
         least: u64,
         /// The greatest accepted.
         greatest: u64,
     },
-    /// A number outside what is possible.
+    /// A number is out of range.
     #[error("`{key}` is {found}, expected a number above {above} and up to {greatest}")]
     Range {
         /// The key.
         key: &'static str,
-        /// As written.
+        /// Value as written.
         found: f64,
-        /// What it must exceed.
+        /// Exclusive lower bound.
         above: f64,
         /// The greatest accepted.
         greatest: f64,
     },
-    /// A size of frames that is none.
+    /// The size of frames is invalid.
     #[error(
         "`frames` is `{found}`, expected WIDTHxHEIGHT in pixels, each a whole number from 1 to {}, such as \"64x48\"",
         FrameSize::SIDE_MAX
     )]
     FrameSize {
-        /// As written.
+        /// Value as written.
         found: String,
     },
-    /// Frames that would have to be enlarged.
+    /// Frames would have to be enlarged.
     #[error(
         "`frames` is `{found}`, but the frames of study `{study}` are {frame}: expected at most `{}x{}`, since frames are reduced and never enlarged",
         frame.width,
         frame.height
     )]
     FramesEnlarged {
-        /// As written.
+        /// Value as written.
         found: FrameSize,
         /// The study.
         study: String,
-        /// The frames that its sensor gives.
+        /// Frames of its sensor.
         frame: FrameInfo,
     },
-    /// Frames with fewer pixels than a model looks at.
+    /// Frames have fewer pixels than the grid of a model.
     #[error(
         "`frames` is `{found}`, but {who} looks at {least_width}×{least_height} cells of each: expected at least `{least_width}x{least_height}`"
     )]
     FramesTooSmall {
-        /// As written.
+        /// Value as written.
         found: FrameSize,
-        /// Which model.
+        /// Name of the model.
         who: String,
-        /// The cells of its grid along x.
+        /// Cells of its grid along x.
         least_width: u32,
-        /// The cells of its grid along y.
+        /// Cells of its grid along y.
         least_height: u32,
     },
-    /// A limit that would allow more than the device or the scene above allows.
+    /// A limit exceeds that of the device or of the scene.
     #[error("`{key}` is {found}, but {who} allows at most {limit}: limits may only be tightened")]
     LimitLoosened {
         /// The key.
         key: &'static str,
-        /// As written.
+        /// Value as written.
         found: f64,
-        /// Whose limit it is.
+        /// Device or file with the tighter limit.
         who: String,
-        /// The limit.
+        /// Tighter limit.
         limit: f64,
     },
-    /// A depth or another length of a protocol beyond its limit.
+    /// A length or force of the protocol exceeds its limit.
     #[error("`{key}` is {found}, beyond the limit `{limit_key}` = {limit} ({who})")]
     BeyondLimit {
         /// The key.
         key: &'static str,
-        /// As written.
+        /// Value as written.
         found: f64,
-        /// The limit that it breaks.
+        /// Key of the limit.
         limit_key: &'static str,
-        /// The value of that limit.
+        /// Value of the limit.
         limit: f64,
-        /// Whose limit it is.
+        /// Device or file that states the limit.
         who: String,
     },
-    /// A limit without which no robot is moved.
+    /// A required limit is missing.
     #[error("nobody declares `{key}`: write it under [limits], no robot is moved without it")]
     LimitAbsent {
-        /// The limit.
+        /// Key of the limit.
         key: &'static str,
     },
-    /// Boards that are not in the catalogue.
+    /// The catalogue has no such boards.
     #[error("gratings of {found} mm are not in the catalogue: {catalogue}")]
     Grating {
-        /// As written.
+        /// Spacing as written, in mm.
         found: f64,
-        /// What there is.
+        /// Range of the catalogue.
         catalogue: &'static str,
     },
-    /// Devices that are stamped by different clocks.
+    /// Devices use different clocks.
     #[error(
         "`{simulated}` runs in the time of its simulated bench and `{real}` in that of the machine: one rig has one clock; choose both simulated or both real"
     )]
     MixedClocks {
         /// The simulated device.
         simulated: String,
-        /// The real one.
+        /// The real device.
         real: String,
     },
-    /// A robot that is moved in its base frame, of which nobody says how it lies to the sensor's.
+    /// A robot moves in its base frame, whose place relative to the sensor is not given.
     #[error(
         "the robot `{robot}` moves in its base frame, and nothing says how that lies to the gel: write a rig file with `origin_mm` and `axes` under [robot] and name it by `rig = \"lab.toml\"` or --rig (docs/rig.md)"
     )]
@@ -203,84 +203,84 @@ pub enum SceneProblem {
         /// The robot.
         robot: String,
     },
-    /// A rig file whose robot went down to the gel and touched nothing.
+    /// The robot of a rig file touched nothing on its way down to the gel.
     #[error(
         "nothing was touched down to {search_mm} mm below the height that `origin_mm` says: mend `origin_mm` or `axes` of [robot], or see whether the force transducer feels a finger"
     )]
     NothingTouched {
-        /// How far below it was searched, in mm.
+        /// Depth of the search, in mm.
         search_mm: f64,
     },
-    /// A rig file whose axes are not those along which forces were felt.
+    /// The axes of a rig file contradict the measured forces.
     #[error("`axes` of [force]: {felt}{}", mended(.expected, *.may_be_robot))]
     AxesContradicted {
-        /// What was pushed, and what was felt.
+        /// Directions of motion and of the measured force.
         felt: String,
-        /// What would agree with it, where a turn does.
+        /// Axes that would agree; `None` if no rotation by right angles does.
         expected: Option<String>,
-        /// Whether the robot may as well have gone another way than it was sent.
+        /// True if the robot itself may have moved in another direction.
         may_be_robot: bool,
     },
-    /// A robot that rests too late after a limit was passed.
+    /// A robot rests too late after a limit is passed.
     #[error(
         "`{robot}` moves on for {stop_ms} ms after a halt, so that it rests {needed_ms:.0} ms after a limit was passed: expected at most {greatest_ms:.0} ms"
     )]
     SlowStop {
         /// The robot.
         robot: String,
-        /// What it states, in ms.
+        /// Stated stop time, in ms.
         stop_ms: f64,
-        /// With one reading and one message, in ms.
+        /// Stop time plus one reading and one message, in ms.
         needed_ms: f64,
-        /// The most that is allowed, in ms.
+        /// Greatest allowed time, in ms.
         greatest_ms: f64,
     },
-    /// A speed at which the tip goes too far in contact while its force grows stale.
+    /// The tip travels too far in contact while its force grows stale.
     #[error(
         "`speed_mm_s` is {found}, but {who} may be silent for {stale_ms:.0} ms before it counts as gone: expected at most {greatest:.3}"
     )]
     Blind {
-        /// As written, in mm/s.
+        /// Speed as written, in mm/s.
         found: f64,
-        /// Whose readings.
+        /// Name of the transducer.
         who: String,
-        /// Their greatest age, in ms.
+        /// Greatest age of its readings, in ms.
         stale_ms: f64,
-        /// The most that is allowed, in mm/s.
+        /// Greatest allowed speed, in mm/s.
         greatest: f64,
     },
-    /// A force transducer of which nobody could say that its signal froze.
+    /// A frozen signal of the force transducer could not be detected.
     #[error(
         "{who} reads in steps of {resolution_n} N, its noise is {noise_n} N and it numbers no readings: a signal that is frozen could not be distinguished from one that rests; expected numbered readings, or steps below the noise"
     )]
     FrozenUnseen {
-        /// Which.
+        /// Name of the transducer.
         who: String,
-        /// Its step, in N.
+        /// Resolution, in N.
         resolution_n: f64,
-        /// Its noise, in N.
+        /// Noise, in N.
         noise_n: f64,
     },
-    /// Two statements that exclude each other.
+    /// Contradictory statements.
     #[error("{0}")]
     Contradiction(String),
-    /// A scene without something to measure.
+    /// The scene has nothing to measure.
     #[error("{0}")]
     Incomplete(String),
-    /// A metric asked for by name that can be computed in no study of the scene.
+    /// A metric requested by name applies to no study of the scene.
     #[error("`{metric}` can never apply: {reason}", metric = taceva_core::shown(metric))]
     NeverApplies {
         /// The metric.
         metric: String,
-        /// Why.
+        /// Reason.
         reason: PlanReason,
     },
-    /// More presses than are planned at most.
+    /// The plan has too many presses.
     #[error("the plan has {found} presses, expected at most {greatest}")]
     TooManyPresses {
-        /// How many.
+        /// Number of presses.
         found: u64,
-        /// The most that is planned.
+        /// Greatest number of presses.
         greatest: u64,
     },
 }
@@ -304,7 +304,7 @@ fn did_you_mean(nearest: &Option<String>) -> String {
     })
 }
 
-/// Where a driver of a plugin, `ID/KEY` with dots in its id, would be found.
+/// Hint for a driver of a plugin, `ID/KEY` with dots in its id; empty for other names.
 fn found_where(what: &str, name: &str) -> &'static str {
     let is_of_plugin = name.split_once('/').is_some_and(|(id, _)| id.contains('.'));
     if what.starts_with("driver of") && is_of_plugin {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer};
 
-/// A value, and the byte of the scene where it was written; defaults were written nowhere.
+/// A value with its byte offset in the scene; a default has none.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Setting<T> {
     /// The value.
@@ -11,17 +11,17 @@ pub struct Setting<T> {
 }
 
 impl<T> Setting<T> {
-    /// A default value, which stands nowhere in the text.
+    /// Creates a default value without a position.
     pub const fn default_of(value: T) -> Setting<T> {
         Setting { value, at: None }
     }
 
-    /// The byte of the scene where it begins; `None` for a default.
+    /// Byte offset in the scene; `None` for a default.
     pub const fn at(&self) -> Option<usize> {
         self.at
     }
 
-    /// Another value, written at the same place.
+    /// Maps the value and keeps the position.
     pub fn map<U>(self, change: impl FnOnce(T) -> U) -> Setting<U> {
         Setting {
             value: change(self.value),

@@ -1,4 +1,4 @@
-//! What a simulated sensor says of itself, and its arguments.
+//! Descriptor and arguments of a simulated sensor.
 
 use taceva_core::{
     ArgSpec, ArgValue, Args, DescriptorSpec, DriverKey, DriverSource, Facts, Footprint, FrameInfo,
@@ -10,7 +10,7 @@ use crate::drive::lighting::scenes;
 use crate::optics::{Bits, OpticsSpec};
 use crate::parameters::{Body, Model, Outline, Parameters};
 
-/// The name of its driver.
+/// Key of its driver.
 pub(super) fn key(model: Model) -> DriverKey {
     match model {
         Model::ViTacTip => DriverKey::fixed("sim/vitactip"),
@@ -20,7 +20,7 @@ pub(super) fn key(model: Model) -> DriverKey {
     }
 }
 
-/// Everything that is known of it before it is opened.
+/// Descriptor of the sensor before it is opened.
 pub(super) fn describe(
     model: Model,
     parameters: &Parameters,
@@ -83,14 +83,14 @@ pub(super) fn describe(
     ])
 }
 
-/// Numbers of units.
+/// Greatest number of a unit.
 const UNITS: i64 = 1_000_000;
-/// The greatest reduction.
+/// Greatest reduction.
 const REDUCTIONS: i64 = 64;
-/// Frames are reduced to about so many pixels along their longer side, if nothing else is asked for.
+/// Approximate pixels along the longer side of a frame by default.
 const LONGER_SIDE: u32 = 160;
 
-/// The reduction that `args` ask for.
+/// Reduction by `args`.
 pub(super) fn reduction(args: &Args, parameters: &Parameters) -> u32 {
     match args.get("reduction") {
         Some(&ArgValue::Whole(reduction)) => u32::try_from(reduction).unwrap_or(1),
@@ -98,24 +98,24 @@ pub(super) fn reduction(args: &Args, parameters: &Parameters) -> u32 {
     }
 }
 
-/// The reduction where none is asked for.
+/// Default reduction.
 pub(super) fn default_reduction(parameters: &Parameters) -> u32 {
     let [width, height] = OpticsSpec::new(parameters).native;
     (width.max(height) / LONGER_SIDE).clamp(1, 64)
 }
 
-/// The size of a frame, reduced.
+/// Size of a reduced frame, pixels.
 pub(super) fn reduced(native: [u32; 2], reduction: u32) -> [u32; 2] {
     native.map(|side| (side / reduction).max(1))
 }
 
-/// The bits of a sample that `args` ask for.
+/// Bits of a sample by `args`; `None` for the default.
 pub(super) fn bits(args: &Args) -> Option<Bits> {
     let name = args.get("bits").and_then(ArgValue::as_text)?;
     Bits::ALL.into_iter().find(|bits| bits.name() == name)
 }
 
-/// The frame of such a sensor; `None` if there is none, which opening it says in detail.
+/// Frame of such a sensor; `None` if it is invalid, which opening reports in detail.
 pub(super) fn frame(
     parameters: &Parameters,
     reduction: u32,

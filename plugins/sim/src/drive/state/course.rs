@@ -1,4 +1,4 @@
-//! A motion that goes on as time passes, for benches whose time is that of a wall clock.
+//! A motion in progress, for benches on wall-clock time.
 
 use std::time::Duration;
 
@@ -8,17 +8,17 @@ use super::travel::{STEP_MM, distance, mix};
 use super::{State, coordinates};
 use crate::drive::ticks::Ticks;
 
-/// A straight line that the tip is following.
+/// A straight motion of the tip.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
-    /// The tip at both ends, in mm.
+    /// Ends of the motion of the tip, in mm.
     from_mm: [f64; 3],
     to_mm: [f64; 3],
-    /// Where the robot believed it stood at the start.
+    /// Reported position at the start, in mm.
     sent_mm: [f64; 3],
     target: Pose,
     speed_mm_per_s: f64,
-    /// How far it has come, in mm.
+    /// Distance travelled, in mm.
     done_mm: f64,
 }
 
@@ -38,7 +38,7 @@ impl Course {
 }
 
 impl State {
-    /// Begins to move along a straight line; the way is made by [`advance`](State::advance). What was under way ends where it is.
+    /// Begins a straight motion, which [`advance`](State::advance) executes. Stops a motion in progress at its place.
     pub(in crate::drive) fn set_out(&mut self, target: Pose, speed_mm_per_s: f64) {
         self.stand();
         let error_mm = self.visit.errors.position_mm;
@@ -53,7 +53,7 @@ impl State {
         });
     }
 
-    /// Ends a motion that is under way where the tip is now.
+    /// Stops a motion in progress at the current place.
     pub(in crate::drive) fn stand(&mut self) {
         if let Some(course) = self.course.take() {
             self.believe(&course);
@@ -65,7 +65,7 @@ impl State {
         self.course.is_some()
     }
 
-    /// Lets time pass until `until`, and the tip go on along its way; nothing happens if that has passed.
+    /// Advances the clock to `until` and the tip along its motion; a time in the past changes nothing.
     pub(in crate::drive) fn advance(&mut self, until: Duration) {
         let until = Ticks::of(until);
         while until > self.now {
@@ -77,14 +77,14 @@ impl State {
             let to_go_mm = course.length_mm() - course.done_mm;
             let step_mm = to_go_mm.min(STEP_MM).min(left_s * course.speed_mm_per_s);
             let step_s = step_mm / course.speed_mm_per_s;
-            // A step that a clock of nanoseconds does not see is the last of its way, or of the time that is left.
+            // A step below a nanosecond is the last of the motion, or of the remaining time.
             let then = self.now.after(Ticks::of(Duration::from_secs_f64(step_s)));
             course.done_mm += step_mm;
             let is_there = step_mm >= to_go_mm;
             let step = then.min(until).since(self.now);
             self.now = self.now.after(step);
             self.tip_mm = match is_there {
-                // The end is met to the bit, wherever the way began.
+                // The end is met to the bit, wherever the motion began.
                 true => course.to_mm,
                 false => mix(course.from_mm, course.to_mm, course.share()),
             };
@@ -103,7 +103,7 @@ impl State {
         }
     }
 
-    /// Where the robot believes it stands on the way.
+    /// Updates the reported pose along the motion.
     fn believe(&mut self, course: &Course) {
         let target_mm = coordinates(&course.target);
         let [x, y, z] = mix(course.sent_mm, target_mm, course.share()).map(Millimetre);

@@ -7,20 +7,20 @@ use taceva_core::{Millimetre, Pose};
 use super::{State, coordinates};
 use crate::drive::ticks::Ticks;
 
-/// How a motion ended.
+/// Outcome of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::drive) enum Ended {
-    /// At its target.
+    /// The tip reached its target.
     Arrived,
-    /// Because its time was up.
+    /// The deadline passed.
     OutOfTime,
-    /// Because somebody halted it.
+    /// The robot was halted.
     Halted,
-    /// Because the guard was reached.
+    /// The force reached the guard.
     Guarded,
 }
 
-/// A motion to be made.
+/// Settings of a motion.
 pub(in crate::drive) struct Motion<'a> {
     pub(in crate::drive) target: Pose,
     pub(in crate::drive) speed_mm_per_s: f64,
@@ -29,7 +29,7 @@ pub(in crate::drive) struct Motion<'a> {
     pub(in crate::drive) guard_n: Option<f64>,
 }
 
-/// The way of a tip is followed in steps of this length.
+/// Length of a step of the tip, mm.
 pub(super) const STEP_MM: f64 = 0.05;
 
 impl State {
@@ -52,14 +52,14 @@ impl State {
                 ended = Ended::Halted;
                 break;
             }
-            // Time is counted from the start, so that it does not depend on how the sum is rounded.
+            // Time counts from the start, so that rounding does not accumulate.
             let then = Ticks::of(Duration::from_secs_f64((done + 1.0) * step_s));
             if then > patience {
                 ended = Ended::OutOfTime;
                 break;
             }
             done += 1.0;
-            // The end is met to the bit, wherever the way began.
+            // The end is met to the bit, wherever the motion began.
             self.tip_mm = if done < steps {
                 mix(from, to, done / steps)
             } else {

@@ -1,11 +1,11 @@
-//! The shape of the coating under a ball, ready to be looked up pixel by pixel.
+//! Shape of the coating under a ball, for lookup pixel by pixel.
 
 use super::lamp::{CHUNK, Caster, Slopes};
 use crate::displacement::{Load, NODES, Profile, Quantity, node};
 use crate::number::narrow;
 use crate::optics::simd::Lanes;
 
-/// The slopes around one contact, a node of the radial tables each: sink's slope over r, bulge over r, its slope over r, shadow over r.
+/// Slopes around one contact at each node of the radial tables: slope of the sink over r, bulge over r, its slope over r, shadow over r.
 #[derive(Clone, Debug)]
 pub(super) struct Dent {
     nodes: Box<[[f32; 4]; NODES]>,
@@ -13,11 +13,11 @@ pub(super) struct Dent {
     pub(super) y: f32,
     shear: [f32; 2],
     inverse_radius_squared: f32,
-    /// Beyond this no slope is visible, in mm.
+    /// Radius beyond which no slope is visible, in mm.
     pub(super) reach: f32,
 }
 
-/// A slope that moves the light by some 0.1 DN: less than the noise of the smallest frames.
+/// Least visible slope: it changes the light by about 0.1 DN, less than the noise of the smallest frames.
 const LEAST_SLOPE: f64 = 1e-3;
 
 impl Default for Dent {
@@ -34,7 +34,7 @@ impl Default for Dent {
 }
 
 impl Dent {
-    /// Takes the shape of `profile` under `load`, seen through a lens that blurs by `blur_mm`.
+    /// Computes the shape of `profile` under `load`, seen through a lens with a blur of `blur_mm`.
     pub(super) fn take(&mut self, load: &Load, profile: &Profile, blur_mm: f64, shadow: f64) {
         [self.x, self.y] = load.centre_mm.map(narrow);
         self.shear = load.shear_direction().map(narrow);
@@ -66,7 +66,7 @@ impl Dent {
         }
     }
 
-    /// Where its shadow falls from.
+    /// Origin of its shadow.
     pub(super) fn caster(&self) -> Caster {
         Caster {
             x: self.x,
@@ -95,10 +95,10 @@ impl Dent {
     }
 }
 
-/// The sink's slope over r at `distance`, blurred by a Gaussian of `sigma`.
+/// Slope of the sink over r at `distance`, blurred by a Gaussian of `sigma`.
 ///
-/// The slope is a vector field r t(r²); blurring it in the plane is blurring t as a field of four dimensions. Three of them lie across
-/// r and add their variance to r²; along r Gauss and Hermite's seven points are taken.
+/// The slope is a vector field r t(r²). Blurring it in the plane is blurring t as a field in four dimensions: three lie across r and add
+/// their variance to r²; along r seven Gauss-Hermite nodes are used.
 fn blurred(profile: &Profile, distance: f64, sigma: f64) -> f32 {
     let table = profile.table(Quantity::SinkSlope);
     HERMITE
@@ -111,7 +111,7 @@ fn blurred(profile: &Profile, distance: f64, sigma: f64) -> f32 {
         .sum()
 }
 
-/// How dark the shadow is at `rho` contact radii: a band behind the rim.
+/// Darkness of the shadow at `rho` contact radii: a band behind the rim.
 fn shade(rho: f64) -> f64 {
     if rho > 2.5 {
         return 0.0;
@@ -120,7 +120,7 @@ fn shade(rho: f64) -> f64 {
     libm::exp(-from_middle * from_middle)
 }
 
-/// Points and weights of the standard normal distribution.
+/// Nodes and weights of the standard normal distribution.
 const HERMITE: [(f64, f32); 7] = [
     (-3.750_439_717_725_742, 0.000_548_268_86),
     (-2.366_759_410_734_541, 0.030_757_124),

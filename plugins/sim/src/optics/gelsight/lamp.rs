@@ -1,4 +1,4 @@
-//! The lamps around a coated gel, and what its coating throws back.
+//! Lamps around a coated gel, and its shading.
 
 use crate::number::narrow;
 use crate::random::Stream;
@@ -6,15 +6,15 @@ use crate::random::Stream;
 /// A bar of light beside the gel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LampSpec {
-    /// The middle of the bar: x, y, and its height over the gel, on the camera's side.
+    /// Middle of the bar: x, y, and its height over the gel, on the camera's side.
     pub middle_mm: [f64; 3],
-    /// Half its length along x and along y.
+    /// Half of its length along x and along y.
     pub half_length_mm: [f64; 2],
-    /// What it adds to red, green and blue on a gel that faces it, one reach away.
+    /// Red, green and blue that it adds to a gel facing it at one reach.
     pub colour_dn: [f64; 3],
 }
 
-/// A bar of light in the numbers of the inner loop.
+/// A bar of light, in the types of the inner loop.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lamp {
     pub(super) low: [f32; 2],
@@ -26,20 +26,20 @@ pub(super) struct Lamp {
 /// Pixels shaded together.
 pub(super) const CHUNK: usize = 32;
 
-/// The slopes of the coating under a run of pixels of one row, as the camera sees it.
+/// Slopes of the coating under a run of pixels of one row, as the camera sees it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes {
     /// Slope towards the camera along x and along y.
     pub(super) x: [f32; CHUNK],
     pub(super) y: [f32; CHUNK],
-    /// How deep in the contact's shadow, a mm of distance from its centre; 0 where there is none.
+    /// Depth in the shadow of the contact, per mm of distance from its centre; 0 outside.
     pub(super) shadow: [f32; CHUNK],
-    /// How upright the surface stands: the part along the axis of its unit normal.
+    /// Part of the surface's unit normal along the axis.
     pub(super) upright: [f32; CHUNK],
 }
 
 impl Slopes {
-    /// Works out how upright the surface stands, once its slopes are known.
+    /// Computes `upright` from the slopes.
     #[inline(always)]
     pub(super) fn measure(&mut self) {
         for i in 0..CHUNK {
@@ -49,7 +49,7 @@ impl Slopes {
     }
 }
 
-/// Where a shadow falls from.
+/// Origin of a shadow.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Caster {
     pub(super) x: f32,
@@ -57,7 +57,7 @@ pub(super) struct Caster {
 }
 
 impl Lamp {
-    /// A lamp with `gain`, its own in this unit.
+    /// Creates a lamp with the `gain` of this unit.
     pub(super) fn new(spec: &LampSpec, reach_mm: f64, gain: f64) -> Lamp {
         let end = |axis: usize, side: f64| {
             narrow(spec.middle_mm[axis] + side * spec.half_length_mm[axis])
@@ -70,15 +70,15 @@ impl Lamp {
         }
     }
 
-    /// The gain of lamp `number` of a unit: 1 with a standard deviation of `spread`.
+    /// Gain of lamp `number` of a unit: 1 with a standard deviation of `spread`.
     pub(super) fn gain(stream: &Stream, number: u64, spread: f64) -> f64 {
         1.0 + spread * stream.normal(number)
     }
 
     /// Adds its light to red, green and blue of the pixels at `x`, `y`.
     ///
-    /// I = ρ (d₀/d) max(0, n·l) with l the unit vector to the nearest point of the bar, d away, and n ∝ (−Hx, −Hy, 1); with the
-    /// vector L = d l this is ρ d₀ max(0, n·L) / d², so that only the length of n takes a root.
+    /// I = ρ (d₀/d) max(0, n·l). Here l is the unit vector to the nearest point of the bar at distance d; n ∝ (−Hx, −Hy, 1). With the
+    /// vector L = d l this is ρ d₀ max(0, n·L) / d², so only the length of n needs a root.
     #[inline(always)]
     pub(super) fn light(
         &self,
@@ -91,7 +91,7 @@ impl Lamp {
         let ahead_y = clamp(y, self.low[1], self.high[1]) - y;
         let ahead_z = self.height;
         let away = ahead_y * ahead_y + ahead_z * ahead_z;
-        // The direction of the shadow, from the contact away from the lamp.
+        // Direction of the shadow, from the contact away from the lamp.
         let to_lamp = [
             clamp(caster.x, self.low[0], self.high[0]) - caster.x,
             clamp(caster.y, self.low[1], self.high[1]) - caster.y,

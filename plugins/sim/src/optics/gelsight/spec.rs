@@ -1,4 +1,4 @@
-//! The figures of a coated gel.
+//! Parameters of a coated gel.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -10,43 +10,43 @@ use crate::parameters::{Layer, Markers, Parameters};
 pub struct GelsightSpec {
     /// Thickness of the gel (literature).
     pub thickness_mm: f64,
-    /// How far the surface lies back at x = 7 mm and at y = 9 mm (geometry).
+    /// Sag of the surface at x = 7 mm and at y = 9 mm (geometry).
     pub sag_mm: [f64; 2],
     /// The lamps: red left, green right, blue at the bottom, a weak cyan one on top (free).
     pub lamps: Vec<LampSpec>,
-    /// The distance at which the lamps have their colours' strength (free).
+    /// Distance at which the colours of the lamps are stated (free).
     pub lamp_reach_mm: f64,
-    /// Light from everywhere: red, green, blue (free).
+    /// Ambient light: red, green, blue (free).
     pub ambient_dn: [f64; 3],
     /// Standard deviation of the lamps' gains between units (free).
     pub lamp_gain_spread: f64,
     /// Standard deviation of the coating's reflectance (free).
     pub coating_spread: f64,
-    /// The part of a lamp's light that a contact's rim keeps off behind it (free).
+    /// Part of a lamp's light that the rim of a contact blocks behind it (free).
     pub shadow: f64,
     /// Standard deviation of the lens's blur, on the gel (fit: gratings).
     pub blur_mm: f64,
-    /// The markers, if there are any.
+    /// Markers, if there are any.
     pub markers: Option<MarkerGrid>,
 }
 
-/// Dark discs in rows and columns, on the gel's surface.
+/// Grid of dark discs on the gel's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarkerGrid {
-    /// How many along x and along y.
+    /// Number along x and along y.
     pub count: [u16; 2],
-    /// Between middles (literature).
+    /// Distance between centres (literature).
     pub pitch_mm: f64,
     /// Diameter (literature).
     pub diameter_mm: f64,
-    /// The part of the light a marker takes (free).
+    /// Part of the light that a marker absorbs (free).
     pub darkness: f64,
-    /// Standard deviation of the places between units (free).
+    /// Standard deviation of their places between units (free).
     pub jitter_mm: f64,
 }
 
 impl GelsightSpec {
-    /// The look of a coated layer.
+    /// Optics of a coated layer.
     pub(in crate::optics) fn new(parameters: &Parameters, layer: &Layer) -> GelsightSpec {
         let markers = parameters.markers.as_ref().map(MarkerGrid::new);
         let taken = markers.map_or(0.0, |grid| grid.light_taken(parameters));
@@ -57,7 +57,7 @@ impl GelsightSpec {
             colour_dn: colour.map(|dn| dn * brightness),
         };
         let surface = &parameters.surface;
-        // Beside the picture, wherever that ends.
+        // Beside the picture, whatever its size.
         let [side, end] = [0.5 * surface.width_mm + 4.85, 0.5 * surface.height_mm + 4.7];
         GelsightSpec {
             thickness_mm: layer.thickness_mm,
@@ -90,7 +90,7 @@ impl MarkerGrid {
         }
     }
 
-    /// The part of all light that the markers take.
+    /// Part of all light that the markers absorb.
     fn light_taken(&self, parameters: &Parameters) -> f64 {
         let [columns, rows] = self.count.map(f64::from);
         let discs = columns * rows * FRAC_PI_4 * self.diameter_mm * self.diameter_mm;
@@ -99,7 +99,7 @@ impl MarkerGrid {
     }
 }
 
-/// Mean gray of the untouched gel without markers with the lamps given above (fit).
+/// Mean gray of the untouched gel without markers, with the lamps given above (fit).
 const NOMINAL_GRAY: f64 = 144.8;
 
 fn whole(count: f64) -> u16 {

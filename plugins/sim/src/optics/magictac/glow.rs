@@ -1,17 +1,17 @@
-//! Light in the block: its own lamps, and what comes in from outside.
+//! Light in the block: from its own lamps and from outside.
 
 use super::spec::MagictacSpec;
 use crate::optics::ambient::AmbientLight;
 use crate::random::Stream;
 
-/// The lamps' light at a place: red, green, blue, in DN.
+/// Light of the lamps at a place: red, green, blue, in DN.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Glow {
     strength: [f64; 3],
     everywhere: f64,
 }
 
-/// Where each lamp's glow is brightest, its two variances in mm², and its strength beside the others.
+/// For each lamp: the centre of its glow, twice its variance in mm², and its relative strength.
 const LAMPS: [([f64; 2], f64, f64); 3] = [
     ([6.0, -8.0], 120.0, 1.0),
     ([-6.0, -4.0], 140.0, 0.9),
@@ -19,7 +19,7 @@ const LAMPS: [([f64; 2], f64, f64); 3] = [
 ];
 
 impl Glow {
-    /// The light of a unit's lamps, whose gains are drawn from `gains`.
+    /// Light of a unit's lamps, with gains drawn from `gains`.
     pub(super) fn new(spec: &MagictacSpec, gains: &Stream) -> Glow {
         let mut strength = [0.0; 3];
         for ((strength, (_, _, beside)), number) in strength.iter_mut().zip(LAMPS).zip(0..) {
@@ -32,7 +32,7 @@ impl Glow {
         }
     }
 
-    /// The light at `x`, `y`.
+    /// Light at `x`, `y`.
     pub(super) fn at(&self, x: f64, y: f64) -> [f64; 3] {
         std::array::from_fn(|colour| {
             let ([lamp_x, lamp_y], spread, _) = LAMPS[colour];
@@ -42,19 +42,19 @@ impl Glow {
     }
 }
 
-/// What a scene does: it adds light, and the camera's automatic exposure answers.
+/// Effect of a scene of light: additional light, and the automatic exposure of the camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outside {
     scene: AmbientLight,
 }
 
 impl Outside {
-    /// The light of `scene`.
+    /// Effect of `scene`.
     pub(super) fn new(scene: AmbientLight) -> Outside {
         Outside { scene }
     }
 
-    /// What the camera's automatic exposure leaves of the light (fit: mean gray 107, 107, 105, 118 under S1 to S4, from 107).
+    /// Factor of the camera's automatic exposure (fit: mean gray 107, 107, 105, 118 under S1 to S4, from 107).
     pub(super) fn exposure(&self) -> f64 {
         match self.scene {
             AmbientLight::Normal | AmbientLight::Spot => 1.0,
@@ -64,7 +64,7 @@ impl Outside {
         }
     }
 
-    /// The light that it adds at `x`, `y`: red, green, blue, in DN (free; strength fit).
+    /// Additional light at `x`, `y`: red, green, blue, in DN (free; strength fit).
     pub(super) fn at(&self, x: f64, y: f64) -> [f64; 3] {
         match self.scene {
             AmbientLight::Normal => [0.0; 3],

@@ -1,4 +1,4 @@
-//! The printed lattice: three patterns at three depths.
+//! Printed lattice: three patterns at three depths.
 
 use std::f64::consts::TAU;
 
@@ -7,14 +7,14 @@ use crate::number::{count, narrow};
 use crate::optics::texture::{SIDE, Texture, smooth_noise};
 use crate::random::{Purpose, Random};
 
-/// A texel of a layer. The pattern repeats after 128 of them, 23 mm, more than is seen.
+/// Texel of a layer, mm. The pattern repeats after 128 texels, 23 mm, beyond the visible field.
 const TEXEL_MM: f64 = 0.18;
-/// Texels over which speckle and the unevenness of the lines vary.
+/// Correlation lengths of the speckle and of the unevenness of the lines, in texels.
 const SPECKLE: f64 = 2.2;
 const UNEVENNESS: f64 = 20.0;
-/// Standard deviation of a line's place.
+/// Standard deviation of a line's place, mm.
 const LINE_JITTER_MM: f64 = 0.22;
-/// Texels over which the lattice buckles alike: 1.5 mm, two of its cells.
+/// Correlation length of the buckling, in texels: 1.5 mm, two cells of the lattice.
 const BUCKLE: f64 = 8.0;
 
 /// Lines and speckle of the three layers of a unit: contrast around 0, red, green, blue.
@@ -43,7 +43,7 @@ pub(super) fn layers(spec: &MagictacSpec, unit: u32) -> [Texture; 3] {
     })
 }
 
-/// How the lattice may buckle: two numbers of standard deviation 1 a place. A press looks at a part of its own.
+/// Buckling pattern of a unit: two values of standard deviation 1 at each place. Each press uses its own offset.
 pub(super) fn buckling(unit: u32) -> Texture {
     let stream = Random::new(u64::from(unit)).stream(Purpose::Buckling, 0);
     let patterns = [0, 1].map(|layer| smooth_noise(&stream, layer, BUCKLE));

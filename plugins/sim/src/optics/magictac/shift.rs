@@ -1,10 +1,10 @@
-//! Where the lattice is seen under a ball, ready to be looked up pixel by pixel.
+//! Apparent shift of the lattice under a ball, for lookup pixel by pixel.
 
 use crate::displacement::{Load, NODES, Profile, Quantity, locate, node};
 use crate::number::narrow;
 use crate::optics::simd::Lanes;
 
-/// A ball's work on the three layers and on the surface, a node of the radial tables each.
+/// Effect of a ball on the three layers and on the surface, at each node of the radial tables.
 #[derive(Clone, Debug)]
 pub(super) struct Shift {
     nodes: Box<[Node; NODES]>,
@@ -12,15 +12,15 @@ pub(super) struct Shift {
     pub(super) y: f32,
     shear: [f32; 2],
     inverse_radius_squared: f32,
-    /// Beyond this nothing is seen to move, in mm.
+    /// Radius beyond which no motion is visible, in mm.
     pub(super) reach: f32,
 }
 
-/// Four rows of lanes: outward over r, along the shear, towards the shear's axis over r², and last the wetting. In each row one lane
-/// a layer; the fourth lane of the first row is the surface's slope over r, so that its gradient falls out beside the layers' shifts.
+/// Four rows of lanes: outward over r, along the shear, towards the shear's axis over r², and wetting. Each row has one lane a layer. The
+/// fourth lane of the first row is the slope of the surface over r, so its gradient is computed together with the shifts.
 type Node = [[f32; 4]; 4];
 
-/// What happens at a place: how far each layer has moved, and in the fourth lane the gradient of the surface's depth.
+/// Effect at a place: the shift of each layer, and in the fourth lane the gradient of the surface's depth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moved {
     pub(super) x: Lanes,
@@ -29,12 +29,12 @@ pub(super) struct Moved {
     pub(super) wetting: f32,
 }
 
-/// A shift by a fiftieth of a pixel of the smallest useful frame (0.2 mm) is not seen.
+/// Least visible shift, mm: a fiftieth of a pixel of the smallest useful frame (0.2 mm).
 const LEAST_MM: f64 = 0.004;
-/// The part of the reach, counted from outside, over which everything fades.
+/// Outer part of the reach over which the effect fades.
 const FADE: f64 = 0.2;
 
-/// The part of full contact that is seen `beyond` mm outside the rim.
+/// Part of full wetting at `beyond` mm outside the rim.
 fn wet(beyond: f64) -> f64 {
     if beyond > 8.0 {
         return 0.0;
@@ -56,7 +56,7 @@ impl Default for Shift {
 }
 
 impl Shift {
-    /// Takes the displacements of the three layers under `load`; the surface's slope is that of the first layer.
+    /// Computes the displacements of the three layers under `load`; the slope of the surface is that of the first layer.
     pub(super) fn take(&mut self, load: &Load, profiles: &[Profile; 3], wetting: f64) {
         [self.x, self.y] = load.centre_mm.map(narrow);
         self.shear = load.shear_direction().map(narrow);
@@ -85,7 +85,7 @@ impl Shift {
         self.fade(radius, reach);
     }
 
-    /// Lets everything end at the reach without a seam.
+    /// Fades all values to 0 at the reach, without a seam.
     fn fade(&mut self, radius: f64, reach: f64) {
         let start = reach * (1.0 - FADE);
         for (position, values) in self.nodes.iter_mut().enumerate() {
@@ -100,7 +100,7 @@ impl Shift {
         }
     }
 
-    /// What happens at `x`, `y`.
+    /// Effect at `x`, `y`.
     #[inline(always)]
     pub(super) fn at(&self, x: f32, y: f32) -> Moved {
         let [dx, dy] = [x - self.x, y - self.y];

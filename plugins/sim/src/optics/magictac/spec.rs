@@ -1,4 +1,4 @@
-//! The figures of a clear block with a lattice.
+//! Parameters of a clear block with a lattice.
 
 use crate::optics::contrast::grating_contrast;
 use crate::parameters::{Lattice, Layer, Parameters};
@@ -10,19 +10,19 @@ pub struct MagictacSpec {
     pub thickness_mm: f64,
     /// Depths of the lattice's layers below the surface (geometry).
     pub layers_mm: [f64; 3],
-    /// Between the lattice's lines (free).
+    /// Distance between the lattice's lines (free).
     pub pitch_mm: f64,
     /// Contrast of the lines and of the speckle between them (free).
     pub contrast: [f64; 2],
-    /// How far a slope of the surface shifts what is seen below it (free).
+    /// Shift by refraction of the view below the surface, per unit of its slope (free).
     pub refraction_mm: f64,
     /// Brightening by the slope of the surface (free).
     pub gloss: f64,
-    /// Brightening where the ball touches (free).
+    /// Brightening under the ball (free).
     pub wetting: f64,
-    /// Buckling of the lattice: a part of the local displacement, by chance from press to press (free).
+    /// Buckling of the lattice: a part of the local displacement, random for each press (free).
     pub buckling: f64,
-    /// Strength of the coloured glow and of the light from everywhere (fit: mean gray 107).
+    /// Strength of the coloured glow and of the uniform light (fit: mean gray 107).
     pub glow_dn: [f64; 2],
     /// Contrast of a grating in the first layer (fit).
     pub grating_contrast: f64,
@@ -33,7 +33,7 @@ pub struct MagictacSpec {
 }
 
 impl MagictacSpec {
-    /// The look of a clear layer with a lattice.
+    /// Optics of a clear layer with a lattice.
     pub(in crate::optics) fn new(
         parameters: &Parameters,
         layer: &Layer,

@@ -4,8 +4,8 @@
 )]
 //! Four numbers in one register.
 //!
-//! Left to itself the compiler keeps the four numbers of a texel apart. Every operation here is the one of IEEE 754 on each lane, so the
-//! vector of the processor and the array that stands for it elsewhere give the same bits. SSE2 is part of every x86-64.
+//! The compiler alone keeps the four numbers of a texel apart. Every operation is that of IEEE 754 on each lane, so vector and array
+//! implementations give the same bits. SSE2 is part of every x86-64.
 
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64 as isa;
@@ -57,7 +57,7 @@ impl Lanes {
         Lanes(unsafe { isa::_mm_sqrt_ps(self.0) })
     }
 
-    /// The low `BITS` bits of each lane's pattern, and above them those of `high`.
+    /// Low `BITS` bits of each lane, with those of `high` above them.
     #[inline(always)]
     pub(in crate::optics) fn joined_with<const BITS: i32>(self, high: Lanes) -> [u32; 4] {
         // SAFETY: every x86-64 has SSE2.
@@ -109,7 +109,7 @@ impl Lanes {
         Lanes(self.0.map(f32::sqrt))
     }
 
-    /// The low `BITS` bits of each lane's pattern, and above them those of `high`.
+    /// Low `BITS` bits of each lane, with those of `high` above them.
     #[inline(always)]
     pub(in crate::optics) fn joined_with<const BITS: i32>(self, high: Lanes) -> [u32; 4] {
         let low_bits = |number: f32| number.to_bits() & ((1 << BITS) - 1);
@@ -118,13 +118,13 @@ impl Lanes {
 }
 
 impl Lanes {
-    /// The same number in each lane.
+    /// Puts the same number in each lane.
     #[inline(always)]
     pub(in crate::optics) fn splat(number: f32) -> Lanes {
         Lanes::new([number; 4])
     }
 
-    /// From `self` towards `other` by `part` of the way.
+    /// Interpolates from `self` towards `other` by `part` of the way.
     #[inline(always)]
     pub(in crate::optics) fn towards(self, other: Lanes, part: Lanes) -> Lanes {
         self.plus(part.times(other.minus(self)))

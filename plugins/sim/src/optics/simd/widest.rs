@@ -2,10 +2,9 @@
     unsafe_code,
     reason = "a function made for AVX2 is called once the processor is known to have it"
 )]
-//! The same code made twice: for every processor, and for those with AVX2.
+//! The same code compiled twice: for every processor, and for those with AVX2.
 //!
-//! Vectors of eight do what vectors of four do, lane by lane, and no multiplication is fused with an addition, so both give the same
-//! bytes.
+//! Vectors of eight and of four compute the same, lane by lane. No multiplication is fused with an addition, so both give the same bytes.
 
 use crate::optics::camera::Camera;
 use crate::optics::luma::Luma;

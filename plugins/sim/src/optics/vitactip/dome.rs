@@ -1,17 +1,17 @@
-//! Where the markers of a dome go under a ball.
+//! Displacement of the markers of a dome under a ball.
 
 use super::spec::VitactipSpec;
 use crate::contact::Contact;
 use crate::elastic::{hertz, shell};
 use crate::number::{count, narrow};
 
-/// The dimple of a shell, tabulated: working out Kelvin's function for 127 markers would take longer than the picture.
+/// Tabulated dimple of a shell: Kelvin's function for 127 markers would take longer than the picture.
 #[derive(Clone, Debug)]
 pub(super) struct Dimple {
     depths: Vec<f32>,
 }
 
-/// Nodes a decay length, and decay lengths after which the dimple has ended.
+/// Nodes in a decay length, and decay lengths after which the dimple ends.
 const NODES_A_LENGTH: f64 = 32.0;
 const LENGTHS: usize = 12;
 
@@ -25,7 +25,7 @@ impl Dimple {
         }
     }
 
-    /// Depth at `arc` decay lengths from the load, a unit of depth under it.
+    /// Depth at `arc` decay lengths from the load, relative to the depth under it.
     fn at(&self, arc: f64) -> f64 {
         let place = arc * NODES_A_LENGTH;
         #[expect(
@@ -40,7 +40,7 @@ impl Dimple {
     }
 }
 
-/// Where the marker goes that lay at `marker`, in mm from the dome's centre.
+/// Displaced position of the marker at `marker`, in mm from the dome's centre.
 ///
 /// With s the distance from the contact along the surface and w its depth there,
 ///
@@ -75,7 +75,7 @@ pub(super) fn displaced(
     })
 }
 
-/// Below this the contact is smaller than the skin is thick, and looks no smaller.
+/// Least apparent contact radius, mm: smaller contacts are hidden by the thickness of the skin.
 const LEAST_RADIUS_MM: f64 = 0.3;
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -121,7 +121,7 @@ mod tests {
     fn the_rim_stays_where_it_is() {
         let [x, y, z] = displaced([20.0, 0.0, 0.0], &press());
         assert!((x - 20.0).abs() < 1e-9 && y.abs() < 1e-12);
-        // Hertz's profile dies away like 1/r: 0.7 × 1.35/20 × (4/3π).
+        // Hertz's profile decays like 1/r: 0.7 × 1.35/20 × (4/3π).
         assert!(z.abs() < 0.03, "{z}");
     }
 

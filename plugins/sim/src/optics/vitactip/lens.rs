@@ -1,11 +1,11 @@
-//! The camera on the dome's axis.
+//! Lens of the camera on the dome's axis.
 
 use super::spec::VitactipSpec;
 
-/// An equidistant lens: a point α off the axis is seen α/α_rim radii of the rim from the middle.
+/// An equidistant lens: a point at the angle α from the axis is seen α/α_rim radii of the rim from the middle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lens {
-    /// Between the camera and the dome's centre.
+    /// Distance between the camera and the dome's centre.
     behind_mm: f64,
     distance_mm: f64,
     rim_angle: f64,
@@ -17,12 +17,12 @@ impl Lens {
         Lens {
             behind_mm,
             distance_mm: spec.camera_distance_mm,
-            // The rim lies in the plane of the dome's centre.
+            // The rim is in the plane of the dome's centre.
             rim_angle: libm::atan2(spec.dome_radius_mm, behind_mm),
         }
     }
 
-    /// Where a point is seen that lies at `point`, in mm from the dome's centre.
+    /// Image of the point `point`, in mm from the dome's centre.
     pub(super) fn project(&self, point: [f64; 3]) -> [f64; 2] {
         let [x, y, z] = point;
         let from_axis = (x * x + y * y).sqrt();
@@ -35,7 +35,7 @@ impl Lens {
         [x * scale, y * scale]
     }
 
-    /// Which point is seen at `seen` of a plane across the axis, `depth_mm` nearer than the apex.
+    /// Point with the image `seen` on a plane across the axis, `depth_mm` nearer than the apex.
     pub(super) fn on_plane(&self, seen: [f64; 2], depth_mm: f64) -> [f64; 2] {
         let [x, y] = seen;
         let from_middle = (x * x + y * y).sqrt();
@@ -46,7 +46,7 @@ impl Lens {
         [x, y].map(|part| part / from_middle * from_axis)
     }
 
-    /// Radii of the rim that a mm across the line of sight is seen as, at `point`.
+    /// Image scale at `point`: radii of the rim per mm across the line of sight.
     pub(super) fn scale(&self, point: [f64; 3]) -> f64 {
         let [x, y, z] = point;
         let z = z + self.behind_mm;

@@ -1,9 +1,9 @@
-//! How bright the skin of the dome is: by its own lamps, and by light from outside.
+//! Brightness of the skin of the dome by its own lamps and by ambient light.
 
 use super::spec::VitactipSpec;
 use crate::optics::ambient::AmbientLight;
 
-/// The part of a place that is inside the dome: 1 in it, 0 beside it, `edge` wide.
+/// Weight of a place in the dome: 1 inside, 0 outside, with an edge of width `edge`.
 ///
 /// # Units
 /// Radii of the rim, here and below.
@@ -11,15 +11,15 @@ pub(super) fn inside(from_middle: f64, edge: f64) -> f64 {
     1.0 / (1.0 + libm::exp((from_middle - OUTLINE) / edge))
 }
 
-/// Where the dome's outline is seen: a little outside its rim.
+/// Radius of the visible outline: a little outside the rim.
 const OUTLINE: f64 = 47.0 / 46.0;
 
-/// The skin under its own lamps, for a brightness of 1: even, more in the middle, and a ring before the rim.
+/// Light of the own lamps on skin of brightness 1: uniform, more in the middle, and a ring before the rim.
 pub(super) fn glow(from_middle: f64) -> f64 {
     7.0 + 9.0 * bell(from_middle, 30.0 / 46.0) + 5.0 * bell(from_middle - 42.0 / 46.0, 3.0 / 46.0)
 }
 
-/// The light that a scene adds to the skin, in DN (fit: mean gray 17, 28, 34.5 and 47 under S1 to S4, from 12).
+/// Light that a scene adds to the skin, in DN (fit: mean gray 17, 28, 34.5 and 47 under S1 to S4, from 12).
 pub(super) fn outside(scene: AmbientLight, x: f64, y: f64) -> f64 {
     let from = |middle: f64| ((x - middle) * (x - middle) + y * y).sqrt();
     match scene {
@@ -34,7 +34,7 @@ pub(super) fn outside(scene: AmbientLight, x: f64, y: f64) -> f64 {
     }
 }
 
-/// The skin's brightness beside that of the default figures.
+/// Brightness of dome and surroundings under the own lamps, in DN.
 pub(super) fn base(spec: &VitactipSpec, from_middle: f64, uneven: f64, edge: f64) -> f64 {
     let within = inside(from_middle, edge);
     let skin = spec.skin_dn * glow(from_middle);

@@ -1,4 +1,4 @@
-//! The figures of a clear dome.
+//! Parameters of a clear dome.
 
 use crate::elastic::shell;
 use crate::optics::contrast::grating_contrast;
@@ -6,36 +6,36 @@ use crate::parameters::{Dome, Parameters};
 
 /// A clear dome with markers in its skin, seen from inside by a wide lens.
 ///
-/// Places in the picture are given in radii of the dome's rim as it is seen; the rim is 1 away from the middle.
+/// Places in the picture are in radii of the visible rim of the dome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VitactipSpec {
     /// Radius of the dome (geometry).
     pub dome_radius_mm: f64,
-    /// Between the apex and the camera, on the axis (geometry).
+    /// Distance between apex and camera, on the axis (geometry).
     pub camera_distance_mm: f64,
-    /// Length over which a dimple of the skin dies away (literature: 1 mm of skin).
+    /// Decay length of a dimple of the skin (literature: 1 mm of skin).
     pub dimple_mm: f64,
-    /// How far the dome leans under a lateral force, at its apex (free).
+    /// Sway of the apex per lateral force (free).
     pub sway_mm_per_n: f64,
-    /// Markers between the middle one and the corner of the hexagon: 6 are 127 markers (literature).
+    /// Rings of markers around the middle one: 6 make 127 markers (literature).
     pub rings: i32,
-    /// Between markers, seen along the axis (literature).
+    /// Distance between markers, projected along the axis (literature).
     pub marker_pitch_mm: f64,
-    /// Radius of a marker in the picture, as at the apex (free).
+    /// Radius of a marker at the apex, in the picture (free).
     pub marker_radius: f64,
-    /// The part of the light a marker takes (free).
+    /// Part of the light that a marker absorbs (free).
     pub marker_darkness: f64,
-    /// Standard deviation of the places between units (free).
+    /// Standard deviation of their places between units (free).
     pub marker_jitter_mm: f64,
     /// Brightness of the skin (fit: mean gray 12).
     pub skin_dn: f64,
-    /// Brightness beside the dome (free).
+    /// Brightness outside the dome (free).
     pub surroundings_dn: f64,
     /// Standard deviation of the skin's unevenness (free).
     pub unevenness: f64,
-    /// How much brighter the ball looks through the skin at first touch, and how much more 3.5 mm deep (free).
+    /// Brightening by the ball at first touch, and the further brightening at 3.5 mm depth (free).
     pub ball_glow: [f64; 2],
-    /// Contrast of a grating seen through the skin (fit).
+    /// Contrast of a grating through the skin (fit).
     pub grating_contrast: f64,
     /// Standard deviation of the blur by skin and lens, on the board (fit: gratings).
     pub blur_mm: f64,
@@ -44,7 +44,7 @@ pub struct VitactipSpec {
 }
 
 impl VitactipSpec {
-    /// The look of a dome.
+    /// Optics of a dome.
     pub(in crate::optics) fn new(parameters: &Parameters, dome: &Dome) -> VitactipSpec {
         let markers = parameters.markers.as_ref();
         let camera_distance_mm = 2.5 * dome.radius_mm;
@@ -70,7 +70,7 @@ impl VitactipSpec {
         }
     }
 
-    /// The side of the square frame, in radii of the rim: 46 of 48 parts of half of it are the dome.
+    /// Side of the square frame, in radii of the rim: the dome takes 46 of 48 parts of it.
     pub(in crate::optics) fn frame_side(&self) -> f64 {
         2.0 * 48.0 / 46.0
     }

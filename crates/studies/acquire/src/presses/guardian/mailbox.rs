@@ -1,4 +1,4 @@
-//! A force transducer that a thread of its own reads, and the place where a run finds what it said last.
+//! A force transducer with its own reader thread, and the mailbox with its last reading.
 
 use std::sync::mpsc::{Receiver, RecvError, Sender, TryRecvError, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -12,21 +12,21 @@ use taceva_protocol::{Observation, SharedSupervisor};
 
 use crate::viewer::Viewer;
 
-/// A transducer that says nothing for so long is asked again.
+/// Deadline of one reading, after which it is retried.
 const READ_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
-/// Before a transducer that fails at once is asked again.
+/// Delay before a failing transducer is retried.
 const FAILED_REST: Duration = Duration::from_millis(5);
 
-/// What the transducer said last.
+/// Last reading of the transducer.
 #[derive(Default)]
 struct Latest {
-    /// How many readings there were.
+    /// Number of readings.
     count: u64,
     reading: Option<(Wrench, Stamp, Option<u64>)>,
     error: Option<DriverError>,
 }
 
-/// Where it is put.
+/// Shared slot of the last reading.
 #[derive(Default)]
 struct Slot {
     latest: Mutex<Latest>,
@@ -44,36 +44,36 @@ impl Slot {
     }
 }
 
-/// What only the owner of the transducer can do.
+/// Tasks for the owner of the transducer.
 enum Task {
     Start(Deadline),
     Stop,
     Zero(Deadline),
 }
 
-/// A task, and where its outcome goes.
+/// A task, and the channel for its outcome.
 type Request = (Task, Sender<Result<(), DriverError>>);
 
-/// The transducer as a run sees it: `read` gives the newest reading of the thread that owns it.
+/// Transducer for a run: `read` returns the newest reading of the reader thread.
 pub(super) struct Mailbox {
     slot: Arc<Slot>,
     requests: Sender<Request>,
     driver: DriverKey,
     axes: Axes,
     has_tare: bool,
-    /// How many readings there were when the last was taken out.
+    /// Number of readings at the last `read`.
     taken: u64,
     sequence: Option<u64>,
 }
 
-/// Who reads the transducer.
+/// Reader of the transducer.
 pub(super) struct Reader {
     slot: Arc<Slot>,
     requests: Receiver<Request>,
 }
 
 impl Mailbox {
-    /// The mailbox of `force`, and who fills it.
+    /// Mailbox of `force`, and its reader.
     pub(super) fn of(force: &mut dyn ForceTransducer, driver: DriverKey) -> (Mailbox, Reader) {
         let (requests, received) = channel();
         let slot = Arc::new(Slot::default());
@@ -94,7 +94,7 @@ impl Mailbox {
         let gone = || DriverError::new(ErrorKind::Disconnected, &self.driver, "reach its reader");
         let (outcome, done) = channel();
         self.requests.send((task, outcome)).map_err(|_| gone())?;
-        // The device keeps its own deadline.
+        // The device keeps the deadline.
         done.recv().unwrap_or_else(|RecvError| Err(gone()))
     }
 }
@@ -108,7 +108,7 @@ impl ForceTransducer for Mailbox {
         self.ask(Task::Start(deadline))
     }
 
-    /// The newest reading that was not taken out before.
+    /// Newest reading, returned once.
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let taken = self.taken;
         let is_old = |latest: &mut Latest| latest.count == taken && latest.error.is_none();
@@ -156,8 +156,8 @@ impl Tare for Mailbox {
 }
 
 impl Reader {
-    /// Reads `force` from its start to its stop, shows every reading to `supervisor`, and does what it is asked to between two of them; until
-    /// the mailbox is gone.
+    /// Reads `force` from start to stop, shows every reading to `supervisor`, and executes tasks between readings. Ends when the mailbox is
+    /// dropped.
     pub(super) fn serve(
         self,
         force: &mut dyn ForceTransducer,
@@ -180,7 +180,7 @@ impl Reader {
                         Task::Stop => false,
                         Task::Zero(_) => is_started,
                     };
-                    // Who asked waits for it, or is gone with everything else.
+                    // The sender waits for the outcome, or the run has ended.
                     let _ = outcome.send(carry_out(task, force));
                 }
                 Err(TryRecvError::Empty) => self.read(force, supervisor, viewer),
@@ -202,7 +202,7 @@ impl Reader {
                     Some(number) => Observation::Numbered(wrench, stamp, number),
                     None => Observation::Force(wrench, stamp),
                 };
-                // What it halts for, the run learns from the supervisor.
+                // The run learns of a trip from the supervisor.
                 let mut held = supervisor.lock();
                 let _ = held.observe(&observation, MonotonicClock.now_s());
                 let presses = held.zeroed(&wrench);
@@ -215,7 +215,7 @@ impl Reader {
                     latest.reading = Some((wrench, stamp, number));
                 });
             }
-            // The other thread hears how long nothing is heard.
+            // The watcher thread measures the age of the last reading.
             Err(error) if error.kind() == ErrorKind::Timeout => {}
             Err(error) => {
                 let mut held = supervisor.lock();
@@ -250,7 +250,7 @@ mod tests {
 
     const KEY: DriverKey = DriverKey::fixed("test/force");
 
-    /// Gives what the script says, one entry a reading, and nothing more after that.
+    /// A scripted transducer: one entry for each reading, then timeouts.
     struct Script(Vec<Result<f64, ErrorKind>>);
 
     impl ForceTransducer for Script {
@@ -285,7 +285,7 @@ mod tests {
         }
     }
 
-    /// What `act` sees of a transducer that says `script`, and how often the robot was halted.
+    /// Result of `act` with a transducer that follows `script`, and the number of halts.
     fn reading<T>(
         script: Vec<Result<f64, ErrorKind>>,
         act: impl FnOnce(&mut Mailbox, &SharedSupervisor) -> T,

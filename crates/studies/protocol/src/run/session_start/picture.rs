@@ -1,22 +1,22 @@
-//! Whether a picture shows a touch: what changed between two frames, whatever noise there is in each pixel.
+//! Detects a touch in pictures by the change between frames, whatever the noise of the pixels.
 
 use taceva_core::Frame;
 
-/// Parts along each side of a picture whose mean brightness is compared. Large ones average noise out of a gentle touch of a ball; in small
-/// ones the light and dark sides of the grooves of a board do not cancel.
+/// Parts along each side of a picture, whose mean brightness is compared. Large parts average the noise in the gentle touch of a ball.
+/// Small parts separate the light and dark sides of the grooves of a board.
 const SIDES: [usize; 3] = [8, 32, 128];
-/// A touch changes some part by so much of the numbers of a pixel, of 255, for each of [`SIDES`].
+/// Least change of a part by a touch, in steps of 255, for each of [`SIDES`].
 const LEAST: [f64; SIDES.len()] = [0.25, 0.5, 2.0];
-/// Frames whose mean is one picture: a gentle touch changes little, and small cameras hiss.
+/// Frames averaged to one picture, since a gentle touch changes little and small cameras are noisy.
 pub(super) const FRAMES: u32 = 4;
-/// And by so many times what changes in the air.
+/// Least ratio of the change in contact to the change in the air.
 const CHANGES: f64 = 2.0;
 
-/// The mean brightness of every part over a few frames, in steps of a pixel of 8 bits: for each of [`SIDES`], row by row.
+/// Mean brightness of every part over several frames, in steps of an 8-bit pixel: for each of [`SIDES`], row by row.
 pub(super) struct Picture([Vec<f64>; SIDES.len()]);
 
 impl Picture {
-    /// Of `frames`, which come from one sensor.
+    /// Averages `frames` of one sensor.
     pub(super) fn of(frames: &[Frame]) -> Picture {
         let count = frames.len().max(1) as f64;
         Picture(SIDES.map(|side| {
@@ -30,7 +30,7 @@ impl Picture {
         }))
     }
 
-    /// The greatest change of a part between this picture and `other`, for each of [`SIDES`].
+    /// Greatest change of a part between this picture and `other`, for each of [`SIDES`].
     pub(super) fn change(&self, other: &Picture) -> Change {
         let mut changes = [0.0; SIDES.len()];
         for (change, (one, other)) in changes.iter_mut().zip(self.0.iter().zip(&other.0)) {
@@ -44,12 +44,12 @@ impl Picture {
     }
 }
 
-/// The greatest change of a part between two pictures, in steps of a pixel of 8 bits, for each of [`SIDES`].
+/// Greatest change of a part between two pictures, in steps of an 8-bit pixel, for each of [`SIDES`].
 #[derive(Clone, Copy)]
 pub(super) struct Change([f64; SIDES.len()]);
 
 impl Change {
-    /// Where this change, in contact, stands out most of the one that is there in the air.
+    /// Part size at which this change, in contact, most exceeds the change in the air.
     pub(super) fn against(&self, in_air: &Change) -> Seen {
         let stands_out = |place: &usize| self.0[*place] / threshold(in_air, *place);
         let places = 0..SIDES.len();
@@ -63,36 +63,35 @@ impl Change {
     }
 }
 
-/// What a part of the size at `place` of [`SIDES`] changes by at least where there is a touch.
+/// Least change in contact that shows a touch, for parts of the size at `place` of [`SIDES`].
 fn threshold(in_air: &Change, place: usize) -> f64 {
     (CHANGES * in_air.0[place]).max(LEAST[place])
 }
 
-/// What a touch changes and what changes in the air, in parts of one size.
+/// Greatest changes in contact and in the air, for parts of one size.
 #[derive(Clone, Copy)]
 pub(super) struct Seen {
     place: usize,
-    /// The greatest change in contact, in steps of a pixel of 8 bits.
+    /// Greatest change in contact, in steps of an 8-bit pixel.
     pub(super) in_contact: f64,
-    /// And in the air.
+    /// Greatest change in the air, in the same steps.
     pub(super) in_air: f64,
 }
 
 impl Seen {
-    /// Whether the change in contact stands out of the one in the air.
+    /// True if the change in contact exceeds that in the air clearly.
     pub(super) fn shows(&self) -> bool {
         self.in_contact > (CHANGES * self.in_air).max(LEAST[self.place])
     }
 
-    /// How much of it is there `after` the tip has left, where that is more than half of what stood out of the air: gels come back slowly, and
-    /// never quite.
+    /// Change that remains `after` the tip has left, if it exceeds the mean of contact and air. Gels recover slowly and never fully.
     pub(super) fn stays(&self, after: &Change) -> Option<f64> {
         let after = after.0[self.place];
         (2.0 * after > self.in_contact + self.in_air).then_some(after)
     }
 }
 
-/// The mean brightness of every part of `frame`, so many along each `side`, row by row, in steps of a pixel of 8 bits.
+/// Mean brightness of every part of `frame`, `side` parts along each side, row by row, in steps of an 8-bit pixel.
 pub(in crate::run) fn means(frame: &Frame, side: usize) -> Vec<f64> {
     let info = frame.info();
     let (width, height) = (info.width as usize, info.height as usize);
@@ -109,7 +108,7 @@ pub(in crate::run) fn means(frame: &Frame, side: usize) -> Vec<f64> {
         sums[part].0 += f64::from(sample) / scale;
         sums[part].1 += 1;
     }
-    // A picture of fewer pixels than parts leaves some without any.
+    // With fewer pixels than parts, some parts are empty.
     let mean = |(sum, count): (f64, u32)| {
         if count == 0 {
             0.0
@@ -126,7 +125,7 @@ mod tests {
 
     use super::*;
 
-    /// A picture of 40 by 32 pixels whose pixels hiss, with a bright spot of so many steps.
+    /// A noisy picture of 40 by 32 pixels with a spot brighter by `spot` steps.
     fn picture(seed: u32, spot: u8) -> Picture {
         drawn(seed, |x, y| {
             let is_spot = (18..23).contains(&x) && (14..18).contains(&y);
@@ -134,7 +133,7 @@ mod tests {
         })
     }
 
-    /// One whose pixels at x and y are brighter by so many steps.
+    /// A noisy picture whose pixel at x and y is brighter by `brighter(x, y)` steps.
     fn drawn(seed: u32, brighter: impl Fn(u32, u32) -> u8) -> Picture {
         let info = FrameInfo {
             width: 40,
@@ -162,7 +161,7 @@ mod tests {
         assert!(seen.shows());
         assert_eq!(seen.stays(&again), None);
         assert!(seen.stays(&air.change(&picture(19, 38))).is_some());
-        // Nothing changes in the pictures of a camera that froze.
+        // A frozen camera shows no change.
         let frozen = air.change(&picture(3, 0));
         assert!(!frozen.against(&frozen).shows());
     }
@@ -171,7 +170,7 @@ mod tests {
     fn the_grooves_of_a_board_stand_out_though_their_light_and_dark_cancel_in_large_parts() {
         let flat = drawn(3, |_, _| 20);
         let in_air = flat.change(&drawn(8, |_, _| 20));
-        // Four rows of pixels are a large part.
+        // A large part has four rows of pixels.
         let grooves = |_, y: u32| if y.is_multiple_of(2) { 40 } else { 0 };
         let touched = flat.change(&drawn(11, grooves));
         assert!(touched.0[0] < threshold(&in_air, 0));

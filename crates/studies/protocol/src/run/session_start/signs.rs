@@ -1,25 +1,24 @@
-//! Along which axes a gentle touch was felt, and which axes of a rig file would agree with it.
+//! Axes along which a gentle touch was felt, compared with the axes of the rig file.
 
 use crate::rig_file::SignedAxes;
 use crate::text::SceneProblem;
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// What was felt when the tip pressed the gel and pushed it sideways, in N along the axes that the rig file says.
+/// Forces of the press and the sideways pushes, in N along the axes of the rig file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Felt {
-    /// Of the press along +z.
+    /// Force of the press along +z.
     pub(super) press: [f64; 3],
-    /// Of a push to +x and of one to +y, against one the other way; `None` of those that the noise hides, and of a transducer that does not
-    /// measure shear.
+    /// Half the difference between the push to +x (+y) and its opposite. `None` if noise hides it or the transducer does not measure shear.
     pub(super) pushes: [Option<[f64; 3]>; 2],
 }
 
 impl Felt {
-    /// Lets through what `axes` say: each force was felt the way that the tip went.
+    /// Checks that each force was felt along its motion, by `axes`.
     ///
     /// # Errors
-    /// What was felt instead, and the axes with which it would have been felt as it should.
+    /// The measured directions, and the axes that would agree with them.
     pub(super) fn check(&self, axes: SignedAxes) -> Result<(), SceneProblem> {
         let [to_x, to_y] = self.pushes;
         let forces = [to_x, to_y, Some(self.press)];
@@ -44,7 +43,7 @@ impl Felt {
         Err(SceneProblem::AxesContradicted {
             felt: wrong.join("; "),
             expected: expected.map(|axes| axes.to_string()),
-            // A robot that went elsewhere than down would have touched nothing.
+            // A robot that moved in another direction than down would have touched nothing.
             may_be_robot: along[2] == Some((2, 1.0)),
         })
     }
@@ -55,7 +54,7 @@ fn name((axis, sign): (usize, f64)) -> String {
     format!("{sign}{}", NAMES[axis])
 }
 
-/// The axis along which a force is greatest, and its sign there.
+/// Axis of the greatest component of a force, and its sign.
 fn greatest(force: &[f64; 3]) -> (usize, f64) {
     let mut found = (0, force[0]);
     for (axis, component) in force.iter().enumerate().skip(1) {
@@ -66,7 +65,7 @@ fn greatest(force: &[f64; 3]) -> (usize, f64) {
     (found.0, found.1.signum())
 }
 
-/// All three, where at most one is not known: that is at right angles to both others.
+/// Completes three signed axes if at most one is unknown, by the cross product of the others.
 fn whole(along: [Option<(usize, f64)>; 3]) -> Option<[(usize, f64); 3]> {
     let missing: Vec<usize> = (0..3).filter(|axis| along[*axis].is_none()).collect();
     match missing[..] {
@@ -81,7 +80,7 @@ fn whole(along: [Option<(usize, f64)>; 3]) -> Option<[(usize, f64); 3]> {
     }
 }
 
-/// The product of two signed axes; `None` of one with itself.
+/// Cross product of two signed axes; `None` for parallel ones.
 fn cross(one: (usize, f64), other: (usize, f64)) -> Option<(usize, f64)> {
     let sign = one.1 * other.1;
     match (3 + other.0 - one.0) % 3 {
@@ -97,7 +96,7 @@ mod tests {
 
     const TRUE: [&str; 3] = ["x", "-y", "-z"];
 
-    /// What is felt with `written` in the rig file of a transducer that lies as [`TRUE`] says.
+    /// Forces felt with `written` in the rig file and a transducer mounted as [`TRUE`].
     fn felt(written: SignedAxes, hidden: Option<usize>) -> Felt {
         let mounted = SignedAxes::read(TRUE).expect("axes");
         let felt = |force: [f64; 3]| written.to_sensor(mounted.to_device(force));

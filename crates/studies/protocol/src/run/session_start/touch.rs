@@ -14,21 +14,21 @@ use crate::run::supervisor::MotionStage;
 use crate::run::tip::{Step, Tip};
 use crate::text::SceneProblem;
 
-/// Readings whose mean is one force.
+/// Readings averaged to one force.
 const READINGS: u32 = 8;
-/// A push this many standard errors above nothing was felt.
+/// Least number of standard errors at which a push counts as felt.
 const ERRORS: f64 = 4.0;
-/// The force of the touch is so many times that which counts as contact.
+/// Force of the touch, in multiples of the contact threshold.
 const RISE: f64 = 3.0;
-/// But no more than this part of the greatest force.
+/// Greatest force of the touch, as a part of the force limit.
 const FORCE_PART: f64 = 0.5;
-/// Nor deeper than this part of the greatest depth.
+/// Greatest depth of the touch, as a part of the depth limit.
 const DEPTH_PART: f64 = 0.5;
-/// How far the tip is pushed to each side, in mm.
+/// Sideways push to each side, in mm.
 const PUSH_MM: f64 = 0.2;
 
 impl Run<'_> {
-    /// Touches the gel, and holds what is felt and seen against the rig file.
+    /// Touches the gel and compares force and picture with the rig file.
     pub(super) fn touch_gently(
         &mut self,
         session: &SessionSpec<'_>,
@@ -95,7 +95,7 @@ impl Run<'_> {
         })
     }
 
-    /// Goes on from the first contact at `height_mm` until the force is three times that of contact, or to the depth of an earlier session.
+    /// Presses on from the first contact at `height_mm` to three times the contact force, or to the depth of an earlier session.
     fn press_on(&mut self, height_mm: f64, depth_mm: Option<f64>) -> Step<Force> {
         let wanted_n = (RISE * self.tip.pace.air_n).min(FORCE_PART * self.tip.pace.normal_max_n);
         let deepest_mm = self.deepest_mm(height_mm);
@@ -129,7 +129,7 @@ impl Run<'_> {
         height_mm + DEPTH_PART * depth_max
     }
 
-    /// What a push to +x and one to +y is felt as, each against one the other way.
+    /// Force of a push to +x and of one to +y, each as half the difference from its opposite; `None` if it is not felt.
     fn push_aside(&mut self) -> Step<[Option<[f64; 3]>; 2]> {
         let measured = self.tip.force.axes();
         let measures_shear = measured.contains(Axis::Fx) && measured.contains(Axis::Fy);
@@ -158,7 +158,7 @@ impl Run<'_> {
         Ok(pushes)
     }
 
-    /// Presses on until the picture shows it; the change that it shows, or `None` where no picture is taken.
+    /// Presses on until the picture changes. Returns the change; `None` if no picture is taken.
     fn show_touch(&mut self, height_mm: f64, in_air: &[Option<Picture>; 2]) -> Step<Option<Seen>> {
         let [Some(one), Some(other)] = in_air else {
             return Ok(None);
@@ -185,7 +185,7 @@ impl Run<'_> {
         }
     }
 
-    /// A picture of the next frames, where pictures are taken.
+    /// Averages the next frames; `None` without a camera.
     fn picture(&mut self) -> Step<Option<Picture>> {
         let Some(camera) = &mut self.camera else {
             return Ok(None);
@@ -196,7 +196,7 @@ impl Run<'_> {
             let (frame, _) = camera.frame(from_s, &self.tip, self.events)?;
             frames.push(frame);
             from_s = self.tip.clock.now_s();
-            // The force has been silent for as long as the frame took.
+            // No force was read while the frame was taken.
             self.tip.look()?;
         }
         Ok(Some(Picture::of(&frames)))
@@ -204,8 +204,8 @@ impl Run<'_> {
 }
 
 impl Tip<'_> {
-    /// Goes down step by step until the gel is felt along whatever axis; where it begins, by the line between the last step without and the
-    /// first with the force that counts, or `None` at the end of the search.
+    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last
+    /// step below the threshold and the first above; `None` at the end of the search.
     fn feel_down(&mut self, threshold_n: f64) -> Step<Option<f64>> {
         self.watch(MotionStage::Search);
         let start_mm = self.target.position.z.0;
@@ -230,7 +230,7 @@ impl Tip<'_> {
                 before_n = force.mean_n;
                 continue;
             }
-            // Along the way that the force points now, so that noise across it does not count.
+            // Projected on the direction of the present force, so that noise across it does not count.
             let before_n = dot(&before_n, &force.mean_n) / felt_n;
             let part = ((threshold_n - before_n) / (felt_n - before_n)).clamp(0.0, 1.0);
             let height_mm = z_mm - self.pace.step_mm * (1.0 - part);
@@ -242,7 +242,7 @@ impl Tip<'_> {
         Ok(None)
     }
 
-    /// Goes a quarter of a step deeper, at most to `deepest_mm`.
+    /// Descends a quarter of a step, at most to `deepest_mm`.
     fn deepen(&mut self, deepest_mm: f64) -> Step<()> {
         let z_mm = self.target.position.z.0 + 0.25 * self.pace.step_mm;
         self.deepen_to(z_mm.min(deepest_mm))
@@ -253,7 +253,7 @@ impl Tip<'_> {
         self.approach([middle.x.0, middle.y.0, z_mm])
     }
 
-    /// The force on a tip that rests.
+    /// Mean force on the resting tip.
     fn feel(&mut self) -> Step<Force> {
         let mut sum = [0.0; 3];
         let mut squares = [0.0; 3];
@@ -278,11 +278,11 @@ impl Tip<'_> {
     }
 }
 
-/// The mean of a few readings.
+/// Mean of several readings.
 #[derive(Clone, Copy, Debug, Default)]
 struct Force {
     mean_n: [f64; 3],
-    /// The standard error of the component that errs most.
+    /// Greatest standard error of a component.
     error_n: f64,
 }
 

@@ -1,24 +1,23 @@
-//! The enabling switch that somebody holds while the robot may move.
+//! The enabling switch, which a person holds while the robot may move.
 
 use taceva_core::Pose;
 
 use super::Supervisor;
 use crate::run::halt_reason::Trip;
 
-/// What is known of an enabling switch.
+/// State of an enabling switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Enabling {
-    /// It is held, or the rig has none.
+    /// Held, or the rig has no switch.
     Held,
-    /// Nobody holds it.
+    /// Not held.
     Released,
-    /// It cannot be read any more.
+    /// Unreadable.
     Lost,
 }
 
 impl Supervisor {
-    /// Learns what the enabling switch says now; a motion that goes on while it is not held is halted before this returns. A supervisor that
-    /// gets no such call is that of a rig without a switch.
+    /// Sets the state of the enabling switch; halts a motion in progress if the switch is not held. Never called on a rig without a switch.
     pub fn enabling(&mut self, enabling: Enabling) {
         self.enabling = enabling;
         if let Some(trip) = self.withheld()
@@ -28,7 +27,7 @@ impl Supervisor {
         }
     }
 
-    /// Why no motion may begin, if none may: the enabling switch is not held.
+    /// Reason that forbids a motion; `None` while the switch is held.
     pub fn withheld(&self) -> Option<Trip> {
         match self.enabling {
             Enabling::Held => None,
@@ -37,10 +36,10 @@ impl Supervisor {
         }
     }
 
-    /// Learns that the tip is sent along a straight way, before it is.
+    /// Announces a straight motion before it is sent.
     ///
     /// # Errors
-    /// [`Supervisor::withheld`], or what it halted for since the last halt was ended: then it must not be sent.
+    /// [`Supervisor::withheld`], or the trip since the last release: then the motion must not be sent.
     pub fn sent(&mut self, from: Pose, to: Pose) -> Result<(), Trip> {
         if let Some(trip) = self.withheld().or(self.tripped) {
             return Err(self.trip(trip));

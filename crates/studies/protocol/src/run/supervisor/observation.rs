@@ -1,57 +1,56 @@
-//! What a supervisor is shown, and in which part of a press.
+//! Observations for the supervisor, and the stages of a press.
 
 use taceva_core::{Pose, Stamp, Wrench};
 
-/// A reading that the supervisor checks.
+/// An observation that the supervisor checks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Observation {
     /// A reading of the force transducer.
     Force(Wrench, Stamp),
-    /// A reading of the force transducer, with the number that it gave it.
+    /// A reading of the force transducer, with its sequence number.
     Numbered(Wrench, Stamp, u64),
-    /// The pose that the robot reported during the motion announced by [`Supervisor::sent`](super::Supervisor::sent), as a thread that watches it
-    /// saw it.
+    /// Pose in the motion announced by [`Supervisor::sent`](super::Supervisor::sent), read by a guard thread.
     UnderWay {
-        /// Where it is.
+        /// Pose.
         pose: Pose,
-        /// When that was true.
+        /// Time of the pose.
         stamp: Stamp,
     },
-    /// The pose that the robot reported at rest, after it was sent to `target`.
+    /// Pose at rest, after a motion to `target`.
     Pose {
-        /// Where it is.
+        /// Pose.
         pose: Pose,
-        /// When that was true.
+        /// Time of the pose.
         stamp: Stamp,
-        /// Where it should be.
+        /// Target.
         target: Pose,
     },
-    /// No reading; time passed.
+    /// A timeout without a reading.
     Silence,
 }
 
-/// In which part of a press the tip is: what is allowed depends on it.
+/// Stage of a press, which sets the allowed forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MotionStage {
-    /// In the air: force above `threshold_n` is a collision.
+    /// In the air: a force above `threshold_n` is a collision.
     Travel {
-        /// The force that counts as contact.
+        /// Greatest force without a collision, in N.
         threshold_n: f64,
     },
-    /// At rest in the air while the transducer sets its zero: forces mean nothing.
+    /// At rest in the air while the transducer sets its zero: forces are ignored.
     Zeroing,
-    /// On the way to the first contact.
+    /// Approach to the first contact.
     Search,
     /// In contact since the tip was at `height_mm`.
     Press {
-        /// The height of the first contact in the sensor's frame.
+        /// Height of the first contact in the sensor's frame, in mm.
         height_mm: f64,
     },
-    /// On the way back, where the force must not rise above `force_n`.
+    /// Retreat, in which the force must not rise above `force_n`.
     Retreat {
-        /// The force at which the retreat began.
+        /// Force at the start of the retreat, in N.
         force_n: f64,
     },
 }

@@ -1,15 +1,15 @@
-//! How long a guard takes from a limit that is passed to a halt that is sent.
+//! Reaction time of a guard, from a passed limit to a sent halt.
 
-/// To send a halt, in s.
+/// Time to send a halt, in s.
 const SEND_S: f64 = 0.001;
-/// Of a thousand reactions one may be later.
+/// Percentile of the reaction time: one of a thousand may be later.
 const SOONER: f64 = 0.999;
 
-/// How late readings were when they were shown to the supervisor.
+/// Ages of readings when they were shown to the supervisor.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lateness {
     ages_s: Vec<f64>,
-    /// When the first and the last was true.
+    /// Times of the first and the last reading, in s.
     span_s: Option<[f64; 2]>,
 }
 
@@ -20,7 +20,7 @@ impl Lateness {
         self.span_s = Some([first_s, valid_s]);
     }
 
-    /// One period, in which the limit is passed just after a reading; the age of the reading that shows it; and the halt on its way.
+    /// Reaction time, in s: one period, the age of the next reading, and the time to send a halt. `None` for fewer than two readings.
     pub(super) fn reaction_s(mut self) -> Option<f64> {
         let [first_s, last_s] = self.span_s?;
         let periods = self

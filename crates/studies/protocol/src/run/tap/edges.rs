@@ -1,25 +1,25 @@
-//! From what was heard of taps to the latency of each device.
+//! Latency of each device, computed from recorded taps.
 
 use super::heard::{Said, TapHeard};
 use crate::rig_file::Latency;
 
-/// Above the gel by this much nothing is touched yet, in mm: what was said before is what is said in the air.
+/// Height above the gel up to which signals count as those in the air, in mm.
 const AIR_MM: f64 = 0.1;
-/// The last part of a tap, in s: the tip rests in the gel, and every device shows it.
+/// Last part of a tap, in s: the tip rests in the gel, and every device shows it.
 const REST_S: f64 = 0.2;
-/// Readings, frames or poses of a stretch, at least.
+/// Least number of readings, frames or poses of a stretch.
 const LEAST: usize = 3;
-/// Half of the change is the edge; before it nothing reaches that, and at rest everything is far above it.
+/// Part of the change that marks the edge: in the air the signal stays below it, at rest well above.
 const EDGE: f64 = 0.5;
 const AT_REST: f64 = 0.75;
-/// Poses so near both ends of the way are left out, in mm: there the arm speeds up or slows down.
+/// Distance from both ends of the way within which poses are ignored, in mm: there the arm accelerates.
 const END_MM: f64 = 0.05;
-/// Fast taps are at least so many times as fast as slow ones, or a way and a latency cannot be distinguished.
+/// Least ratio of the fastest to the slowest tap; below it, offset and latency cannot be separated.
 const LEAST_RATIO: f64 = 1.5;
-/// Standard deviations of one tap within which 95 of 100 lie.
+/// Standard deviations that cover 95 of 100 taps.
 const WITHIN: f64 = 2.0;
 
-/// What was heard of taps at one place.
+/// Recorded taps at one place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tapped {
     contact_mm: f64,
@@ -27,57 +27,57 @@ pub struct Tapped {
     taps: Vec<TapHeard>,
 }
 
-/// Why taps say no latency.
+/// Reasons for which taps give no latency.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TapError {
-    /// A device of which too little was heard.
+    /// A device gave too few values.
     #[error(
         "tap {tap}: {count} {what} were heard {stretch}, expected at least {LEAST}: see with taceva rig check how often the {device} speaks"
     )]
     Few {
-        /// Which tap, from 1.
+        /// Number of the tap, from 1.
         tap: usize,
         /// `robot`, `force` or `sensor`.
         device: &'static str,
-        /// What it says.
+        /// Kind of its values.
         what: &'static str,
-        /// In which part of the tap.
+        /// Stretch of the tap.
         stretch: &'static str,
-        /// How many there were.
+        /// Number of values.
         count: usize,
     },
-    /// A device that does not show the tap: in the air its signal varies by half of its change, or more.
+    /// A device does not show the tap: in the air its signal varies by at least half of its change.
     #[error(
         "tap {tap}: the {device} does not show it clearly: in the air its signal varies by {in_air:.2} of its change, expected below {EDGE}; see what it is fixed to, its light or its noise"
     )]
     Unclear {
-        /// Which tap, from 1.
+        /// Number of the tap, from 1.
         tap: usize,
         /// `force` or `sensor`.
         device: &'static str,
-        /// The greatest signal in the air, as a part of the change.
+        /// Greatest signal in the air, as a part of the change.
         in_air: f64,
     },
-    /// A device whose signal still changes when the tip has long come to rest.
+    /// The signal of a device still changes long after the tip came to rest.
     #[error(
         "tap {tap}: the {device} still changes after the tip has rested for a third of a second: it is later than a tap can show, or the gel creeps"
     )]
     Late {
-        /// Which tap, from 1.
+        /// Number of the tap, from 1.
         tap: usize,
         /// `force` or `sensor`.
         device: &'static str,
     },
-    /// A robot that does not go at the speeds that it is sent with.
+    /// The robot does not follow the requested speeds.
     #[error(
         "the fast taps are {ratio:.2} times as fast as the slow ones, expected 3: a way cannot be distinguished from a latency; see whether the controller limits its speed"
     )]
     OneSpeed {
-        /// The greatest speed divided by the least.
+        /// Greatest speed divided by the least.
         ratio: f64,
     },
-    /// Taps that contradict each other.
+    /// Taps contradict each other.
     #[error(
         "the latency of the {device} is spread over {spread_ms:.1} ms from tap to tap, expected at most half a frame, {allowed_ms:.1} ms: leave network and machine to it, start by chrt -f 10, and see that nothing shakes the rig"
     )]
@@ -86,24 +86,24 @@ pub enum TapError {
         device: &'static str,
         /// Two standard deviations of a tap, in ms.
         spread_ms: f64,
-        /// The most that is allowed, in ms.
+        /// Greatest allowed spread, in ms.
         allowed_ms: f64,
     },
 }
 
-/// Where the tip was in one tap, by a straight line through its poses.
+/// Passage of the tip in one tap, by a straight line through its poses.
 #[derive(Clone, Copy, Debug)]
 struct Passage {
-    /// When it passed the reference, in s.
+    /// Time at which it passed the reference height, in s.
     at_s: f64,
     speed_mm_s: f64,
 }
 
 impl Tapped {
-    /// How often the gel is tapped, in turn at the speed of contact and at a part of it.
+    /// Number of taps, alternating between the speed of contact and a part of it.
     pub const TAPS: u32 = 20;
 
-    /// Taps that have not been made yet, on a gel that begins at `contact_mm`; the moment of each is that at which the tip passes `reference_mm`.
+    /// Empty record of taps on a gel that begins at `contact_mm`. The time of each tap is the passage of `reference_mm`.
     pub(super) fn new(contact_mm: f64, reference_mm: f64) -> Tapped {
         Tapped {
             contact_mm,
@@ -116,18 +116,18 @@ impl Tapped {
         self.taps.push(heard);
     }
 
-    /// How many taps there are.
+    /// Number of taps.
     pub fn count(&self) -> usize {
         self.taps.len()
     }
 
-    /// The latencies of the transducer and of the sensor.
+    /// Latencies of the transducer and of the sensor.
     ///
-    /// Of each tap the difference of two moments is taken: a device shows half of its change, and the tip passes one height. Over all taps it is
-    /// L + δ/v, a straight line in the reciprocal of the speed v: L is the latency, δ how far below that height the half is shown.
+    /// Each tap gives the difference of two times: a device shows half of its change, and the tip passes the reference height. Over all
+    /// taps it is L + δ/v, a line in the reciprocal of the speed v. L is the latency, δ the offset of the half change below that height.
     ///
     /// # Errors
-    /// [`TapError`]: what is missing, unclear or contradicts itself.
+    /// [`TapError`] for signals that are missing, unclear or contradictory.
     pub fn latencies(&self) -> Result<(Latency, Latency), TapError> {
         let mut passages = Vec::new();
         for (place, heard) in self.taps.iter().enumerate() {
@@ -157,7 +157,7 @@ impl Tapped {
         let sensor = of("sensor", "frames", |heard| &heard.frames)?;
         let allowed_ms = self.frame_period_s() / 2.0 * 1e3;
         for (device, latency) in [("force", force), ("sensor", sensor)] {
-            // What is no number is no agreement either.
+            // NaN is rejected too.
             if latency.spread_ms.is_nan() || latency.spread_ms > allowed_ms {
                 return Err(TapError::Spread {
                     device,
@@ -196,7 +196,7 @@ impl Tapped {
         })
     }
 
-    /// The time from one frame to the next that half of them need, in s.
+    /// Median time between frames, in s.
     fn frame_period_s(&self) -> f64 {
         let between = |heard: &TapHeard| -> Vec<f64> {
             let pairs = heard.frames.windows(2);
@@ -208,7 +208,7 @@ impl Tapped {
     }
 }
 
-/// One device in one tap.
+/// Name of one device in one tap, for errors.
 struct Listened {
     tap: usize,
     device: &'static str,
@@ -216,7 +216,7 @@ struct Listened {
 }
 
 impl Listened {
-    /// When half of the change was shown, in s: nothing is touched before `air_s`.
+    /// Time at which half of the change was shown, in s; before `air_s` the tip touches nothing.
     fn edge_s(&self, said: &Said, air_s: f64) -> Result<f64, TapError> {
         let Listened { tap, device, what } = *self;
         let end_s = said.last().map_or(0.0, |(at_s, _)| *at_s);
@@ -248,7 +248,7 @@ impl Listened {
             .map(|(rest, air)| rest - air)
             .collect();
         let whole: f64 = change.iter().map(|change| change * change).sum();
-        // How much of the change is shown: 0 in the air, 1 at rest, whatever else the numbers do.
+        // Projection on the change: 0 in the air, 1 at rest, whatever else the values do.
         let shown = |numbers: &[f64]| -> f64 {
             let apart = numbers.iter().zip(&air).map(|(number, air)| number - air);
             apart
@@ -259,7 +259,7 @@ impl Listened {
         };
         let greatest = in_air.iter().map(|numbers| shown(numbers).abs());
         let in_air = greatest.fold(0.0, f64::max);
-        // Nothing that changed makes it no number.
+        // Without any change the projection is NaN.
         if whole <= 0.0 || in_air.is_nan() || in_air >= EDGE {
             return Err(TapError::Unclear {
                 tap,
@@ -283,7 +283,7 @@ impl Listened {
     }
 }
 
-/// The mean of each number.
+/// Mean of each column.
 fn mean(rows: &[&[f64]]) -> Vec<f64> {
     let mut sums = vec![0.0; rows.first().map_or(0, |row| row.len())];
     let mut count = 0.0_f64;
@@ -300,7 +300,7 @@ fn mean(rows: &[&[f64]]) -> Vec<f64> {
 struct Line {
     at_zero: f64,
     slope: f64,
-    /// The standard deviation of a point from it, and the standard error of `at_zero`.
+    /// Standard deviation of a point from the line, and standard error of `at_zero`.
     deviation: f64,
     error: f64,
 }
@@ -336,7 +336,7 @@ impl Line {
     }
 }
 
-/// What is left of a delay at an infinite speed, in s, by pairs of a reciprocal speed and a delay.
+/// Latency from pairs of a reciprocal speed and a delay, in s: the delay extrapolated to infinite speed.
 fn intercept(late: &[(f64, f64)]) -> Latency {
     let line = Line::through(late);
     Latency {

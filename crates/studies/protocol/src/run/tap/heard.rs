@@ -1,13 +1,13 @@
-//! What is heard of every device during one tap.
+//! Recording of every device during one tap.
 
 use taceva_core::{Frame, Pose, Stamp, Wrench};
 
 use crate::run::session_start::picture::means;
 
-/// Parts along each side of a picture whose mean brightness is heard.
+/// Parts along each side of a picture, whose mean brightness is recorded.
 const PARTS: usize = 8;
 
-/// What was heard of every device from before a tap to the rest after it, each with the time at which it was true by its stamp.
+/// Values of every device, from before a tap to the rest after it, each with the time of its stamp.
 ///
 /// ```
 /// use taceva_core::{Pose, Stamp};
@@ -24,11 +24,11 @@ pub struct TapHeard {
     pub(super) frames: Said,
 }
 
-/// What one device said, in order: when, and its numbers.
+/// Values of one device in order, each with its time in s.
 pub(super) type Said = Vec<(f64, Vec<f64>)>;
 
 impl TapHeard {
-    /// Where the tip was.
+    /// Adds a pose.
     pub fn pose(&mut self, pose: &Pose, stamp: &Stamp) {
         let is_news = self
             .heights
@@ -39,19 +39,19 @@ impl TapHeard {
         }
     }
 
-    /// What the transducer read.
+    /// Adds a reading of the transducer.
     pub fn force(&mut self, wrench: &Wrench, stamp: &Stamp) {
         let forces = wrench.force.map(|force| force.0).to_vec();
         add(&mut self.forces, forces, stamp);
     }
 
-    /// What the sensor showed.
+    /// Adds a frame of the sensor.
     pub fn frame(&mut self, frame: &Frame, stamp: &Stamp) {
         add(&mut self.frames, means(frame, PARTS), stamp);
     }
 }
 
-/// Adds what is news: a device may be asked more often than it speaks.
+/// Adds a value with a newer stamp; skips repeats, since a device may be read faster than it updates.
 fn add(said: &mut Said, numbers: Vec<f64>, stamp: &Stamp) {
     if said
         .last()

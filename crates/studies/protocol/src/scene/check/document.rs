@@ -1,4 +1,4 @@
-//! A scene and its studies as they are written.
+//! A scene and its studies, as parsed.
 
 use serde::Deserialize;
 

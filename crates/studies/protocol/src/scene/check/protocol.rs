@@ -1,10 +1,10 @@
-//! The counts and lengths of a protocol.
+//! Checks of the counts and lengths of a protocol.
 
 use super::{Check, Checked};
 use crate::scene::boards;
 use crate::scene::counts::Protocol;
 
-/// The most of anything that can be counted in a scene.
+/// Greatest count in a scene.
 const GREATEST_COUNT: u64 = 1_000_000;
 
 impl Check<'_> {
@@ -33,7 +33,7 @@ impl Check<'_> {
             self.count(key, count, 1, GREATEST_COUNT)?;
         }
         self.count("indentations", &calibration.indentations, 1, 1_000)?;
-        // One approach repeats nothing, and one picture has no rate.
+        // One trial repeats nothing, and one picture has no rate.
         self.count("trials", &repeatability.trials, 2, GREATEST_COUNT)?;
         self.count("frames", &idle.frames, 2, GREATEST_COUNT)?;
         for (key, length) in [

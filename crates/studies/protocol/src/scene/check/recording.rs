@@ -1,4 +1,4 @@
-//! Table `[recording]` of a scene as it is written.
+//! Table `[recording]` of a scene, as parsed.
 
 use std::fmt;
 
@@ -7,19 +7,19 @@ use serde::{Deserialize, Deserializer};
 
 use crate::text::Setting;
 
-/// What is kept of a recording that a scene makes.
+/// Settings of the recording of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table with `frames`")]
 pub(super) struct WrittenRecording {
-    /// The size to which frames are reduced before they are kept; as they come when absent.
+    /// Size to which frames are reduced before they are stored; `None` keeps them whole.
     pub(super) frames: Option<Setting<WrittenSize>>,
 }
 
-/// A size as it was written.
+/// Text of a size.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct WrittenSize(pub(super) String);
 
-/// A number is taken too, so that it is refused by the key and with what was expected.
+/// Accepts a number too, so that the check can reject it with the key and the expected form.
 impl<'de> Deserialize<'de> for WrittenSize {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<WrittenSize, D::Error> {
         struct Size;

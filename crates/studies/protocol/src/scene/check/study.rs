@@ -1,4 +1,4 @@
-//! The studies of a scene and their devices.
+//! Checks of the studies of a scene and their devices.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +14,7 @@ use crate::scene::study::Study;
 use crate::text::Setting;
 use crate::text::{SceneError, SceneProblem};
 
-/// The table of the sensor.
+/// Name of the table of the sensor.
 const SENSOR: &str = "[sensor]";
 
 impl Check<'_> {
@@ -48,7 +48,7 @@ impl Check<'_> {
         Ok(studies)
     }
 
-    /// A study with the tables of the scene where it has none of its own.
+    /// Builds a study, with the tables of the scene as defaults.
     fn study(&self, scene: &WrittenScene, study: &WrittenStudy) -> Result<Study, SceneError> {
         let Some(sensor) = study.sensor.as_ref().or(scene.sensor.as_ref()) else {
             let problem = format!(
@@ -106,7 +106,7 @@ impl Check<'_> {
         })
     }
 
-    /// The size at which `recording` keeps frames, if it says one.
+    /// Size of stored frames in `recording`, if set.
     fn frames(
         &self,
         recording: &WrittenRecording,
@@ -169,7 +169,7 @@ impl Check<'_> {
         }
     }
 
-    /// Refuses devices beside a rig file, which says which there are.
+    /// Rejects devices beside a rig file, which names the devices.
     fn no_device(
         &self,
         sensor: Option<&Setting<String>>,
@@ -185,7 +185,7 @@ impl Check<'_> {
         }
     }
 
-    /// A list of names, none empty, none twice.
+    /// Checks a list of names: not empty, each a valid name, none twice.
     fn distinct(&self, what: &'static str, names: Option<&Setting<Vec<String>>>) -> Checked {
         let Some(names) = names else { return Ok(()) };
         let mut seen = BTreeSet::new();
