@@ -53,7 +53,7 @@ impl PythonRobot {
         work: impl FnOnce(&Bound<'_, PyAny>, Bound<'_, super::waiting::Deadline>) -> PyResult<T>,
     ) -> Result<T, DriverError> {
         if self.is_halted() {
-            let why = "it was halted, and moves again once the halt is cleared";
+            let why = "it was halted: clear the halt before it moves again";
             return Err(self.failed(ErrorKind::Interrupted, why));
         }
         let moved = self
