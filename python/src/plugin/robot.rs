@@ -110,7 +110,7 @@ impl Halt for Handle {
 impl Robot for PythonRobot {
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         self.object
-            .call("say where it is", deadline, |object, deadline| {
+            .call("read the pose", deadline, |object, deadline| {
                 placed(&object.call_method1("pose", (deadline,))?, "pose")
             })
     }

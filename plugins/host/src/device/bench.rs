@@ -76,7 +76,7 @@ impl SimulatedBench for PluginBench {
     }
 
     fn rest(&self, rest: Duration) -> Result<(), DriverError> {
-        self.call("let time pass", self.calls.rest, |pass, error| {
+        self.call("advance the time", self.calls.rest, |pass, error| {
             // SAFETY: [any], on a rig that `self` keeps open, with a text and an error that outlive the call.
             unsafe { pass(self.rig.raw(), self.text(), nanoseconds(rest), error) }
         })

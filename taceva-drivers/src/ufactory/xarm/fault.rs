@@ -42,7 +42,7 @@ impl XarmFault {
             18 | 50..=53 => "the force transducer of the arm reports a fault",
             19 | 28 => "the tool does not answer",
             21 | 40 => "the pose cannot be reached",
-            22 => "the arm would touch itself",
+            22 => "the arm would collide with itself",
             23 | 38 => "a joint is at its limit",
             24 | 30 | 60 => "a speed exceeds its limit",
             25 => "the path cannot be planned",
