@@ -93,7 +93,7 @@ def test_an_editable_installation_is_found_by_its_entry_point_and_nothing_of_it_
     assert listed.returncode == 0, listed.stderr
     assert f"{KEY}/scale" in listed.stdout, listed.stdout
     assert "names `lab_nothing`: there is no module 'lab_nothing' in this environment" in listed.stdout
-    assert "names `lab_scale.part`: expected the name of a package at the top" in listed.stdout
+    assert "names `lab_scale.part`: expected the name of a top-level package" in listed.stdout
     assert not mark.exists()
     told = program.run("plugin", "info", KEY)
     assert f"lab_scale (interpreter), run by {own}" in told.stdout, told.stdout + told.stderr
@@ -139,10 +139,10 @@ def test_an_interpreter_that_is_gone_or_has_no_taceva_is_named_with_the_remedy(t
     assert f"{program.python} -m pip install taceva==" in listed
     other = package(tmp_path / "other", name="lab_other")
     listed = program.run("plugin", "list", "--all", "--plugin-dir", str(other)).stdout
-    assert "the manifest of a module lies in its package, expected a folder called `lab_scale`" in listed
+    assert "the manifest of a module must be in its package, expected a folder called `lab_scale`" in listed
     (made / "__init__.py").unlink()
     listed = program.run("plugin", "list", "--all", "--plugin-dir", str(made)).stdout
-    assert "no package, expected __init__.py beside the manifest" in listed
+    assert "not a package, expected __init__.py beside the manifest" in listed
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="a plugin runs as another user for root alone")
@@ -153,7 +153,7 @@ def test_what_the_user_of_the_sandbox_may_not_read_is_refused_with_the_folder_th
     (tmp_path / "closed").chmod(0o700)
     done = program.run("plugin", "check", KEY, "--plugin-dir", str(made))
     assert done.returncode != 0
-    assert f"it is closed by {tmp_path / 'closed'}" in done.stderr, done.stderr
+    assert f"{tmp_path / 'closed'} denies it" in done.stderr, done.stderr
     assert "runs as user 65534" in done.stderr
 
 
@@ -314,7 +314,7 @@ def test_code_that_comes_too_late_is_refused_and_the_remedy_is_named(tmp_path: P
         done = program.check(KEY, made, "--only", "force/reads")
         assert done["failed"] == [], done
     listed = program.run("plugin", "list", "--plugin-dir", str(tmp_path / "open/src/lab_scale")).stdout
-    assert "code may come into it at any time" in listed, listed
+    assert "it may load code at any time" in listed, listed
 
 
 def new(folder: Path, kind: str, name: str) -> Path:

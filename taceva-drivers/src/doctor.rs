@@ -36,8 +36,8 @@ pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Diagnosis> {
             code: "user-unknown",
             state: State::Problem,
             subject: "permissions".to_owned(),
-            detail: "this system does not say who runs the program in /proc".to_owned(),
-            remedy: Some("check by hand that the devices may be opened".to_owned()),
+            detail: "the user who runs the program cannot be read from /proc".to_owned(),
+            remedy: Some("check by hand that you may read and write the device files".to_owned()),
         });
     }
     for kind in ports::KINDS {

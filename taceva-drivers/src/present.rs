@@ -11,7 +11,7 @@ pub(crate) fn access_of(path: &Path, group: &str) -> Access {
     match access(path, Wanted::READ_OK | Wanted::WRITE_OK) {
         Err(Errno::ACCESS | Errno::PERM) => Access::Denied {
             remedy: format!(
-                "join the group `{group}` and log in again, or permit {} by a udev rule; `taceva doctor` says which",
+                "join the group `{group}` and log in again, or permit {} by a udev rule; `taceva doctor` prints the remedy",
                 path.display()
             ),
         },

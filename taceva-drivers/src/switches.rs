@@ -36,7 +36,7 @@ inventory::collect!(LinkedSwitch);
 /// use taceva_drivers::Switches;
 /// let switches = Switches::builtin();
 /// let refused = switches.check(&"lab/arm".parse()?).unwrap_err();
-/// assert!(refused.to_string().contains("is no enabling switch"));
+/// assert!(refused.to_string().contains("is not an enabling switch"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Default)]
@@ -90,11 +90,11 @@ impl Switches {
         let Some(entry) = self.0.get(selector.driver()) else {
             let known: Vec<String> = self.0.keys().map(|key| format!("`{key}`")).collect();
             let expected = match known.as_slice() {
-                [] => "this program was built without any".to_owned(),
+                [] => "but this program was built without enabling switches".to_owned(),
                 known => format!("expected {}", known.join(" or ")),
             };
             let why = format!(
-                "`{}` is no enabling switch, {expected}",
+                "`{}` is not an enabling switch, {expected}",
                 crate::text::shown(selector.driver())
             );
             let key = DriverKey::fixed("taceva/switch");

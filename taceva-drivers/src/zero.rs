@@ -19,7 +19,7 @@ pub(crate) struct HostZero {
 /// Operation name of a reading, for errors.
 pub(crate) const READ: &str = "read the force";
 /// Operation name of a tare, for errors.
-pub(crate) const ZERO: &str = "call the load zero";
+pub(crate) const ZERO: &str = "zero the force";
 /// Averaging time of a zero.
 const MEAN_OVER: Duration = Duration::from_millis(250);
 /// Maximum zero as a share of the range, so that the rest suffices for measurements.
@@ -45,8 +45,9 @@ impl HostZero {
         };
         match wrench.force.iter().find(|force| force.0.abs() >= most) {
             Some(beyond) => {
-                let why =
-                    format!("{beyond}, expected less than {most} N: a clipped force is wrong");
+                let why = format!(
+                    "a force of {beyond}, expected less than {most} N: beyond its range, forces are clipped"
+                );
                 Err(DriverError::new(ErrorKind::OutOfRange, &self.driver, READ).because(why))
             }
             None => Ok(()),
@@ -88,7 +89,9 @@ impl HostZero {
             }
             let left = deadline.less(spent).remaining();
             if left.is_zero() {
-                let why = format!("expected {MEAN_OVER:?} of readings within {deadline}");
+                let why = format!(
+                    "zeroing needs {MEAN_OVER:?} of readings, which did not arrive within {deadline}"
+                );
                 return Err(failed(ErrorKind::Timeout, why));
             }
             total = sum(&total, &next(left)?);
@@ -98,7 +101,8 @@ impl HostZero {
         if let Some(most) = self.force_max_n.map(|most| ZERO_MAX * most)
             && let Some(beyond) = mean.force.iter().find(|force| force.0.abs() > most)
         {
-            let why = format!("{beyond}, expected at most {most} N: half of what it measures");
+            let why =
+                format!("a load of {beyond}, expected at most {most} N: half the measuring range");
             return Err(failed(ErrorKind::OutOfRange, why));
         }
         self.zero = mean;

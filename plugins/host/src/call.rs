@@ -81,7 +81,7 @@ pub fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(), Fail
         .checked_sub(1)
         .and_then(|at| ErrorKind::ALL.get(at));
     let Some(&kind) = known else {
-        let message = format!("status {}, which is none of the interface's", status.0);
+        let message = format!("status {}, which the interface does not define", status.0);
         return Err(Failure::new(ErrorKind::Abi, message));
     };
     let bytes: Vec<u8> = error.bytes().collect();

@@ -146,8 +146,8 @@ pub enum Trust {
 impl std::fmt::Display for Trust {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Trust::CommandLine => "`--trust` says so",
-            Trust::Settings => "`trust_in_process` of the user's settings says so",
+            Trust::CommandLine => "trusted by `--trust`",
+            Trust::Settings => "trusted by `trust_in_process` in the user's settings",
         })
     }
 }

@@ -13,7 +13,7 @@ use crate::manifest::{DeclaredNeed, Need};
 use crate::search::{Place, Plugin};
 
 /// Error message for a device whose arguments name a resource that the plugin may not reach.
-pub const NOT_ALLOWED: &str = "its user does not allow what its arguments name";
+pub const NOT_ALLOWED: &str = "its user has not allowed the resources in its arguments";
 
 /// Needs granted to a session.
 #[derive(Clone, Debug)]
@@ -48,7 +48,7 @@ pub struct Withheld {
 
 /// Remedy for a denied access if the manifest declares no needs.
 const ASKS_FOR_NOTHING: &str =
-    "the process of a plugin reaches only what `needs` in its plugin.toml names, which is nothing";
+    "a plugin can reach only what `needs` in its plugin.toml lists, and this list is empty";
 
 impl Withheld {
     /// Needs that are not allowed; empty if all are.
@@ -226,7 +226,7 @@ pub(crate) fn resolved(
         }
         let failed = |why: String| {
             let why = format!(
-                "`{key}`: cannot find the address of `{}`: {why}",
+                "`{key}`: cannot resolve the address of `{}`: {why}",
                 taceva_core::shown(name)
             );
             DriverError::new(ErrorKind::NotFound, driver, "open the device").because(why)
@@ -240,7 +240,7 @@ pub(crate) fn resolved(
         addresses.sort_by_key(IpAddr::is_ipv6);
         let first = addresses
             .first()
-            .ok_or_else(|| failed("it has none".to_owned()))?;
+            .ok_or_else(|| failed("no address found".to_owned()))?;
         *name = first.to_string();
         is_changed = true;
     }

@@ -283,7 +283,7 @@ impl PluginHost {
         spec.ended = Some(Box::new(move |fate| {
             // Callers get errors about any other end of the child.
             if fate.is_unheard() {
-                let why = format!("closed late: {fate}; what was recorded is not affected");
+                let why = format!("closed late: {fate}; recordings are not affected");
                 log(Level::Warn, "host", &why);
             }
         }));
@@ -305,7 +305,7 @@ impl PluginHost {
         _: Option<Duration>,
     ) -> Result<Started, DriverError> {
         let why = format!(
-            "plugins are isolated on Linux alone; `--trust {}` runs it in this process",
+            "plugins are isolated only on Linux; `--trust {}` runs it in this process",
             plugin.id()
         );
         Err(DriverError::new(ErrorKind::Unsupported, driver, "load the plugin").because(why))
@@ -339,7 +339,7 @@ impl PluginHost {
             return Ok((Arc::clone(library), *digest));
         }
         let library = plugin.library().ok_or_else(|| {
-            let why = "it is written in Python, and runs in a process of its own alone";
+            let why = "it is written in Python and runs only in a process of its own";
             DriverError::new(ErrorKind::Unsupported, driver, "load the plugin").because(why)
         })?;
         let image =

@@ -98,7 +98,7 @@ impl fmt::Display for PluginId {
 /// Invalid plugin id.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{text:?} is no id of a plugin, expected lower-case words joined by `.` such as `org.example.digit`, at most {LENGTH_MAX} bytes"
+    "{text:?} is not a plugin id, expected lower-case words joined by `.` such as `org.example.digit`, at most {LENGTH_MAX} bytes"
 )]
 pub struct PluginIdError {
     text: String,

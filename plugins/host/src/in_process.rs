@@ -65,7 +65,7 @@ const OPENING: &str = "open the device";
 
 fn other_kind(said: &Descriptor) -> DriverError {
     let why = format!(
-        "with these arguments it says it is a {} driver",
+        "with these arguments it describes itself as a {} driver",
         said.kind()
     );
     Failure::new(ErrorKind::Abi, why).of(said.key(), OPENING)
@@ -76,7 +76,7 @@ impl Session for InProcess {
         let library = self.rig.library();
         let offer = library.offer();
         offer.map_err(|problem| {
-            let doing = "say what it offers";
+            let doing = "list its offer";
             let whole = library.id().as_driver();
             DriverError::new(problem.kind(), &whole, doing).because(problem.to_string())
         })
@@ -99,7 +99,10 @@ impl Session for InProcess {
         };
         let texts = texts.map_err(|failure| failure.of(driver, DOING))?;
         if let Some(text) = texts.iter().find(|text| text.contains(char::is_control)) {
-            let why = format!("{:?} is no arguments of a device", crate::text::shown(text));
+            let why = format!(
+                "{:?} are not arguments of a device",
+                crate::text::shown(text)
+            );
             return Err(Failure::new(ErrorKind::Protocol, why).of(driver, DOING));
         }
         let title = match &entry.provided {

@@ -245,7 +245,7 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
         let read: DeclaredNeed = (need.get_ref().parse())
             .map_err(|error| Refused::at(need, format!("`needs`: {error}")))?;
         if !needs.insert(read) {
-            return Err(Refused::at(need, "`needs`: named twice"));
+            return Err(Refused::at(need, "`needs`: listed twice"));
         }
     }
     let name = plain_text("name", &written.name)?;
@@ -323,7 +323,7 @@ fn code(written: &Written) -> Result<Code, Refused> {
         (None, Some(program)) => Ok((BTreeMap::new(), Some(program.get_ref().module()?))),
         (Some(_), Some(program)) => {
             let problem =
-                "`program`: a plugin is a library or a program, and `library` stands here too";
+                "`program`: a plugin is a library or a program, and `library` is given too";
             Err(Refused::at(program, problem))
         }
         (None, None) => {

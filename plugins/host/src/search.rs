@@ -143,7 +143,7 @@ impl Plugins {
             NotFound {
                 id: id.to_owned(),
                 help: match known.as_slice() {
-                    [] => "none was found".to_owned(),
+                    [] => "no plugin was found".to_owned(),
                     known => suggestion(id, known),
                 },
                 trail,
@@ -329,7 +329,7 @@ impl Searching {
         let io = |error: io::Error| refused(error.to_string());
         let real = fs::canonicalize(library).map_err(io)?;
         if !fs::metadata(&real).map_err(io)?.is_file() {
-            return Err(refused("no regular file".to_owned()));
+            return Err(refused("not a regular file".to_owned()));
         }
         match self.writable.by_all(&real).map_err(io)? {
             Some(path) => Err(Reason::WorldWritable { path }),

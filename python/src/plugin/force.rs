@@ -120,6 +120,6 @@ impl ForceTransducer for PythonForce {
 
 impl Tare for PythonForce {
     fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.object.method("zero", "call the load zero", deadline)
+        self.object.method("zero", "zero the force", deadline)
     }
 }

@@ -53,7 +53,7 @@ impl PythonRobot {
         work: impl FnOnce(&Bound<'_, PyAny>, Bound<'_, super::waiting::Deadline>) -> PyResult<T>,
     ) -> Result<T, DriverError> {
         if self.is_halted() {
-            let why = "it was halted, and moves again once the halt is cleared";
+            let why = "it was halted: clear the halt before it moves again";
             return Err(self.failed(ErrorKind::Interrupted, why));
         }
         let moved = self
@@ -110,7 +110,7 @@ impl Halt for Handle {
 impl Robot for PythonRobot {
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         self.object
-            .call("say where it is", deadline, |object, deadline| {
+            .call("read the pose", deadline, |object, deadline| {
                 placed(&object.call_method1("pose", (deadline,))?, "pose")
             })
     }

@@ -66,7 +66,7 @@ fn plugins_are_listed_with_what_they_provide_and_how_they_would_run() {
     let isolation = trusted["plugins"][1]["isolation"].as_str();
     assert_eq!(
         isolation,
-        Some("in this process, unconfined: `--trust` says so")
+        Some("in this process, unconfined: trusted by `--trust`")
     );
     assert!(out.ends_with("2 plugins, 0 not used\n"), "{out}");
 }
@@ -197,7 +197,8 @@ fn settings_with_a_mistake_name_their_line() {
     let ran = bench.run("plugin list --plugin-dir plugins");
     assert!(ran.out.contains("in process"), "{}", ran.out);
     assert!(ran.out.contains("needs usb (allowed: usb)"), "{}", ran.out);
-    let why = "runs in this process, unconfined: `trust_in_process` of the user's settings says so";
+    let why =
+        "runs in this process, unconfined: trusted by `trust_in_process` in the user's settings";
     assert!(ran.out.contains(why), "{}", ran.out);
     // Beside a scene the settings trust nothing, and what is allowed is reached.
     bench.write(

@@ -160,6 +160,6 @@ fn another_build_is_told_of_and_refused_where_the_manifest_demands_one() {
     bench.refused(
         &format!("evaluate set --with near.model {with}"),
         3,
-        "alone",
+        "the manifest allows only",
     );
 }

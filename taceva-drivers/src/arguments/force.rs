@@ -15,17 +15,17 @@ pub(crate) fn force_facts() -> [ArgSpec; 3] {
         fact(
             FORCE_MAX,
             [0.001, 100_000.0],
-            "the least of the ranges of its forces, in N, from its certificate",
+            "smallest measuring range of its forces, N, from its certificate",
         ),
         fact(
             RESOLUTION,
             [1e-9, 1_000.0],
-            "the step between two neighbouring readings of a force, in N",
+            "step between neighbouring force readings, N",
         ),
         fact(
             NOISE,
             [1e-9, 1_000.0],
-            "how far readings of a load that rests scatter, in N: one standard deviation, as it was measured",
+            "noise of force readings at constant load, N: one standard deviation, as measured",
         ),
     ]
 }

@@ -8,7 +8,7 @@ use super::{fact, optional_number};
 pub(crate) fn speed_limit(least: f64, usual: f64) -> ArgSpec {
     ArgSpec::number(SPEED_MAX, least, SPEED_LIMIT_MM_S)
         .default(ArgValue::Number(usual))
-        .help("the greatest speed of the tip, in mm/s")
+        .help("maximum speed of the tip, mm/s")
         .changes_facts()
 }
 
@@ -26,12 +26,12 @@ pub(crate) fn robot_facts() -> [ArgSpec; 2] {
         fact(
             STOP,
             [0.0, 2_000.0],
-            "how long it moves on after a halt has reached it, in ms, as it was measured",
+            "time that it still moves after it received a halt, ms, as measured",
         ),
         fact(
             REPEATABILITY,
             [1e-4, 10.0],
-            "how well it comes back to a pose, in mm: one standard deviation an axis, from its data sheet or measured",
+            "repeatability of a pose, mm: one standard deviation per axis, from its data sheet or as measured",
         ),
     ]
 }
@@ -42,7 +42,7 @@ pub(crate) fn deceleration() -> ArgSpec {
     fact(
         DECELERATION,
         [1.0, 100_000.0],
-        "how fast it slows down when it is halted, in mm/s², as it was measured",
+        "deceleration after a halt, mm/s², as measured",
     )
 }
 

@@ -68,7 +68,7 @@ impl Pictures {
         driver: &DriverKey,
     ) -> Result<Pictures, DriverError> {
         let sent = frame_info(whole(first)).map_err(|why| {
-            DriverError::new(ErrorKind::Protocol, driver, "look at its first picture").because(why)
+            DriverError::new(ErrorKind::Protocol, driver, "read its first picture").because(why)
         })?;
         let room = match crop == Crop::NONE {
             true => Vec::new(),
@@ -115,7 +115,7 @@ impl Pictures {
         decoded.map_err(|mismatch| {
             let why = match mismatch {
                 Mismatch::Size(found) => format!(
-                    "the camera changed to frames of {found}, it was opened with {}",
+                    "the camera changed to frames of {found}, expected {} as it was opened",
                     self.sent
                 ),
                 Mismatch::Damaged(why) => format!("{why}; before, {}", losses()),

@@ -63,7 +63,7 @@ impl Preset {
         ArgSpec::choice("preset", Preset::of(driver).map(|preset| preset.name))
             .optional()
             .help(&format!(
-                "what is known of the camera in {}",
+                "known settings of the camera in {}",
                 titles.join(", ")
             ))
             .changes_facts()

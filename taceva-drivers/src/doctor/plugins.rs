@@ -29,7 +29,7 @@ pub fn examine_plugins(host: &Arc<PluginHost>) -> Vec<Diagnosis> {
             code: "plugin-quarantined",
             state: State::Problem,
             subject: id.to_string(),
-            detail: format!("does not start any more: {reason}"),
+            detail: format!("is in quarantine and does not start: {reason}"),
             remedy: Some(format!("`taceva plugin release {id}` lets it start again")),
         });
         [Some(finding), quarantined]

@@ -26,7 +26,7 @@ pub(super) const KINDS: &[PortKind] = &[
         prefixes: &["video"],
         name: Some(("sys/class/video4linux", "name")),
         noun: "camera",
-        if_absent: "plug the sensor in; if it is, load the kernel's driver: sudo modprobe uvcvideo",
+        if_absent: "plug in the sensor; if it is plugged in, load the kernel driver: sudo modprobe uvcvideo",
         class: PortClass::Camera,
     },
     PortKind {
@@ -34,7 +34,7 @@ pub(super) const KINDS: &[PortKind] = &[
         prefixes: &["ttyACM", "ttyUSB"],
         name: None,
         noun: "serial port",
-        if_absent: "plug the robot or force transducer in, if it is a serial one",
+        if_absent: "plug in the robot or force transducer, if it uses a serial port",
         class: PortClass::Serial,
     },
     PortKind {
@@ -42,7 +42,7 @@ pub(super) const KINDS: &[PortKind] = &[
         prefixes: &["hidraw"],
         name: Some(("sys/class/hidraw", "device/uevent")),
         noun: "HID device",
-        if_absent: "plug the gauge or scale in, if it is a HID one",
+        if_absent: "plug in the gauge or scale, if it is a HID device",
         class: PortClass::Hid,
     },
 ];

@@ -17,8 +17,8 @@ struct Known {
     remedy: &'static str,
 }
 
-const CAMERA_REMEDY: &str = "load the kernel's driver for cameras: sudo modprobe uvcvideo";
-const SCALE_REMEDY: &str = "load the kernel's driver for HID devices: sudo modprobe usbhid";
+const CAMERA_REMEDY: &str = "load the kernel driver for cameras: sudo modprobe uvcvideo";
+const SCALE_REMEDY: &str = "load the kernel driver for HID devices: sudo modprobe usbhid";
 
 const KNOWN: &[Known] = &[
     Known {

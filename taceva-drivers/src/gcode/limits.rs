@@ -25,10 +25,10 @@ impl SerialOptions {
     pub(super) fn arguments() -> Vec<ArgSpec> {
         let mut arguments = vec![
             ArgSpec::path("port")
-                .help("the serial line, such as /dev/ttyUSB0 or one below /dev/serial/by-id"),
+                .help("serial port, such as /dev/ttyUSB0 or a file below /dev/serial/by-id"),
             ArgSpec::whole("baud", 1_200, 4_000_000)
                 .default(ArgValue::Whole(115_200))
-                .help("its speed"),
+                .help("baud rate of the port"),
             speed_limit(0.01, 20.0),
             deceleration(),
         ];
@@ -63,12 +63,15 @@ impl SerialOptions {
             return failed(ErrorKind::InvalidArgument, error.to_string());
         }
         if target.rotation != Rotation::default() {
-            let why = format!("{:?}, expected no turn: it has three axes", target.rotation);
+            let why = format!(
+                "a rotation of {:?}, expected none: the machine has three axes",
+                target.rotation
+            );
             return failed(ErrorKind::OutOfRange, why);
         }
         let most = self.speed_max;
         if speed > most {
-            let why = format!("{speed}, expected at most {most}");
+            let why = format!("a speed of {speed}, expected at most {most}");
             return failed(ErrorKind::OutOfRange, why);
         }
         Ok(())

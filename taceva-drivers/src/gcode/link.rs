@@ -68,9 +68,9 @@ pub(super) enum CommandError {
     Silent { command: String, patience: Duration },
     #[error("`{command}` was refused: {why}")]
     Refused { command: String, why: String },
-    #[error("{0}: look at the machine, then reset and home it, which this program never does")]
+    #[error("{0}: inspect the machine, then reset and home it by hand")]
     Fault(String),
-    #[error("the line broke: {0}")]
+    #[error("the serial port failed: {0}")]
     Broken(String),
 }
 
@@ -147,7 +147,7 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
                 if let Err(error) = read(reading, understand, &over, &posting, &sender) {
                     posting.end(Ending {
                         kind: ErrorKind::Disconnected,
-                        why: format!("the line broke: {error}"),
+                        why: format!("the serial port failed: {error}"),
                     });
                 }
             })?;

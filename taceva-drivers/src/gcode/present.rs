@@ -24,7 +24,7 @@ fn adapters_in(root: &Path, driver: &DriverKey) -> Vec<Found> {
     names.sort();
     let found = names.into_iter().map(|name| {
         let path = format!("/dev/serial/by-id/{name}");
-        Found::new(driver.clone(), format!("a serial line: {}", shown(&name)))
+        Found::new(driver.clone(), format!("a serial port: {}", shown(&name)))
             .with_access(access_of(&root.join(&path[1..]), "dialout"))
             .with_arguments(format!("port={path}"))
     });

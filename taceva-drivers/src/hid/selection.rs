@@ -29,15 +29,17 @@ pub(super) enum HidOpenError {
     Numbers(String),
     #[error("the HID devices of this machine cannot be listed: {0}")]
     List(HidError),
-    #[error("there is none: expected {expected}, found {found}")]
+    #[error("no HID device matches: expected {expected}, found {found}")]
     None { expected: String, found: String },
-    #[error("there are several: {found}; name one by `serial=`, `usb=` or `device=`")]
+    #[error("several HID devices match: {found}; select one by `serial=`, `usb=` or `device=`")]
     Several { found: String },
-    #[error("it is not said which: name it by `usb=`, `serial=` or `device=`; there are {found}")]
+    #[error(
+        "no HID device is selected: select one by `usb=`, `serial=` or `device=`; found {found}"
+    )]
     Unnamed { found: String },
     #[error("{}: {source}", shown(.path))]
     Refused { path: String, source: io::Error },
-    #[error("{} is no HID device: {why}", shown(.path))]
+    #[error("{} is not a HID device: {why}", shown(.path))]
     Foreign { path: String, why: String },
 }
 
@@ -147,12 +149,12 @@ impl Selection {
         [
             ArgSpec::text("usb")
                 .optional()
-                .help("the numbers of its vendor and product in hexadecimal, such as 0922:8003"),
+                .help("vendor and product id in hexadecimal, such as 0922:8003"),
             ArgSpec::text("serial")
                 .optional()
-                .help("its serial number, where there are several"),
+                .help("serial number, if several devices match"),
             ArgSpec::path("device").optional().help(
-                "its file, such as /dev/hidraw0, which may be another after it was plugged in anew",
+                "device file, such as /dev/hidraw0; it may change when the device is plugged in again",
             ),
         ]
     }
@@ -228,7 +230,7 @@ impl Selection {
 fn listed<'a>(present: impl Iterator<Item = &'a Present>) -> String {
     let listed: Vec<String> = present.map(ToString::to_string).collect();
     match listed.is_empty() {
-        true => "no HID device at all".to_owned(),
+        true => "none".to_owned(),
         false => listed.join(", "),
     }
 }
@@ -318,7 +320,7 @@ mod tests {
         assert_eq!(none.kind(), ErrorKind::NotFound);
         assert_eq!(
             none.to_string(),
-            "there is none: expected 0eb8:f000, found /dev/hidraw0 (046d:c31c)"
+            "no HID device matches: expected 0eb8:f000, found /dev/hidraw0 (046d:c31c)"
         );
     }
 

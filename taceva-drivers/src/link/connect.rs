@@ -26,7 +26,7 @@ pub(crate) fn connect(host: &str, port: u16) -> Result<(TcpStream, SocketAddr), 
             Err(source) => refused = Some(LinkError::Connect { address, source }),
         }
     }
-    Err(refused.unwrap_or_else(|| unresolved(io::Error::other("it names none"))))
+    Err(refused.unwrap_or_else(|| unresolved(io::Error::other("no address found"))))
 }
 
 fn open(address: SocketAddr) -> io::Result<TcpStream> {

@@ -12,7 +12,7 @@ use crate::text::shown;
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum LinkError {
     /// The host name cannot be resolved.
-    #[error("`{}` has no address: {source}; expected a name or a number such as `192.168.1.10`", shown(.host))]
+    #[error("`{}` has no address: {source}; expected a host name or an address such as `192.168.1.10`", shown(.host))]
     Resolve { host: String, source: io::Error },
     /// The connection was refused or timed out.
     #[error("{address} does not accept a connection: {source}")]

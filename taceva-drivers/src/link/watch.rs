@@ -17,7 +17,7 @@ pub(crate) struct ReportedPose<T> {
 }
 
 /// Operation name of a watch, for errors.
-pub(crate) const LOOK: &str = "look where the arm is while it moves";
+pub(crate) const LOOK: &str = "watch the pose of the arm during a motion";
 
 impl<T: Clone + Send> RobotWatch for ReportedPose<T> {
     fn pose(&self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {

@@ -51,10 +51,10 @@ fn opened(bytes: &[u8]) -> Result<Box<dyn ImageDecoder + '_>, String> {
     let (_, end) = match (begins(PNG), begins(JPEG)) {
         (true, _) => PNG,
         (_, true) => JPEG,
-        _ => return Err("neither PNG nor JPEG, whatever its name says".to_owned()),
+        _ => return Err("its content is neither PNG nor JPEG".to_owned()),
     };
     if !bytes.ends_with(end) {
-        return Err("cut short: it does not end in the end marker of its format".to_owned());
+        return Err("truncated: the end marker of its format is missing".to_owned());
     }
     let mut limits = Limits::no_limits();
     limits.max_image_width = Some(limits::IMAGE_SIDE);
@@ -79,7 +79,7 @@ fn frame_info(decoder: &dyn ImageDecoder) -> Result<FrameInfo, String> {
         ColorType::Rgb8 => PixelFormat::Rgb8,
         ColorType::Rgb16 => PixelFormat::Rgb16,
         ColorType::La8 | ColorType::La16 | ColorType::Rgba8 | ColorType::Rgba16 => {
-            return Err("has an alpha channel, which no camera sends; flatten it".to_owned());
+            return Err("has an alpha channel: flatten it to gray or RGB".to_owned());
         }
         other => {
             return Err(format!(

@@ -48,7 +48,7 @@ pub enum SourceError {
     },
     /// The frame differs in size or format from the first one.
     #[error(
-        "{}: a frame of {found}, expected {expected} as the first one is",
+        "{}: a frame of {found}, expected {expected} like the first one",
         shown(path)
     )]
     Size {

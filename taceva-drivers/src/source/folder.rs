@@ -95,7 +95,7 @@ fn names_in(folder: &Path) -> Result<Vec<String>, SourceError> {
         let path = entry.path();
         let kind = entry
             .file_type()
-            .map_err(SourceError::io("look at", &path))?;
+            .map_err(SourceError::io("read the file type of", &path))?;
         if !is_picture(&path) || kind.is_dir() {
             continue;
         }
@@ -104,10 +104,10 @@ fn names_in(folder: &Path) -> Result<Vec<String>, SourceError> {
             problem: problem.to_owned(),
         };
         if !kind.is_file() {
-            return Err(refused("a link or a device, expected a plain file"));
+            return Err(refused("a link or a device, expected a regular file"));
         }
         let name = entry.file_name().into_string();
-        let name = name.map_err(|_| refused("a name that is not UTF-8, expected another one"))?;
+        let name = name.map_err(|_| refused("its name is not UTF-8: rename the file"))?;
         if names.len() == limits::FRAMES {
             return Err(SourceError::TooMany {
                 folder: folder.to_owned(),
@@ -151,16 +151,16 @@ fn timed(names: Vec<String>, table: &Path) -> Result<(Vec<String>, Vec<f64>), So
         if !unnamed.remove(row.name.as_str()) {
             let name = shown(&row.name);
             let problem = if names.contains(&row.name) {
-                format!("`{name}` is named a second time")
+                format!("`{name}` occurs twice, expected one row per frame")
             } else {
-                format!("`{name}` is no frame of the folder, expected the name of a file in it")
+                format!("`{name}` is not a frame in the folder, expected the name of a file in it")
             };
             return Err(fault(Some(row.line), problem));
         }
     }
     if let Some(name) = unnamed.first() {
         let problem = format!(
-            "no time for `{}`, expected every frame of the folder to be named",
+            "no row for `{}`, expected one for every frame in the folder",
             shown(name)
         );
         return Err(fault(None, problem));
@@ -179,10 +179,7 @@ fn read_into(buffer: &mut Vec<u8>, path: &Path) -> Result<(), SourceError> {
     if length > limits::IMAGE_BYTES {
         return Err(SourceError::Frame {
             path: path.to_owned(),
-            problem: format!(
-                "{length} bytes, more than the {} that are accepted",
-                limits::IMAGE_BYTES
-            ),
+            problem: format!("{length} bytes, expected at most {}", limits::IMAGE_BYTES),
         });
     }
     file.take(limits::IMAGE_BYTES)

@@ -32,7 +32,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<TimedName>, SourceError> {
         let most = limits::TABLE_BYTES;
         return Err(fault(
             None,
-            format!("{length} bytes, more than the {most} that are accepted"),
+            format!("{length} bytes, expected at most {most}"),
         ));
     }
     let mut table = csv::ReaderBuilder::new()
@@ -63,12 +63,12 @@ pub(super) fn read(path: &Path) -> Result<Vec<TimedName>, SourceError> {
         let written = text(time_column);
         let time_s = written.parse().ok().filter(|time: &f64| time.is_finite());
         let Some(time_s) = time_s else {
-            let problem = format!("`{}` is no time, expected seconds", shown(written));
+            let problem = format!("`{}` is not a time, expected seconds", shown(written));
             return Err(fault(Some(line), problem));
         };
         if let Some(before) = rows.last().filter(|before| time_s <= before.time_s) {
             let problem = format!(
-                "{time_s} s comes after {} s, expected a later time",
+                "{time_s} s follows {} s, expected increasing times",
                 before.time_s
             );
             return Err(fault(Some(line), problem));

@@ -128,7 +128,7 @@ fn what_is_not_known_of_a_device_is_absent_from_the_list() {
             "takes": "a number from 0.001 to 100000 Hz",
             "required": false,
             "default": "30",
-            "help": "frames a second, where no table says when each was true",
+            "help": "frames per second, if no table of times is given",
         })
     );
 }

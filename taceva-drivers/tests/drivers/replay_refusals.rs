@@ -48,7 +48,7 @@ fn a_name_that_is_no_text_is_refused_rather_than_left_out() {
     let (kind, message) = refused(&format!("sensor/replay:folder={}", folder.path().display()));
     assert_eq!(kind, ErrorKind::Protocol);
     assert!(
-        message.ends_with("a name that is not UTF-8, expected another one"),
+        message.ends_with("its name is not UTF-8: rename the file"),
         "{message}"
     );
 }
@@ -86,7 +86,7 @@ fn a_first_frame_that_is_no_picture_does_not_open() {
     let (kind, message) = refused(&format!("sensor/replay:folder={}", folder.path().display()));
     assert_eq!(kind, ErrorKind::Protocol);
     assert!(
-        message.ends_with("a.png: neither PNG nor JPEG, whatever its name says"),
+        message.ends_with("a.png: its content is neither PNG nor JPEG"),
         "{message}"
     );
 }
@@ -99,7 +99,7 @@ fn a_link_among_the_frames_is_refused_rather_than_followed() {
     let (kind, message) = refused(&format!("sensor/replay:folder={}", folder.path().display()));
     assert_eq!(kind, ErrorKind::Protocol);
     assert!(
-        message.ends_with("endless.png: a link or a device, expected a plain file"),
+        message.ends_with("endless.png: a link or a device, expected a regular file"),
         "{message}"
     );
 }
@@ -113,27 +113,27 @@ fn a_table_that_does_not_fit_its_folder_is_refused_by_line() {
         ("file,time\n", "line 1: no column `t_s`"),
         (
             "file,t_s\nframe 1.png,0\n",
-            "times.csv: no time for `frame 2.png`",
+            "times.csv: no row for `frame 2.png`",
         ),
         (
             "file,t_s\nframe 1.png,0\nframe 1.png,1\n",
-            "line 3: `frame 1.png` is named a second time",
+            "line 3: `frame 1.png` occurs twice",
         ),
         (
             "file,t_s\n../frame 1.png,0\n",
-            "line 2: `../frame 1.png` is no frame of the folder",
+            "line 2: `../frame 1.png` is not a frame in the folder",
         ),
         (
             "file,t_s\nframe 1.png,1\nframe 2.png,1\n",
-            "line 3: 1 s comes after 1 s, expected a later time",
+            "line 3: 1 s follows 1 s, expected increasing times",
         ),
         (
             "file,t_s\nframe 1.png,NaN\n",
-            "line 2: `NaN` is no time, expected seconds",
+            "line 2: `NaN` is not a time, expected seconds",
         ),
         (
             "file,t_s\nframe 1.png,soon\u{1b}\n",
-            "line 2: `soon\\u{1b}` is no time",
+            "line 2: `soon\\u{1b}` is not a time",
         ),
         ("file,t_s\nframe 1.png\n", "line 2"),
     ];

@@ -46,7 +46,7 @@ impl Taken {
         if text.data.is_null() && text.length > 0 {
             self.fault = Some("a text without bytes that has a length");
         } else if self.bytes > BYTES_MAX || self.texts.len() >= TEXTS_MAX {
-            self.fault = Some("more text than anybody could mean");
+            self.fault = Some("more text than is accepted");
         }
         if self.fault.is_some() {
             return;

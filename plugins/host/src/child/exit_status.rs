@@ -92,7 +92,7 @@ impl fmt::Display for Fate {
             Fate::Breach { what } => {
                 write!(
                     f,
-                    "its process was ended because it broke the rules: {what}"
+                    "its process was ended because it violated the protocol: {what}"
                 )
             }
         }
@@ -101,17 +101,17 @@ impl fmt::Display for Fate {
 
 fn meaning(signal: i32) -> Option<&'static str> {
     Some(match signal {
-        libc::SIGSEGV => "an access to memory that is not there",
-        libc::SIGBUS => "an access to memory that cannot be read",
-        libc::SIGILL => "an instruction that does not exist",
-        libc::SIGFPE => "an impossible division",
-        libc::SIGABRT => "it gave itself up",
-        libc::SIGSYS => "a system call that is not allowed",
+        libc::SIGSEGV => "an access to unmapped memory",
+        libc::SIGBUS => "an invalid access to memory",
+        libc::SIGILL => "an illegal instruction",
+        libc::SIGFPE => "an arithmetic error",
+        libc::SIGABRT => "it aborted",
+        libc::SIGSYS => "a forbidden system call",
         libc::SIGTRAP => "a breakpoint",
         libc::SIGXFSZ => "a file larger than allowed",
-        libc::SIGXCPU => "more computing time than allowed",
-        libc::SIGKILL => "ended from outside",
-        libc::SIGTERM => "asked to end from outside",
+        libc::SIGXCPU => "more processor time than allowed",
+        libc::SIGKILL => "killed from outside",
+        libc::SIGTERM => "terminated from outside",
         _ => return None,
     })
 }
@@ -125,7 +125,7 @@ mod tests {
         let crash = Fate::of(ExitStatus::from_raw(libc::SIGSEGV));
         assert_eq!(
             crash.to_string(),
-            "its process was ended by signal 11, an access to memory that is not there"
+            "its process was ended by signal 11, an access to unmapped memory"
         );
         assert!(crash.is_its_own_fault());
         let exit = Fate::of(ExitStatus::from_raw(3 << 8));

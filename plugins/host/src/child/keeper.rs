@@ -59,7 +59,9 @@ pub(crate) fn keep(
             keeper,
         }),
         Ok(Err(error)) => Err(error),
-        Err(_) => Err(io::Error::other("the thread that keeps a child is gone")),
+        Err(_) => Err(io::Error::other(
+            "the thread that supervises a child has ended",
+        )),
     }
 }
 
@@ -69,7 +71,7 @@ fn start_process(
 ) -> Option<(Process, OwnedFd)> {
     let process = command.spawn().and_then(|process| {
         let number = i32::try_from(process.id()).ok().and_then(Pid::from_raw);
-        let number = number.ok_or_else(|| io::Error::other("a process without a number"))?;
+        let number = number.ok_or_else(|| io::Error::other("a process without an id"))?;
         Ok((process, pidfd_open(number, PidfdFlags::empty())?))
     });
     // Close the child's pipe ends here, or their closing by the child would go unnoticed.

@@ -64,7 +64,7 @@ fn answered_if_able<R: Reply>(result: Option<Result<R, DriverError>>) -> Result<
 fn unsupported() -> Failure {
     Failure {
         kind: ErrorKind::Unsupported,
-        doing: "answer a call of another kind of device".to_owned(),
+        doing: "answer a call for another kind of device".to_owned(),
         cause: None,
         fault: None,
     }

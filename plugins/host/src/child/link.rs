@@ -108,7 +108,7 @@ impl Link {
     /// Extracts and checks the expected reply. A child that sends another type of answer is killed.
     fn reply<R: Reply>(&self, answer: Answer, doing: &'static str) -> Result<R, DriverError> {
         let Some(reply) = R::from_answer(answer) else {
-            let error = self.child.life().broke("the answer to another question");
+            let error = self.child.life().broke("an answer to another call");
             return Err(error.of(&self.driver, doing));
         };
         reply.check().map_err(|why| self.fault(doing, why))?;
@@ -182,7 +182,7 @@ impl Interrupt for UrgentLink {
             Ok(()) => self.hasten(),
             // The child's urgent thread hangs and no longer reads.
             Err(LinkError::Breach(_)) => {
-                let what = "interrupts are not taken any more".to_owned();
+                let what = "it no longer accepts interrupts".to_owned();
                 self.life.watch.condemn(Fate::Breach { what });
             }
             Err(LinkError::Closed | LinkError::Unsendable(_)) => {}
@@ -210,7 +210,7 @@ impl Halt for UrgentLink {
             }
             Ok(Answer::Failed { failure }) => Err(failure.to_error(&self.driver)),
             Ok(_) => {
-                let error = self.life.broke("the answer to another question");
+                let error = self.life.broke("an answer to another call");
                 Err(error.of(&self.driver, doing))
             }
             // The device was closed meanwhile.

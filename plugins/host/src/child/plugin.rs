@@ -160,7 +160,7 @@ fn serve_libraries(examiner: Option<Examiner>) {
     main_if_child_with(|files| {
         let import = |module: &ModuleToImport| {
             Err(format!(
-                "`{}` is a module of Python, and this process is none of Python's",
+                "`{}` is a Python module, but this process is not a Python process",
                 module.name
             ))
         };
@@ -235,7 +235,7 @@ fn load(
     let manifest = manifest.map_err(|error| (ErrorKind::Protocol, error.to_string()))?;
     if let Some((manifest, order)) = manifest.as_ref().zip(files.next()) {
         let examiner = examiner.ok_or_else(|| {
-            let why = "the program of this child examines no plugins";
+            let why = "the program of this child cannot examine plugins";
             (ErrorKind::Unsupported, why.to_owned())
         })?;
         return examiner(order, source, manifest);

@@ -54,7 +54,7 @@ fn obey(
     match order {
         Order::Open { kind, driver, args } => {
             let [calls, urgent] = <[OwnedFd; 2]>::try_from(files)
-                .map_err(|_| broken("two sockets beside an order to open"))?;
+                .map_err(|_| broken("two sockets with an order to open"))?;
             let opening = Opening { calls, urgent };
             let device = open(&**session, kind, &driver, &arguments(&args)?, opening)?;
             Ok(OrderAnswer::Opened { device })
@@ -77,14 +77,14 @@ fn obey(
             Ok(OrderAnswer::Bench { is_there })
         }
         Order::Offer {} => {
-            let offer = called("say what it offers", || session.offer())?;
+            let offer = called("list its offer", || session.offer())?;
             Ok(OrderAnswer::Offered { offer })
         }
         Order::Model { order } => {
             model::serve(Arc::clone(session), order, files)?;
             Ok(OrderAnswer::Making {})
         }
-        Order::Shutdown {} => Err(broken("an order that is answered")),
+        Order::Shutdown {} => Err(broken("an order with an answer")),
     }
 }
 
@@ -102,7 +102,7 @@ fn open(
         DriverKind::Lighting => opening.serve(|| session.lighting(driver, args)),
         DriverKind::Changer => opening.serve(|| session.changer(driver, args)),
         _ => {
-            let why = format!("devices of the kind {kind} are not known here");
+            let why = format!("unknown kind of device {kind}");
             Err(Failure::new(
                 ErrorKind::Unsupported,
                 "open the device",

@@ -102,14 +102,14 @@ impl ChildSession {
     }
 
     fn other_answer(&self, driver: &DriverKey, doing: &str) -> DriverError {
-        let error = self.child.life().broke("the answer to another order");
+        let error = self.child.life().broke("an answer to another order");
         error.of(driver, doing)
     }
 }
 
 impl Session for ChildSession {
     fn offer(&self) -> Result<Offer, DriverError> {
-        let doing = "say what it offers";
+        let doing = "list its offer";
         let answer = self.child.order(&Order::Offer {}, &[], doing);
         match answer.map_err(|error| error.of(&self.plugin, doing))? {
             OrderAnswer::Offered { offer } => Ok(offer),
@@ -280,7 +280,7 @@ impl ChildSession {
             }
             Ok(OrderAnswer::Failed { failure }) => Err(of_failure(estimator, &failure)),
             Ok(_) => {
-                let error = LinkError::Breach("the answer to another order".to_owned());
+                let error = LinkError::Breach("an answer to another order".to_owned());
                 Err(of_link(&self.child, estimator, error))
             }
             Err(error) => {

@@ -133,7 +133,7 @@ impl Caller {
         if sequence == self.sequence {
             Ok(answer)
         } else {
-            Err(LinkError::Breach("an answer to no question".to_owned()))
+            Err(LinkError::Breach("an answer to no call".to_owned()))
         }
     }
 }
@@ -236,7 +236,7 @@ fn retry<T>(mut call: impl FnMut() -> Result<T, Errno>) -> Result<T, LinkError> 
             Err(Errno::INTR) => {}
             Err(Errno::PIPE | Errno::CONNRESET | Errno::NOTCONN) => return Err(LinkError::Closed),
             Err(Errno::AGAIN) => {
-                return Err(LinkError::Breach("nothing is read any more".to_owned()));
+                return Err(LinkError::Breach("it no longer reads messages".to_owned()));
             }
             Err(error) => return Err(LinkError::Breach(error.to_string())),
         }

@@ -69,7 +69,7 @@ impl Child {
             None => (program, arguments),
         };
         if program.is_none() && !can_be_child() {
-            let why = "the `main` of this program does not begin with `main_if_child`, and no other program was named";
+            let why = "the `main` of this program does not begin with `main_if_child`, and no other program is given";
             return Err(failed(&why));
         }
         let (orders, theirs) = Socket::pair().map_err(|error| failed(&error))?;

@@ -61,7 +61,7 @@ impl PluginConfig {
         }
         let line = line(id, needs);
         Err(ManifestError::whole(format!(
-            "the permissions are not written as a table `{HEADER}`, which could be edited; write there by hand: {}",
+            "the permissions are not written as a table `{HEADER}` and cannot be edited; write there by hand: {}",
             line.trim_end()
         )))
     }

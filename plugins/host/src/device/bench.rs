@@ -59,7 +59,7 @@ impl PluginBench {
     ) -> Result<(), DriverError> {
         let failed = |failure: Failure| failure.of(&self.plugin, doing);
         let function = function.ok_or_else(|| {
-            let why = format!("`{BENCH}` lacks this");
+            let why = format!("`{BENCH}` has no such function");
             failed(Failure::new(ErrorKind::Unsupported, why))
         })?;
         call(|error| run(function, error)).map_err(failed)
@@ -76,7 +76,7 @@ impl SimulatedBench for PluginBench {
     }
 
     fn rest(&self, rest: Duration) -> Result<(), DriverError> {
-        self.call("let time pass", self.calls.rest, |pass, error| {
+        self.call("advance the time", self.calls.rest, |pass, error| {
             // SAFETY: [any], on a rig that `self` keeps open, with a text and an error that outlive the call.
             unsafe { pass(self.rig.raw(), self.text(), nanoseconds(rest), error) }
         })
@@ -118,10 +118,14 @@ impl SimulatedBench for PluginBench {
     fn provenance(&self) -> Option<String> {
         let mut taken = Taken::default();
         let context = taken.context();
-        let said = self.call("say what it is", self.calls.provenance, |tell, error| {
-            // SAFETY: [any], on a rig that `self` keeps open, with a text, a context and an error that outlive the call.
-            unsafe { tell(self.rig.raw(), self.text(), Some(take), context, error) }
-        });
+        let said = self.call(
+            "report its provenance",
+            self.calls.provenance,
+            |tell, error| {
+                // SAFETY: [any], on a rig that `self` keeps open, with a text, a context and an error that outlive the call.
+                unsafe { tell(self.rig.raw(), self.text(), Some(take), context, error) }
+            },
+        );
         said.ok()?;
         taken.whole().ok().filter(|text| !text.is_empty())
     }

@@ -83,7 +83,7 @@ impl Changer for PluginChanger {
         match (there.pop(), there.is_empty()) {
             (Some(name), true) if !name.is_empty() => Ok(name),
             _ => {
-                let why = "it did not say what is in place, expected one name".to_owned();
+                let why = "it did not name the item in place, expected one name".to_owned();
                 Err(failed(ErrorKind::Abi, why))
             }
         }

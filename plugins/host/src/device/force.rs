@@ -60,7 +60,7 @@ impl PluginDevice for PluginForce {
         let read = handle.needs(calls.read, "read")?;
         let tare = if facts.tare {
             let zero = |table: TareCalls| table.zero;
-            let zero = handle.ability(TARE, OPENING, "it says it can tare", zero)?;
+            let zero = handle.ability(TARE, OPENING, "it declares that it can tare", zero)?;
             let handle = handle.share();
             Some(TareAbility { handle, zero })
         } else {
@@ -68,7 +68,7 @@ impl PluginDevice for PluginForce {
         };
         let numbers = if facts.numbered {
             let sequence = |table: NumberedCalls| table.sequence;
-            let what = "it says that it numbers its readings";
+            let what = "it declares that it numbers its readings";
             Some(handle.ability(NUMBERED, OPENING, what, sequence)?)
         } else {
             None

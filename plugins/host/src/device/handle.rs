@@ -97,7 +97,7 @@ pub fn open<T: Table>(
     // SAFETY: after a success the interface promises the table of the kind that was opened, which begins with that of every device.
     let calls = unsafe { table::<DeviceTable>(device.calls.cast()) }.map_err(refused)?;
     if device.handle.is_null() {
-        let why = "it was opened, yet its handle is NULL";
+        let why = "it was opened, but its handle is NULL";
         return Err(refused(Failure::new(ErrorKind::Abi, why)));
     }
     let calls = calls.0;
@@ -139,7 +139,8 @@ impl Handle {
         run: impl FnOnce(*mut c_void, &mut abi::Error) -> abi::Status,
     ) -> Result<(), DriverError> {
         if self.is_dead.load(Ordering::Acquire) {
-            let why = "the plugin has panicked in this device before, which is dead since then";
+            let why =
+                "the plugin panicked in this device before, so the device is no longer called";
             return Err(Failure::new(ErrorKind::Panicked, why).of(&self.driver, doing));
         }
         let _under_way = pending_call::begin(doing);
@@ -223,7 +224,7 @@ impl Owned {
     ) -> Result<F, DriverError> {
         let found = self.extension::<T>(id, doing)?.and_then(function);
         found.ok_or_else(|| {
-            let why = format!("{says}, yet has no `{id}`");
+            let why = format!("{says}, but has no `{id}`");
             self.failed(ErrorKind::Abi, doing, why)
         })
     }

@@ -86,7 +86,7 @@ impl PluginDevice for PluginRobot {
             is_halted: AtomicBool::new(false),
         });
         let guarded = if facts.guarded_motion {
-            let stops = "it says it stops at a force";
+            let stops = "it declares that it stops at a force";
             let move_guarded = |table: GuardedMotionCalls| table.move_guarded;
             Some(GuardedAbility {
                 halt: Arc::clone(&halt),
@@ -226,7 +226,7 @@ impl Halter {
         let workspace = self.facts.workspace;
         if let Some(workspace) = workspace.filter(|within| !within.contains(&target.position)) {
             let why = format!(
-                "{:?} lies outside the workspace from {:?} to {:?}",
+                "{:?} is outside the workspace from {:?} to {:?}",
                 target.position, workspace.least, workspace.greatest
             );
             return Err(refused(ErrorKind::OutOfRange, why));
@@ -236,7 +236,7 @@ impl Halter {
             return Err(refused(ErrorKind::OutOfRange, why));
         }
         if self.is_halted.load(Ordering::Acquire) {
-            let why = "it was halted, and moves again once the halt is cleared".to_owned();
+            let why = "it was halted: clear the halt before it moves again".to_owned();
             return Err(refused(ErrorKind::Interrupted, why));
         }
         let SiPose {
@@ -283,7 +283,7 @@ impl GuardedMotion for GuardedAbility {
         const DOING: &str = "move until a force";
         let handle = &self.halt.handle;
         if !(guard.force.0 > 0.0 && guard.force.0.is_finite()) {
-            let why = format!("a guard of {}, expected a force above 0", guard.force);
+            let why = format!("a force limit of {}, expected one above 0", guard.force);
             let refused = Failure::new(ErrorKind::InvalidArgument, why);
             return Err(refused.of(handle.driver(), DOING));
         }

@@ -73,7 +73,7 @@ impl PluginDevice for PluginSensor {
         let Opened { handle, calls } = opened;
         let capture = handle.needs(calls.capture, "capture")?;
         let info = facts.frame.ok_or_else(|| {
-            let why = "the plugin does not say how large its frames are with these arguments";
+            let why = "the plugin does not declare the size of its frames with these arguments";
             handle.failed(ErrorKind::Abi, OPENING, why)
         })?;
         let length = info.byte_len().ok_or_else(|| {
@@ -84,7 +84,7 @@ impl PluginDevice for PluginSensor {
             None
         } else {
             let set = |table: SensorLightingCalls| table.set;
-            let set = handle.ability(SENSOR_LIGHTING, OPENING, "it names scenes", set)?;
+            let set = handle.ability(SENSOR_LIGHTING, OPENING, "it declares scenes", set)?;
             Some(LightingAbility::new(
                 handle.share(),
                 set,
@@ -113,7 +113,7 @@ impl PluginSensor {
         look: impl FnOnce(LentFrame<'_>) -> R,
     ) -> Result<R, DriverError> {
         if self.calls.max_lent == 0 {
-            let why = "it never lends its frames";
+            let why = "it does not lend its frames";
             return Err(self.handle.failed(ErrorKind::Unsupported, CAPTURING, why));
         }
         let taken = self.take(std::ptr::null_mut(), deadline)?;
@@ -167,7 +167,7 @@ impl PluginSensor {
         let frame = &taken.frame;
         let refused = |kind, why: String| Err(self.handle.failed(kind, CAPTURING, why));
         let Some(format) = pixel_format(frame.format) else {
-            let why = format!("pixel format {}, which is not known here", frame.format.0);
+            let why = format!("unknown pixel format {}", frame.format.0);
             return refused(ErrorKind::Unsupported, why);
         };
         let found = FrameInfo {
@@ -191,7 +191,7 @@ impl PluginSensor {
         }
         let is_in_buffer = buffer.is_some_and(|buffer| std::ptr::eq(buffer, frame.data));
         if !is_in_buffer && frame.release.is_none() {
-            let why = "a frame outside the buffer that is not lent: it has no `release`";
+            let why = "a frame outside the buffer must be lent, but it has no `release`";
             return refused(ErrorKind::Abi, why.to_owned());
         }
         // SAFETY: not NULL, of the length that was promised, and lent until `release`, which `taken` calls when it is dropped.

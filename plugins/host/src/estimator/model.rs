@@ -46,7 +46,7 @@ impl Model {
         // SAFETY: after a success the interface promises this table.
         let calls = unsafe { table::<abi::RegressorCalls>(regressor.calls.cast()) }?;
         if regressor.handle.is_null() {
-            let why = "it was fitted, yet its handle is NULL";
+            let why = "the fit succeeded, but its handle is NULL";
             return Err(Failure::new(ErrorKind::Abi, why));
         }
         let model = Model {
@@ -149,7 +149,7 @@ impl SavedRegressor for Model {
             Ok(()) if length == 0 => return Ok(Vec::new()),
             Err(failure) if failure.kind() == ErrorKind::OutOfRange => {}
             Ok(()) => {
-                let why = format!("it wrote {length} bytes nowhere");
+                let why = format!("it reports {length} bytes written without a buffer");
                 return Err(refused(ErrorKind::Abi, why));
             }
             Err(failure) => return Err(self.failed(DOING, failure)),
@@ -176,7 +176,7 @@ impl SavedRegressor for Model {
                 Ok(bytes)
             }
             None => {
-                let why = format!("it says it wrote {length} bytes into {room}");
+                let why = format!("it reports {length} bytes written into {room}");
                 Err(refused(ErrorKind::Abi, why))
             }
         }

@@ -94,7 +94,7 @@ impl PluginDriver {
         let session = self.host.session(&self.plugin, key);
         let said = session.and_then(|session| session.describe(key, args));
         said.unwrap_or_else(|error| {
-            let line = format!("described by its manifest alone: {error}");
+            let line = format!("described only by its manifest: {error}");
             (self.host.log)(&self.plugin, Level::Warn, key.as_str(), &line);
             manifest.clone()
         })

@@ -94,11 +94,11 @@ impl EstimatorFactory for PluginEstimator {
         let library = self.plugin.library();
         if library.is_some_and(|library| library.sha256.is_some()) {
             let why = format!(
-                "{key}: the model was fitted by {fitted_by}, the manifest allows {build} alone"
+                "{key}: the model was fitted by {fitted_by}, but the manifest allows only {build}"
             );
             return Err(ModelError::new(ErrorKind::PermissionDenied, why));
         }
-        let line = format!("the model was fitted by {fitted_by}, and {build} answers for it");
+        let line = format!("the model was fitted by {fitted_by}, but {build} is used");
         (self.host.log)(self.plugin.id(), Level::Warn, key.as_str(), &line);
         Ok(())
     }

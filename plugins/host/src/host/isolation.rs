@@ -87,7 +87,7 @@ impl PluginHost {
 
     #[cfg(not(target_os = "linux"))]
     fn confined(&self, plugin: &Plugin) -> Keeping {
-        let why = "plugins are isolated on Linux alone";
+        let why = "plugins are isolated only on Linux";
         Keeping::Refused(format!("{why}; `--trust {}` runs it here", plugin.id()))
     }
 }

@@ -16,7 +16,7 @@ impl Offer {
     /// # Errors
     /// [`DriverError`] if the library cannot be loaded or its offer cannot be read.
     pub fn of(image: &Image, children: &Children) -> Result<Offer, DriverError> {
-        const DOING: &str = "ask the library what it offers";
+        const DOING: &str = "list the offer of the library";
         let nameless = DriverKey::fixed("plugin");
         let spec = ChildSpec::of_library(image).map_err(|error| {
             DriverError::new(ErrorKind::Internal, &nameless, DOING).because(error)

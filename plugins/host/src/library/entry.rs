@@ -66,7 +66,7 @@ impl Entry {
             None => Ok(said),
             Some([what, manifest, library]) => {
                 let why = format!(
-                    "with these arguments it says another {what}: {library}, the manifest {manifest}; an argument that may change facts is declared with `changes_facts = true`"
+                    "with these arguments {what} is {library}, expected {manifest} as in the manifest; declare an argument that may change facts with `changes_facts = true`"
                 );
                 Err(Failure::new(taceva_core::ErrorKind::Abi, why))
             }
@@ -86,7 +86,7 @@ impl Entry {
         match Provided::parse(&taken.whole()?, id) {
             Ok(Provided::Driver { descriptor, .. }) => Ok(*descriptor),
             Ok(Provided::Estimator(_)) => Err(abi_fault("it describes an estimator".to_owned())),
-            Err(error) => Err(abi_fault(format!("what it says of itself, {error}"))),
+            Err(error) => Err(abi_fault(format!("its description, {error}"))),
         }
     }
 
@@ -237,7 +237,7 @@ fn agree(said: &BTreeMap<DriverKey, Entry>, manifest: &Manifest) -> Result<(), L
     for promised in &manifest.provides {
         let key = promised.key();
         let Some(entry) = said.get(key) else {
-            return Err(differs(format!("`{key}`"), "it is there", "it is not"));
+            return Err(differs(format!("`{key}`"), "present", "absent"));
         };
         match (promised, &entry.provided) {
             (
@@ -266,7 +266,7 @@ fn agree(said: &BTreeMap<DriverKey, Entry>, manifest: &Manifest) -> Result<(), L
     }
     let is_promised = |key: &&DriverKey| manifest.provides.iter().any(|one| one.key() == *key);
     match said.keys().find(|key| !is_promised(key)) {
-        Some(key) => Err(differs(format!("`{key}`"), "nothing of it", "it is there")),
+        Some(key) => Err(differs(format!("`{key}`"), "absent", "present")),
         None => Ok(()),
     }
 }

@@ -182,25 +182,25 @@ impl fmt::Display for LoadProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             LoadProblem::File(error) => write!(f, "{error}"),
-            LoadProblem::NotAFile => f.write_str("no regular file"),
+            LoadProblem::NotAFile => f.write_str("not a regular file"),
             LoadProblem::TooLong { most } => write!(f, "longer than {most} bytes"),
             LoadProblem::Digest { expected, found } => write!(
                 f,
-                "sha256 is {found}, the manifest says {expected}: another build, or another's"
+                "sha256 is {found}, expected {expected} from the manifest: a different or modified build"
             ),
-            LoadProblem::NotALibrary => f.write_str("no shared library"),
+            LoadProblem::NotALibrary => f.write_str("not a shared library"),
             LoadProblem::OtherMachine => f.write_str("a shared library for another machine"),
-            LoadProblem::CutOff => f.write_str("a shared library that is cut off"),
+            LoadProblem::CutOff => f.write_str("a truncated shared library"),
             LoadProblem::Loader(message) => write!(f, "the loader refused it: {message}"),
             LoadProblem::BesideItself { message, run_path } => write!(
                 f,
-                "the loader refused it: {message}; it looks in `{run_path}`, and a library that is loaded from a sealed copy has no folder of its own: link what it needs into it, or install that among the system's libraries"
+                "the loader refused it: {message}; it searches `{run_path}`, but a library is loaded from a sealed copy without a folder: link its dependencies into it, or install them as system libraries"
             ),
             LoadProblem::Symbol(message) => {
                 write!(f, "it exports no `taceva_plugin_v1`: {message}")
             }
             LoadProblem::Address { what } => {
-                write!(f, "{what} lies where nothing can be read, or misaligned")
+                write!(f, "the address of {what} is unreadable or misaligned")
             }
             LoadProblem::Magic { found } => write!(
                 f,
@@ -230,7 +230,7 @@ impl fmt::Display for LoadProblem {
             LoadProblem::Table(problem) => f.write_str(problem),
             LoadProblem::Describe(failure) => write!(f, "its `describe` failed: {failure}"),
             LoadProblem::Describes { driver, source } => {
-                write!(f, "what it says of {driver}, {source}")
+                write!(f, "its description of {driver}, {source}")
             }
         }
     }

@@ -165,12 +165,16 @@ mod tests {
         let mut program = whole.clone();
         program[16] = 2;
         let cases: [(&str, &[u8], &str); 6] = [
-            ("empty.so", b"", "no shared library"),
-            ("text.so", b"#!/bin/sh\nexit 0\n", "no shared library"),
-            ("cut.so", &whole[..whole.len() / 2], "cut off"),
-            ("head.so", &whole[..80], "cut off"),
+            ("empty.so", b"", "not a shared library"),
+            ("text.so", b"#!/bin/sh\nexit 0\n", "not a shared library"),
+            (
+                "cut.so",
+                &whole[..whole.len() / 2],
+                "a truncated shared library",
+            ),
+            ("head.so", &whole[..80], "a truncated shared library"),
             ("other.so", &other_machine, "for another machine"),
-            ("program.so", &program, "no shared library"),
+            ("program.so", &program, "not a shared library"),
         ];
         for (name, bytes, expected) in cases {
             std::fs::write(folder.path().join(name), bytes).expect("written");
@@ -179,7 +183,7 @@ mod tests {
         }
         std::fs::create_dir(folder.path().join("folder.so")).expect("made");
         let error = Image::read(folder.path(), &file("folder.so")).expect_err("a folder");
-        assert!(error.to_string().contains("no regular file"), "{error}");
+        assert!(error.to_string().contains("not a regular file"), "{error}");
         let error = Image::read(folder.path(), &file("absent.so")).expect_err("absent");
         assert!(matches!(error.problem(), LoadProblem::File(_)), "{error}");
     }

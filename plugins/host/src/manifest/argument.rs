@@ -41,7 +41,7 @@ impl WrittenArgument {
         let key = self.key.get_ref().as_str();
         let of_type = *self.r#type.get_ref();
         if let Some(range) = self.range.as_ref().filter(|_| !of_type.has_range()) {
-            let problem = format!("`range`: argument `{key}` is no number");
+            let problem = format!("`range`: argument `{key}` is not a number");
             return Err(Refused::at(range, problem));
         }
         let kind = match (of_type, &self.choices) {
@@ -53,7 +53,7 @@ impl WrittenArgument {
                 return Err(Refused::at(&self.r#type, problem));
             }
             (_, Some(choices)) => {
-                let problem = format!("`choices`: argument `{key}` is no choice");
+                let problem = format!("`choices`: argument `{key}` is not a choice");
                 return Err(Refused::at(choices, problem));
             }
             (Type::Text, None) => ArgKind::Text,
@@ -67,8 +67,9 @@ impl WrittenArgument {
             (None, true) => Presence::Optional,
             (Some(default), false) => Presence::Default(value(of_type, default)?),
             (Some(default), true) => {
-                let problem =
-                    format!("argument `{key}` has a default and is `optional`: one of both");
+                let problem = format!(
+                    "argument `{key}` has a default and is `optional`: give only one of them"
+                );
                 return Err(Refused::at(default, problem));
             }
         };

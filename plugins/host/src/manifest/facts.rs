@@ -24,7 +24,7 @@ impl WrittenProvides {
                 ChangerFacts::default().with_holds(value(&self.holds).unwrap_or_default()),
             )),
             Kind::Estimator => {
-                let problem = "an estimator is no device";
+                let problem = "an estimator is not a device";
                 Err(Refused::at(&self.key, problem))
             }
         }
@@ -140,11 +140,11 @@ fn footprint(written: &Spanned<WrittenFootprint>) -> Result<Footprint, Refused> 
             Footprint::rectangle(half_x, half_y, depth_max_mm)
         }
         (Shape::Disc, ..) => {
-            let problem = "`footprint`: a disc has `radius_mm` and no half sides";
+            let problem = "`footprint`: a disc has only `radius_mm`";
             return Err(Refused::at(written, problem));
         }
         (Shape::Rect, ..) => {
-            let problem = "`footprint`: a rect has `half_x_mm` and `half_y_mm` and no radius";
+            let problem = "`footprint`: a rect has only `half_x_mm` and `half_y_mm`";
             return Err(Refused::at(written, problem));
         }
     };

@@ -82,7 +82,7 @@ impl WrittenProgram {
         let name = self.python.get_ref();
         if !is_word(name) {
             let problem = format!(
-                "`python`: {:?}, expected the name of a package at the top, as `import` takes it, without dots: to look for a part of a package, the rest would have to be imported",
+                "`python`: {:?}, expected the name of a top-level package, as `import` takes it, without dots: finding a submodule would import its package",
                 shown(name)
             );
             return Err(Refused::at(&self.python, problem));
@@ -158,11 +158,11 @@ mod tests {
             ("", "a plugin in Python has `program` instead"),
             (
                 "[program]\npython = \"lab.eye\"\nwire = 1\n",
-                "line 7, column 10: `python`: \"lab.eye\", expected the name of a package at the top",
+                "line 7, column 10: `python`: \"lab.eye\", expected the name of a top-level package",
             ),
             (
                 "[program]\npython = \"../eye\"\nwire = 1\n",
-                "expected the name of a package",
+                "expected the name of a top-level package",
             ),
             (
                 "[program]\npython = \"lab_eye\"\n",

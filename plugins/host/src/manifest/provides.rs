@@ -42,7 +42,7 @@ impl WrittenProvides {
     /// Checks the table and converts it, for the plugin `id`.
     pub(super) fn provided(mut self, id: &PluginId) -> Result<Provided, Refused> {
         if let Some((key, span)) = self.stranger() {
-            let problem = format!("`{key}`: no fact of a {}", self.kind.name());
+            let problem = format!("`{key}`: not a fact of a {}", self.kind.name());
             return Err(Refused { span, problem });
         }
         let key = self.key.get_ref();

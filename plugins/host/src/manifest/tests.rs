@@ -240,13 +240,21 @@ fn whatever_cannot_be_meant_is_refused_where_it_stands() {
         ),
         ("key = \"palm\"", "key = \"a/b\"", "`key`"),
         ("source = \"simulated\"\n", "", "`source` is missing"),
-        ("tare = true", "guarded_motion = true", "no fact of a force"),
-        ("repeatability_mm", "rate_hz", "no fact of a robot"),
-        ("stop_ms = 30", "noise_N = 30", "no fact of a robot"),
+        (
+            "tare = true",
+            "guarded_motion = true",
+            "not a fact of a force",
+        ),
+        ("repeatability_mm", "rate_hz", "not a fact of a robot"),
+        ("stop_ms = 30", "noise_N = 30", "not a fact of a robot"),
         ("stop_ms = 30", "stop_ms = -1", "0 or more"),
         ("resolution_N = 0.005", "resolution_N = 0", "above 0"),
-        ("tare = true", "stop_ms = 3", "no fact of a force"),
-        ("speed_max_mm_s = 20", "Pz_max_mm = 2", "no fact of a robot"),
+        ("tare = true", "stop_ms = 3", "not a fact of a force"),
+        (
+            "speed_max_mm_s = 20",
+            "Pz_max_mm = 2",
+            "not a fact of a robot",
+        ),
         ("speed_max_mm_s = 20", "speed_max_mm_s = 0", "above 0"),
         ("\"Fx\", \"Fy\"", "\"Fx\", \"Fx\"", "at most once"),
         ("Pz_max_mm = 3.0", "Pz_max_mm = 4.0", "3.5 mm deep"),
@@ -257,7 +265,7 @@ fn whatever_cannot_be_meant_is_refused_where_it_stands() {
         (
             "type = \"path\"",
             "type = \"path\"\nrange = [0, 1]",
-            "no number",
+            "not a number",
         ),
         (
             "choices = [\"virtual\", \"real\"]\n",
@@ -267,7 +275,7 @@ fn whatever_cannot_be_meant_is_refused_where_it_stands() {
         (
             "optional = true",
             "optional = true\ndefault = \"x\"",
-            "one of both",
+            "give only one of them",
         ),
         (
             "default = 8\n",
@@ -275,7 +283,7 @@ fn whatever_cannot_be_meant_is_refused_where_it_stands() {
             "found string, expected a number",
         ),
         ("key = \"pace\"", "key = \"unit\"", "declared twice"),
-        ("abi =", "needs = [\"usb\", \"usb\"]\nabi =", "named twice"),
+        ("abi =", "needs = [\"usb\", \"usb\"]\nabi =", "listed twice"),
         ("abi =", "needs = [\"net\"]\nabi =", "`needs`"),
         (
             "abi =",

@@ -82,8 +82,7 @@ impl Offer {
             (Some(license), _) => license,
             (None, false) => "",
             (None, true) => {
-                let why =
-                    "the key `license` is missing, which no library says; expected `--license`";
+                let why = "the key `license` is missing, and a library does not state it; give `--license`";
                 return Err(ManifestError::whole(why));
             }
         };
@@ -127,7 +126,7 @@ impl Offer {
             if let Some([what, ..]) = differs {
                 let key = offered.key();
                 return Err(ManifestError::whole(format!(
-                    "`{key}`, {what}: written in a way that cannot be edited; write there by hand:\n[[provides]]\n{}",
+                    "`{key}`, {what}: cannot be edited as it is written; write there by hand:\n[[provides]]\n{}",
                     table.replace("[[args]]", "[[provides.args]]")
                 )));
             }

@@ -33,10 +33,7 @@ pub fn unpack(archive: impl Read, folder: &Path) -> Result<(), PackageError> {
         let length = entry.header().size().map_err(PackageError::Archive)?;
         is_plain(&name, entry.header().entry_type())?;
         if !seen.insert(name.clone()) {
-            return Err(PackageError::entry(
-                &name,
-                "it is there twice, expected one",
-            ));
+            return Err(PackageError::entry(&name, "it occurs twice, expected once"));
         }
         let most = match (seen.len(), name.as_str(), &promised) {
             (1, MANIFEST, _) => manifest::BYTES_MAX as u64,
@@ -52,7 +49,12 @@ pub fn unpack(archive: impl Read, folder: &Path) -> Result<(), PackageError> {
                 return Err(PackageError::entry(&name, problem));
             }
             (_, _, Some(promised)) => promised.most(&name)?,
-            (_, _, None) => return Err(PackageError::entry(&name, "nothing names it")),
+            (_, _, None) => {
+                return Err(PackageError::entry(
+                    &name,
+                    "the archive has no manifest that names it",
+                ));
+            }
         };
         if length > most {
             let problem = format!("{length} bytes, expected at most {most}");
@@ -85,12 +87,12 @@ fn is_plain(name: &str, kind: EntryType) -> Result<(), PackageError> {
             EntryType::Symlink | EntryType::Link => "a link",
             EntryType::Directory => "a folder",
             EntryType::XHeader | EntryType::XGlobalHeader | EntryType::GNULongName => {
-                "a name or attributes that do not fit a header"
+                "a name or attributes too long for a header"
             }
-            _ => "no plain file",
+            _ => "not a regular file",
         };
         let problem =
-            format!("{what}, expected plain files alone, as `taceva plugin pack` writes them");
+            format!("{what}, expected only regular files, as `taceva plugin pack` writes them");
         return Err(PackageError::entry(name, problem));
     }
     match path_fault(name) {
@@ -125,7 +127,7 @@ impl Promised {
         } else if is_licence(name) && self.licences < LICENCES_MAX {
             Ok(LICENCE_MAX)
         } else {
-            let problem = "its manifest does not name it: expected the libraries of `[library]`, and licences";
+            let problem = "its manifest does not name it: expected only libraries of `[library]`, and licences";
             Err(PackageError::entry(name, problem))
         }
     }
@@ -148,7 +150,8 @@ impl Promised {
         match self.digests.get(name) {
             Some(promised) if *promised == digest => Ok(()),
             Some(promised) => {
-                let problem = format!("its sha256 is {digest}, `{DIGESTS}` says {promised}");
+                let problem =
+                    format!("its sha256 is {digest}, expected {promised} from `{DIGESTS}`");
                 Err(PackageError::entry(name, problem))
             }
             None => Err(PackageError::entry(
@@ -166,7 +169,7 @@ impl Promised {
         match self.digests.keys().find(|name| !seen.contains(*name)) {
             Some(name) => Err(PackageError::entry(
                 name,
-                format!("it is missing, `{DIGESTS}` names it"),
+                format!("it is missing, but `{DIGESTS}` names it"),
             )),
             None => Ok(()),
         }
@@ -229,7 +232,7 @@ fn copy(
         if read == 0 {
             return Err(PackageError::entry(
                 name,
-                format!("it is cut off, {left} bytes are missing"),
+                format!("it is truncated: {left} bytes are missing"),
             ));
         }
         hasher.update(&block[..read]);

@@ -155,7 +155,7 @@ fn folders_devices_and_pipes_are_refused() {
     for kind in [EntryType::Directory, EntryType::Char, EntryType::Fifo] {
         refused(
             with(&[("LICENSE", kind, b"")]),
-            "expected plain files alone",
+            "expected only regular files",
         );
     }
 }
@@ -169,7 +169,7 @@ fn a_name_that_is_carried_by_another_entry_is_refused() {
     ] {
         refused(
             with(&[("LICENSE", kind, b"20 path=../x\n")]),
-            "do not fit a header",
+            "too long for a header",
         );
     }
 }
@@ -203,7 +203,7 @@ fn a_second_manifest_is_refused_wherever_it_lies() {
     let manifest = manifest();
     refused(
         with(&[plain("plugin.toml", manifest.as_bytes())]),
-        "there twice",
+        "occurs twice",
     );
     refused(
         with(&[plain("lib/plugin.toml", manifest.as_bytes())]),
@@ -257,7 +257,7 @@ fn what_comes_in_another_order_is_cut_off_or_is_no_archive_is_refused() {
         unpacked(&alone),
         "`SHA256SUMS` in the archive: it is missing",
     );
-    refused(unpacked(&alone[..512 + manifest.len() / 2]), "cut off");
+    refused(unpacked(&alone[..512 + manifest.len() / 2]), "truncated");
     assert!(unpacked(&vec![b'x'; 2048]).is_err());
     let wrong = archive(&[plain("plugin.toml", b"id = 1")]);
     refused(unpacked(&wrong), "`plugin.toml` in the archive, ");

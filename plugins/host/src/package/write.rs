@@ -18,7 +18,7 @@ use crate::search::{MANIFEST, Plugin};
 /// [`PackageError`] if a file cannot be read, or its path does not fit a tar header (256 bytes).
 pub fn pack(plugin: &Plugin, into: &mut dyn Write) -> Result<Vec<String>, PackageError> {
     if let Some(module) = plugin.module() {
-        let problem = "a package of Python is handed on as a wheel, which `pip wheel` makes";
+        let problem = "a Python package is distributed as a wheel: make it by `pip wheel`";
         return Err(PackageError::entry(&module.name, problem));
     }
     let mut names: BTreeSet<String> = BTreeSet::new();

@@ -22,7 +22,7 @@ def package(name):
     if spec is None:
         return None, f"there is no module {name!r} in this environment"
     if not spec.submodule_search_locations or not spec.origin:
-        return None, f"{name!r} is no package: expected a folder with an __init__.py"
+        return None, f"{name!r} is not a package: expected a folder with an __init__.py"
     return os.path.dirname(spec.origin), None
 
 
@@ -39,7 +39,7 @@ def main():
         say("id", point.name)
         say("module", point.value)
         if not point.value.isidentifier():
-            folder, fault = None, f"expected the name of a package at the top, such as {point.value.split('.')[0].split(':')[0]!r}"
+            folder, fault = None, f"expected the name of a top-level package, such as {point.value.split('.')[0].split(':')[0]!r}"
         else:
             folder, fault = package(point.value)
         if folder is not None:

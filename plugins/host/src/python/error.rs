@@ -13,12 +13,12 @@ use crate::wire_version::WIRE;
 pub enum PythonError {
     /// No interpreter is known.
     #[error(
-        "it is written in Python, and no interpreter is known: `--python VENV/bin/python` names one for this command, `python = [\"…\"]` below `[plugins]` of ~/.config/taceva/config.toml for every command"
+        "it is written in Python, and no interpreter is known: name one by `--python VENV/bin/python`, or for every command by `python = [\"…\"]` below `[plugins]` of ~/.config/taceva/config.toml"
     )]
     NoInterpreter,
     /// The interpreter is missing or cannot be started.
     #[error(
-        "{}: cannot be started: {source}; expected the interpreter of an environment, such as .venv/bin/python, in which `taceva` is installed",
+        "{}: cannot be started: {source}; expected the interpreter of an environment with `taceva`, such as .venv/bin/python",
         shown(program)
     )]
     Start {
@@ -29,7 +29,7 @@ pub enum PythonError {
     },
     /// Every user may write to the interpreter or to a folder above it.
     #[error(
-        "{}: every user of this machine may write to {}, expected one that only its owner may",
+        "{}: every user of this machine may write to {}, expected write access for its owner only",
         shown(program),
         shown(path)
     )]
@@ -41,7 +41,7 @@ pub enum PythonError {
     },
     /// The interpreter did not answer the query.
     #[error(
-        "{}: it did not say what lies in its environment: {problem}; expected Python 3.11 or later",
+        "{}: it did not list its environment: {problem}; expected Python 3.11 or later",
         shown(program)
     )]
     Silent {
@@ -62,7 +62,7 @@ pub enum PythonError {
     },
     /// The user that runs the plugin may not read a required file.
     #[error(
-        "a plugin of root runs as user {user}, who may not read {}: it is closed by {}; let every user read it (`chmod o+rx`), make the environment from an interpreter that lies elsewhere, such as /usr/bin/python3, or run `taceva` as another user than root",
+        "a plugin started by root runs as user {user}, who may not read {}: {} denies it; let every user read it (`chmod o+rx`), make the environment from an interpreter that they may read, such as /usr/bin/python3, or run `taceva` as another user than root",
         shown(path),
         shown(closed)
     )]
@@ -116,7 +116,7 @@ impl PythonError {
 /// Error message for a plugin that was written for wire version `found`.
 pub(crate) fn other_wire(found: u32) -> String {
     format!(
-        "written for version {found} of the wire, this TacEva speaks {WIRE}: `python -m taceva.plugin manifest MODULE --write` writes the version of the package `taceva` that is installed, which must be that of the program ({})",
+        "written for version {found} of the wire, this TacEva speaks {WIRE}: install the package `taceva` of the version of the program ({}), then run `python -m taceva.plugin manifest MODULE --write`",
         env!("CARGO_PKG_VERSION")
     )
 }

@@ -73,7 +73,7 @@ impl Interpreter {
             .ok_or_else(|| lacks("the package `taceva` is not installed in its environment"))?;
         if !package.join(CHILD).is_file() {
             return Err(lacks(
-                "its package `taceva` is older than plugins in Python",
+                "its package `taceva` is too old for plugins in Python",
             ));
         }
         let mut readable = said.readable;

@@ -59,7 +59,7 @@ impl Searching {
             ))
         };
         let Some(folder) = &lying.folder else {
-            let why = plain(lying.fault.as_deref().unwrap_or("it is not there"));
+            let why = plain(lying.fault.as_deref().unwrap_or("the module is missing"));
             let rejection = refused(why).of(interpreter.program(), Place::Python);
             self.rejections.push(rejection);
             return;
@@ -67,14 +67,14 @@ impl Searching {
         let manifest = folder.join(MANIFEST);
         if !manifest.exists() {
             let why = format!(
-                "no {MANIFEST} lies in it; `python -m taceva.plugin manifest {module} --write` writes it, and the project must list it among the files of the package"
+                "it contains no {MANIFEST}; write it by `python -m taceva.plugin manifest {module} --write`, and list it in the project among the files of the package"
             );
             self.rejections.push(refused(why).of(folder, Place::Python));
             return;
         }
         let found = self.manifest(Place::Python, &manifest, Some(interpreter));
         if let Some(found) = found.filter(|found| *found != lying.id) {
-            let why = format!("its manifest says it is `{found}`");
+            let why = format!("the id in its manifest is `{found}`");
             self.forget(&found, folder);
             self.rejections
                 .push(refused(why).of(&manifest, Place::Python));
@@ -96,13 +96,13 @@ impl Searching {
     pub(super) fn package(&mut self, folder: &Path, name: &str) -> Result<(), Reason> {
         if folder.file_name().is_none_or(|last| last != name) {
             return Err(Reason::Python(format!(
-                "`python = \"{name}\"`: the manifest of a module lies in its package, expected a folder called `{name}`"
+                "`python = \"{name}\"`: the manifest of a module must be in its package, expected a folder called `{name}`"
             )));
         }
         let init: PathBuf = folder.join(PACKAGE);
         if !init.is_file() {
             return Err(Reason::Python(format!(
-                "`python = \"{name}\"`: no package, expected {PACKAGE} beside the manifest"
+                "`python = \"{name}\"`: not a package, expected {PACKAGE} beside the manifest"
             )));
         }
         match self.writable.by_all(&init).map_err(Reason::Unreadable)? {

@@ -190,11 +190,11 @@ impl fmt::Display for Reason {
             Reason::Relative => f.write_str("a relative folder, expected one that begins with `/`"),
             Reason::WorldWritable { path } => write!(
                 f,
-                "every user of this machine may write to {}, expected one that only its owner may",
+                "every user of this machine may write to {}, expected write access for its owner only",
                 shown(path)
             ),
             Reason::Unreadable(error) => write!(f, "{error}"),
-            Reason::NotAFile => f.write_str("no regular file"),
+            Reason::NotAFile => f.write_str("not a regular file"),
             Reason::Python(why) => f.write_str(why),
             Reason::Wire { found } => f.write_str(&other_wire(*found)),
             Reason::NotText => f.write_str("not UTF-8, or longer than 1 MiB"),
@@ -215,7 +215,7 @@ impl fmt::Display for Reason {
             }
             Reason::Duplicate { id, other } => write!(
                 f,
-                "`{id}` is also {}; `prefer = [\"FOLDER\"]` under [plugins] in the settings chooses one",
+                "`{id}` is also found in {}; choose one by `prefer = [\"FOLDER\"]` under [plugins] in the settings",
                 shown(other)
             ),
         }

@@ -167,7 +167,7 @@ fn a_library_that_is_a_folder_or_absent_is_refused() {
     fs::create_dir(lamp.join("lib.so")).expect("free");
     let reason = reason(within.path());
     assert!(
-        reason.to_string().ends_with("lib.so: no regular file"),
+        reason.to_string().ends_with("lib.so: not a regular file"),
         "{reason}"
     );
 }

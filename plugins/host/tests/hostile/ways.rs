@@ -128,8 +128,8 @@ ways! {
     an_impossible_division: "capture_divides", Do::Capture => Gone("signal 8");
     signals_that_are_all_blocked: "signal_games", Do::Capture => Gone("did not capture a frame within 400ms");
     every_file_of_the_process_closed: "closes_files", Do::Capture => Gone("");
-    garbage_on_every_socket: "garbage_on_files", Do::Capture => Gone("broke the rules");
-    answers_that_nobody_asked_for: "early_answers", Do::Capture => Gone("broke the rules");
+    garbage_on_every_socket: "garbage_on_files", Do::Capture => Gone("violated the protocol");
+    answers_that_nobody_asked_for: "early_answers", Do::Capture => Gone("violated the protocol");
     a_leak_of_files: "leaks_files", Do::Capture => Nothing;
     ten_gibibytes: "takes_memory", Do::Capture => Nothing;
     threads_without_end: "starts_threads", Do::Capture => Nothing;

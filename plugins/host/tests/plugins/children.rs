@@ -111,7 +111,7 @@ fn a_device_that_never_closes_is_told_of_and_waited_for_a_few_seconds() {
     let said = told(&lines, 1);
     let line = said.last().expect("one line");
     let expected = "org.example.fixture Warn host: closed late: its process was ended because it did not close the device within 5s; \
-                    what was recorded is not affected";
+                    recordings are not affected";
     assert_eq!(line, expected);
 }
 
@@ -157,7 +157,7 @@ fn devices_are_found_by_the_library_with_what_tells_them_apart() {
     let (host, _) = self::host(&fixture);
     let error = eye(&host).discover().expect_err("no serial number");
     assert!(
-        error.to_string().contains("is no arguments of a device"),
+        error.to_string().contains("are not arguments of a device"),
         "{error}"
     );
 }

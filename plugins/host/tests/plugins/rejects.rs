@@ -43,13 +43,13 @@ refused!(a_missing_symbol: ["NO_SYMBOL"], LoadProblem::Symbol(_), "no `taceva_pl
 refused!(another_id: ["ID=\"org.example.other\""], LoadProblem::Differs { .. }, "`id`: the manifest says `org.example.fixture`, the library `org.example.other`");
 refused!(another_version: ["VERSION=\"2.0.0\""], LoadProblem::Differs { .. }, "`version`: the manifest says `1.0.0`");
 refused!(an_id_that_is_not_utf_8: ["ID=\"\\xff\\xfe\""], LoadProblem::Text { what: "`id`" }, "not UTF-8");
-refused!(an_id_at_an_address_that_is_none: ["BAD_ID"], LoadProblem::Address { what: "`id`" }, "nothing can be read");
+refused!(an_id_at_an_address_that_is_none: ["BAD_ID"], LoadProblem::Address { what: "`id`" }, "the address of `id` is unreadable");
 refused!(a_descriptor_that_lies: ["RATE_HZ=\"60\""], LoadProblem::Differs { .. }, "rate_hz: the manifest says");
-refused!(a_driver_that_is_not_there: ["NO_SENSORS"], LoadProblem::Differs { .. }, "eye`: the manifest says it is there");
+refused!(a_driver_that_is_not_there: ["NO_SENSORS"], LoadProblem::Differs { .. }, "eye`: the manifest says present");
 refused!(two_drivers_of_one_key: ["DRIVERS=2"], LoadProblem::Table(_), "two of its drivers are called");
 refused!(more_drivers_than_anybody_has: ["DRIVERS=4000000000u"], LoadProblem::Table(_), "a factory of 4000000000 drivers");
 refused!(a_description_that_is_not_utf_8: ["SAYS_NO_TEXT"], LoadProblem::Describe(_), "not UTF-8");
-refused!(a_length_that_overflows: ["SAYS_ENDLESS"], LoadProblem::Describe(_), "more text than anybody could mean");
+refused!(a_length_that_overflows: ["SAYS_ENDLESS"], LoadProblem::Describe(_), "more text than is accepted");
 refused!(an_init_that_fails: ["INIT_FAILS"], LoadProblem::Init(_), "its `init` failed: nothing is there");
 refused!(a_factory_that_is_null: ["NO_FACTORY"], LoadProblem::Lacks { what: "factory" }, "`factory` is NULL");
 refused!(an_open_that_is_null: ["NO_OPEN"], LoadProblem::Lacks { what: "open" }, "`open` is NULL");
@@ -68,7 +68,7 @@ fn a_library_that_looks_for_another_beside_itself_is_told_that_it_has_no_folder(
         "{problem:?}"
     );
     assert!(
-        text.contains("libneighbour.so") && text.contains("it looks in `$ORIGIN`"),
+        text.contains("libneighbour.so") && text.contains("it searches `$ORIGIN`"),
         "{text}"
     );
 }
@@ -139,7 +139,7 @@ no_frame!(a_frame_whose_length_overflows: ["TOLD_LENGTH=UINT64_MAX"], Protocol, 
 no_frame!(a_frame_of_an_unknown_format: ["FORMAT=77"], Unsupported, "pixel format 77");
 no_frame!(a_frame_without_pixels: ["NO_DATA"], Protocol, "without pixels");
 no_frame!(a_frame_elsewhere_that_is_not_lent: ["NO_RELEASE"], Abi, "it has no `release`");
-no_frame!(a_status_that_is_none: ["STATUS=5"], Abi, "status 5, which is none");
+no_frame!(a_status_that_is_none: ["STATUS=5"], Abi, "status 5, which the interface");
 no_frame!(a_fault_of_the_device: ["STATUS=TACEVA_DEVICE_FAULT"], DeviceFault, "as it was told to");
 
 #[test]
@@ -157,7 +157,7 @@ fn after_a_panic_the_handle_is_dead_and_every_other_lives() {
     assert_eq!(error.kind(), ErrorKind::Panicked);
     let error = eye.stop().expect_err("dead");
     assert_eq!(error.kind(), ErrorKind::Panicked);
-    assert!(error.to_string().contains("dead since then"), "{error}");
+    assert!(error.to_string().contains("no longer called"), "{error}");
     let mut other = session.open_sensor(&EYE, &Args::default()).expect("opens");
     other.start(SECOND).expect("lives");
 }

@@ -57,7 +57,7 @@ impl Session for BuiltIn {
         Err(DriverError::new(
             ErrorKind::Unsupported,
             &whole,
-            "say what it offers",
+            "list its offer",
         ))
     }
 

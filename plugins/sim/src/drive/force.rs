@@ -115,7 +115,7 @@ impl ForceTransducer for SimulatedTransducer {
 
 impl Tare for SimulatedTransducer {
     fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.wait("call the load zero", TARE_READINGS, deadline)?;
+        self.wait("zero the force", TARE_READINGS, deadline)?;
         self.rig.state().tare(TARE_READINGS);
         Ok(())
     }

@@ -22,12 +22,12 @@ pub(super) struct Calibration {
 pub(super) enum CalibrationError {
     #[error(transparent)]
     Link(#[from] LinkError),
-    #[error("{address} does not give {PAGE}: {source}")]
+    #[error("{address} does not return {PAGE}: {source}")]
     Page {
         address: SocketAddr,
         source: std::io::Error,
     },
-    #[error("{PAGE} has no `{key}` that is {expected}, it has `{}`", shown(.found))]
+    #[error("`{key}` in {PAGE} is `{}`, expected {expected}", shown(.found))]
     Entry {
         key: &'static str,
         expected: &'static str,
@@ -164,12 +164,9 @@ mod tests {
     fn a_page_without_a_calibration_says_what_is_missing() {
         for (page, words) in [
             (String::new(), "no `cfgcpf`"),
-            (SOME.replace("<cfgcpf>1000000", "<cfgcpf>0"), "it has `0`"),
-            (
-                SOME.replace("<cfgcpt>1000000", "<cfgcpt>NaN"),
-                "it has `NaN`",
-            ),
-            (SOME.replace(">N<", ">stone<"), "it has `stone`"),
+            (SOME.replace("<cfgcpf>1000000", "<cfgcpf>0"), "is `0`"),
+            (SOME.replace("<cfgcpt>1000000", "<cfgcpt>NaN"), "is `NaN`"),
+            (SOME.replace(">N<", ">stone<"), "is `stone`"),
             (SOME.replace("</scfgtu>", ""), "no `scfgtu`"),
         ] {
             let error = Calibration::read(&page).expect_err(words).to_string();

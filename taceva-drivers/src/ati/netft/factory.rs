@@ -46,12 +46,12 @@ impl NetftFactory {
     pub fn new() -> Result<NetftFactory, DescriptorError> {
         let arguments = [
             ArgSpec::text("host").help("name or address of the box"),
-            port("port", 49_152, "the port of its records, UDP"),
-            port("page_port", 80, "the port of its pages, TCP"),
+            port("port", 49_152, "UDP port of its records"),
+            port("page_port", 80, "TCP port of its web pages"),
             ArgSpec::number("rate", 0.1, 20_000.0)
                 .unit("Hz")
                 .optional()
-                .help("readings a second that the box is set to, where it is known")
+                .help("readings per second that the box is set to, if known")
                 .changes_facts(),
         ];
         let facts = Facts::Force(

@@ -44,7 +44,7 @@ impl RecordStream {
             source,
         };
         let mut addresses = (host, port).to_socket_addrs().map_err(unresolved)?;
-        let none = || unresolved(io::Error::other("it names none"));
+        let none = || unresolved(io::Error::other("no address found"));
         let address = addresses.next().ok_or_else(none)?;
         let own = match address {
             SocketAddr::V4(_) => SocketAddr::from((Ipv4Addr::UNSPECIFIED, 0)),

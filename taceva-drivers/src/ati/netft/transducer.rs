@@ -90,7 +90,7 @@ impl Transducer {
         let seen = found.map_err(|none| {
             none.while_waiting(&KEY, READ, || {
                 let missing = self.records.newest().map_or(0, |seen| seen.what.missing);
-                format!("no reading within {patience:?}; {missing} were missing before")
+                format!("no reading within {patience:?}; {missing} earlier readings were lost")
             })
         })?;
         self.last = seen.number;
@@ -102,7 +102,7 @@ impl Transducer {
     fn wrench(&self, record: &Record) -> Result<Wrench, DriverError> {
         let Status(bits) = record.status;
         if record.status.is_saturated() {
-            let why = format!("a gage is at the end of its range (status {bits:#010x})");
+            let why = format!("a strain gauge is saturated (status {bits:#010x})");
             return Err(failed(ErrorKind::OutOfRange, READ, why));
         }
         if record.status.has_error() {
@@ -151,7 +151,7 @@ impl ForceTransducer for Transducer {
             return Ok(());
         }
         let sent = self.stream.send(Request::Stop);
-        sent.map_err(|error| failed(error.kind(), "end the readings", error))
+        sent.map_err(|error| failed(error.kind(), "stop the readings", error))
     }
 
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {

@@ -25,7 +25,7 @@ pub(super) struct Chunks {
 
 /// Invalid chunked encoding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("its answer announces chunks, and does not come in chunks")]
+#[error("its answer announces chunked encoding but is not chunked")]
 pub(super) struct ChunkError;
 
 /// Maximum length of a chunk-size line, bytes.

@@ -69,11 +69,7 @@ impl Camera {
                 "the camera sends {sent}, expected {}×{} of {}",
                 preset.width, preset.height, preset.title
             );
-            return Err(failed(
-                ErrorKind::Protocol,
-                "look at its first picture",
-                why,
-            ));
+            return Err(failed(ErrorKind::Protocol, "read its first picture", why));
         }
         Ok(Camera {
             url,

@@ -47,12 +47,12 @@ impl MjpegFactory {
     /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<MjpegFactory, DescriptorError> {
         let arguments = [
-            ArgSpec::text("url").help("where the stream is: http://host:port/path"),
+            ArgSpec::text("url").help("URL of the stream: http://host:port/path"),
             Preset::argument(&KEY),
             ArgSpec::number("rate", 0.1, 10_000.0)
                 .unit("Hz")
                 .optional()
-                .help("frames a second that the camera sends, where it is known")
+                .help("frames per second that the camera sends, if known")
                 .changes_facts(),
         ];
         let facts = Facts::Sensor(Box::default());

@@ -17,7 +17,7 @@ pub(super) struct Head {
 /// Response that is not a stream.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum HeadError {
-    #[error("it answers with no HTTP: `{}`", shown(.line))]
+    #[error("its answer is not HTTP: `{}`", shown(.line))]
     NotHttp { line: String },
     #[error("it answers {code}, expected 200: `{}`", shown(.line))]
     Refused { code: u16, line: String },

@@ -34,7 +34,7 @@ enum Within {
 pub(super) enum PartError {
     #[error("a picture of {found} bytes, expected at most {PICTURE_MAX}")]
     Long { found: usize },
-    #[error("the lines before a picture are longer than {PART_HEAD_MAX} bytes")]
+    #[error("the header of a picture is longer than {PART_HEAD_MAX} bytes")]
     Head,
     #[error(
         "no boundary within {SEARCHED_MAX} bytes, expected a line that begins with `--` before every picture"

@@ -37,7 +37,7 @@ pub(super) struct Stream {
 pub(super) enum StreamError {
     #[error(transparent)]
     Link(#[from] LinkError),
-    #[error("{address} gives no stream: {source}")]
+    #[error("{address} does not return a stream: {source}")]
     Head {
         address: SocketAddr,
         source: HeadError,
@@ -137,7 +137,7 @@ fn read(
     let mut bytes = vec![0; 64 << 10];
     let foreign = |why: String| Ending {
         kind: ErrorKind::Protocol,
-        why: format!("{address} sends what is no stream of pictures: {why}"),
+        why: format!("{address} sent an invalid stream of pictures: {why}"),
     };
     let mut came = behind;
     loop {

@@ -33,18 +33,18 @@ impl FromStr for Url {
         };
         // The URL is written into a request line, so it must not end that line.
         if text.contains(|letter: char| letter.is_control() || letter == ' ') {
-            return Err(wrong("it holds a space or a control character"));
+            return Err(wrong("it contains a space or a control character"));
         }
-        let rest = text.strip_prefix("http://").ok_or_else(|| {
-            wrong("it does not begin with `http://`, the only scheme that is supported")
-        })?;
+        let rest = text
+            .strip_prefix("http://")
+            .ok_or_else(|| wrong("it does not begin with `http://`, the only supported scheme"))?;
         let (place, path) = match rest.find(['/', '?']) {
             Some(at) => rest.split_at(at),
             None => (rest, ""),
         };
         if place.contains('@') {
             return Err(wrong(
-                "it holds a name or a password, which would be sent in the clear",
+                "it contains a user name or password, which would be sent unencrypted",
             ));
         }
         let (host, port) = match place.strip_prefix('[') {
@@ -63,7 +63,7 @@ impl FromStr for Url {
             None => 80,
             Some(port) => port
                 .parse()
-                .map_err(|_| wrong("its port is no number up to 65535"))?,
+                .map_err(|_| wrong("its port is not a number up to 65535"))?,
         };
         if host.is_empty() {
             return Err(wrong("it names no host"));

@@ -144,7 +144,7 @@ impl V4l2Options {
             None => Err(failed(
                 ErrorKind::InvalidArgument,
                 OPEN,
-                "no way to send pictures",
+                "no pixel format is requested",
             )),
         }
     }

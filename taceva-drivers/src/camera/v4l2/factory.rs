@@ -74,21 +74,24 @@ impl V4l2Factory {
         };
         let arguments = [
             ArgSpec::path("device")
-                .help("its file, such as /dev/video0 or one below /dev/v4l/by-id"),
+                .help("device file, such as /dev/video0 or a file below /dev/v4l/by-id"),
             Preset::argument(&KEY),
             side(
                 "width",
-                "pixels of a row that it sends: 640, or those of the preset",
+                "width of its pictures, pixels; default: 640, or that of the preset",
             ),
-            side("height", "rows that it sends: 480, or those of the preset"),
+            side(
+                "height",
+                "height of its pictures, pixels; default: 480, or that of the preset",
+            ),
             ArgSpec::choice("pixels", ["any", "yuyv", "mjpeg"])
                 .optional()
-                .help("how it sends them: any takes YUYV before MJPEG")
+                .help("pixel format; any prefers YUYV to MJPEG")
                 .changes_facts(),
             ArgSpec::number("rate", 0.1, 10_000.0)
                 .unit("Hz")
                 .optional()
-                .help("frames a second; as it is, or that of the preset")
+                .help("frames per second; default: unchanged, or that of the preset")
                 .changes_facts(),
         ];
         let facts = Facts::Sensor(Box::default());

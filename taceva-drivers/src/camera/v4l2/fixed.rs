@@ -29,7 +29,7 @@ struct Knob {
     unit: f64,
 }
 
-const FIX: &str = "fix the camera";
+const FIX: &str = "fix the controls of the camera";
 /// Unit of exposure, ms.
 const EXPOSURE_MS: f64 = 0.1;
 
@@ -44,13 +44,13 @@ impl Fixed {
         [
             ArgSpec::number("exposure_ms", 0.1, 100_000.0)
                 .optional()
-                .help("the exposure time of a picture, in ms, in steps of 0.1; unchanged if it is not given"),
-            whole("gain", "its gain, in its own steps"),
-            whole("white_balance_k", "the colour temperature for which white is balanced, in K"),
-            whole("focus", "its focus, in its own steps"),
+                .help("exposure time, ms, in steps of 0.1; default: unchanged"),
+            whole("gain", "gain, in the camera's own steps; default: unchanged"),
+            whole("white_balance_k", "colour temperature of the white balance, K; default: unchanged"),
+            whole("focus", "focus, in the camera's own steps; default: unchanged"),
             ArgSpec::choice("automatic", ["refuse", "keep"])
                 .default(ArgValue::Text("refuse".to_owned()))
-                .help("whether a camera may go on to set exposure, gain, white balance or focus by itself; recordings then say that it did"),
+                .help("keep: accept a camera that sets exposure, gain, white balance or focus automatically, and record that it does"),
         ]
     }
 
@@ -141,7 +141,7 @@ impl Knob {
                     ErrorKind::InvalidArgument,
                     FIX,
                     format!(
-                        "`{name}` is to be {}, and `automatic=keep` leaves it to the camera: give one of them",
+                        "`{name}` is set to {}, but `automatic=keep` leaves it to the camera: give only one of them",
                         self.shown(wanted)
                     ),
                 )),
@@ -154,7 +154,7 @@ impl Knob {
                 return Err(failed(
                     ErrorKind::Unsupported,
                     FIX,
-                    format!("the camera has no `{name}` to set"),
+                    format!("the camera has no control for `{name}`"),
                 ));
             }
             (Some(control), wanted) => {
@@ -179,7 +179,7 @@ impl Knob {
         }
         let why = match camera.set(automatic, off) {
             Ok(value) if value == off => return Ok(false),
-            Ok(_) => "also after it was asked not to".to_owned(),
+            Ok(_) => "even after a request to stop".to_owned(),
             Err(error @ (V4l2Error::Gone { .. } | V4l2Error::Busy { .. })) => {
                 return Err(refused(FIX)(error));
             }
@@ -190,7 +190,7 @@ impl Knob {
             ErrorKind::Unsupported,
             FIX,
             format!(
-                "the camera sets `{name}` by itself, {why}: pictures would change without a touch; `automatic=keep` records it all the same"
+                "the camera sets `{name}` automatically, {why}: pictures would change without contact; `automatic=keep` accepts this"
             ),
         ))
     }
@@ -212,7 +212,7 @@ impl Knob {
         let value = camera.set(self.control, wanted).map_err(refused(FIX))?;
         if value != wanted {
             let why = format!(
-                "the camera made `{name}` {}, expected {}",
+                "the camera set `{name}` to {}, expected {}",
                 self.shown(value),
                 self.shown(wanted)
             );

@@ -60,7 +60,7 @@ impl Frames {
             return Ok(());
         }
         let why = format!(
-            "the camera came back with {}, expected what it gave before",
+            "the reopened camera sends {}, expected its earlier format",
             found.picture
         );
         Err(failed(ErrorKind::Protocol, START, why))

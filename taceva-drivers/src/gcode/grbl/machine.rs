@@ -67,7 +67,7 @@ impl Machine {
 
     /// Queries the current status.
     pub(super) fn look(&mut self, patience: Duration) -> Result<Seen<Status>, DriverError> {
-        let doing = "ask where the machine is";
+        let doing = "read the position of the machine";
         let statuses = self.link.statuses();
         let after = statuses.posted();
         self.link
@@ -78,7 +78,7 @@ impl Machine {
         statuses.next(after, patience.max(GLANCE)).map_err(|none| {
             none.while_waiting(&KEY, doing, || {
                 format!(
-                    "no status with `MPos:` within {patience:?}, as GRBL 1.1 with $10=1 gives it"
+                    "no status with `MPos:` within {patience:?}: use GRBL 1.1 with the setting $10=1"
                 )
             })
         })
@@ -99,7 +99,7 @@ impl Machine {
                 State::Slowing | State::Running if monotonic() < until => {}
                 State::Alarm => return Err(alarm(doing)),
                 _ => {
-                    let why = format!("it does not come to rest, it stays {state:?}");
+                    let why = format!("it does not come to rest; its state is still {state:?}");
                     return Err(failed(ErrorKind::DeviceFault, doing, why));
                 }
             }
@@ -108,7 +108,7 @@ impl Machine {
 }
 
 pub(super) fn alarm(doing: &'static str) -> DriverError {
-    let why = "the machine is in alarm: look at it, then reset and home it, which this program never does";
+    let why = "the machine is in alarm: inspect it, then reset and home it by hand";
     failed(ErrorKind::DeviceFault, doing, why)
 }
 
@@ -120,8 +120,13 @@ impl Robot for Machine {
             position: Point { x, y, z },
             ..Pose::default()
         };
-        check_pose(&pose)
-            .map_err(|error| failed(ErrorKind::DeviceFault, "ask where the machine is", error))?;
+        check_pose(&pose).map_err(|error| {
+            failed(
+                ErrorKind::DeviceFault,
+                "read the position of the machine",
+                error,
+            )
+        })?;
         Ok((pose.on_grid(), Stamp::at(seen.at)))
     }
 

@@ -30,14 +30,18 @@ impl Machine {
             return Err(self.stop.halted());
         }
         if deadline.has_passed() {
-            return Err(failed(ErrorKind::Timeout, MOVE, "no time to move at all"));
+            return Err(failed(
+                ErrorKind::Timeout,
+                MOVE,
+                "the deadline has already passed",
+            ));
         }
         match self.look(ANSWER)?.what.state {
             // A person has ended any earlier alarm.
             State::Idle => self.link.forget(),
             State::Alarm => return Err(alarm(MOVE)),
             state => {
-                let why = format!("it is {state:?}, expected idle: end the halt to go on");
+                let why = format!("its state is {state:?}, expected Idle: end the halt to go on");
                 return Err(failed(ErrorKind::DeviceFault, MOVE, why));
             }
         }
@@ -92,7 +96,8 @@ impl Machine {
                 }
                 State::Alarm => return Err(alarm(MOVE)),
                 state if !self.stop.is_halted() => {
-                    let why = format!("somebody else stopped it, it is {state:?}");
+                    let why =
+                        format!("a person or another program stopped it; its state is {state:?}");
                     return Err(failed(ErrorKind::DeviceFault, MOVE, why));
                 }
                 _ => {}

@@ -30,7 +30,7 @@ pub(super) const QUICK_STOP: &[u8] = b"M410\n";
 /// Capability without which a stop waits for the end of the motion.
 const STOPS_AT_ONCE: &str = "EMERGENCY_PARSER";
 const CONNECT: &str = "connect to the printer";
-const LOOK: &str = "ask where the printer is";
+const LOOK: &str = "read the position of the printer";
 /// Timeout for the first answer after opening, which resets many boards.
 const AWAKE: Duration = Duration::from_secs(10);
 /// Timeout for an answer.
@@ -66,7 +66,7 @@ impl Printer {
         });
         listed.map_err(|error| error.met(&KEY, CONNECT))?;
         if stops_at_once != Some(true) {
-            let why = "the printer does not say `Cap:EMERGENCY_PARSER:1`, so that a stop would wait behind the motion: build its firmware with EMERGENCY_PARSER";
+            let why = "the printer does not report `Cap:EMERGENCY_PARSER:1`, so a stop would wait for the end of the motion: build its firmware with EMERGENCY_PARSER";
             return Err(DriverError::new(ErrorKind::Unsupported, &KEY, CONNECT).because(why));
         }
         Ok(printer)
@@ -100,7 +100,7 @@ impl Printer {
             .map_err(|error| error.met(&KEY, LOOK))?;
         let seen = self.link.statuses().next(after, patience);
         seen.map_err(|none| {
-            none.while_waiting(&KEY, LOOK, || format!("no place within {patience:?}"))
+            none.while_waiting(&KEY, LOOK, || format!("no position within {patience:?}"))
         })
     }
 }

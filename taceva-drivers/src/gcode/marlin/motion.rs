@@ -40,7 +40,7 @@ impl Printer {
         if deadline.has_passed() {
             return Err(failed(
                 ErrorKind::Timeout,
-                "no time to move at all".to_owned(),
+                "the deadline has already passed".to_owned(),
             ));
         }
         let ended = self.follow(&target, speed, until);
@@ -85,7 +85,7 @@ impl Printer {
                 }
                 Some(_) => heard = now,
                 None if now.saturating_sub(heard) >= SILENT => {
-                    let why = format!("the printer has said nothing for {SILENT:?}");
+                    let why = format!("the printer has sent nothing for {SILENT:?}");
                     return Err(failed(ErrorKind::Timeout, why));
                 }
                 None => {}

@@ -57,13 +57,13 @@ impl Pedal {
         arguments.extend([
             ArgSpec::whole("report", 0, 255)
                 .optional()
-                .help("the number of the report that says it, where its reports are numbered"),
+                .help("number of the report with the pedal's bits, if reports are numbered"),
             ArgSpec::whole("byte", 0, 1023)
                 .optional()
-                .help("the byte of the report that says it, counted from 0 behind the number; any, if it is not given"),
+                .help("byte with the pedal's bits, counted from 0 after the report number; default: any byte"),
             ArgSpec::whole("mask", 1, 255)
                 .default(ArgValue::Whole(255))
-                .help("the bits of that byte that say it"),
+                .help("the pedal's bits in that byte, as a mask"),
         ]);
         arguments
     }
@@ -79,7 +79,7 @@ impl Pedal {
         };
         if selector.driver() != KEY.as_str() {
             let why = format!(
-                "`{}` is no enabling switch, expected `{KEY}`",
+                "`{}` is not an enabling switch, expected `{KEY}`",
                 crate::text::shown(selector.driver())
             );
             return Err(failed(ErrorKind::NotFound, why.into()));

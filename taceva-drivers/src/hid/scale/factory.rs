@@ -50,13 +50,13 @@ impl ScaleFactory {
         let arguments = [ArgSpec::number("rate", 0.1, 20.0)
             .unit("Hz")
             .default(ArgValue::Number(2.0))
-            .help("weights a second that the scale sends at least, as it was measured")
+            .help("weights per second that the scale sends at least, as measured")
             .changes_facts()];
         let facts = ForceFacts::default()
             .with_axes(Axes::NORMAL)
             .with_tare(true);
         let facts = Facts::Force(facts);
-        let spec = DescriptorSpec::new(KEY, "a scale on the USB", DriverSource::Real, facts);
+        let spec = DescriptorSpec::new(KEY, "a USB scale", DriverSource::Real, facts);
         let spec = spec
             .arguments(Selection::arguments())
             .arguments(arguments)

@@ -33,19 +33,19 @@ impl Weight {
 pub(super) enum WeightError {
     #[error("the scale reports a fault")]
     Fault,
-    #[error("the scale is loaded beyond its range: a clipped force is wrong")]
+    #[error("the scale is overloaded: beyond its range, forces are clipped")]
     Overloaded,
-    #[error("the scale wants to be calibrated")]
+    #[error("the scale must be calibrated")]
     Uncalibrated,
-    #[error("the scale has lost its zero: take everything off, and zero it by its own key")]
+    #[error("the scale has lost its zero: unload it, then press its zero key")]
     ZeroLost,
     #[error("the scale reports status {0}, expected 1 to 8")]
     Status(u8),
     #[error(
-        "the scale weighs in unit {0}, expected mg, g, kg, oz or lb: choose one by its own key"
+        "the scale weighs in unit {0}, expected mg, g, kg, oz or lb: select one with its unit key"
     )]
     Unit(u8),
-    #[error("the scale writes weights with 10^{0}, expected -9 to 9")]
+    #[error("the scale sends weights times 10^{0}, expected an exponent of -9 to 9")]
     Exponent(i8),
     #[error("a report of {0} bytes, expected 6")]
     Short(usize),

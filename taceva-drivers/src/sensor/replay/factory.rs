@@ -28,20 +28,20 @@ impl ReplayFactory {
     /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
     pub fn new() -> Result<ReplayFactory, DescriptorError> {
         let arguments = [
-            ArgSpec::path("folder").help("the folder of the frames, PNG or JPEG"),
+            ArgSpec::path("folder").help("folder of the frames, PNG or JPEG"),
             ArgSpec::number("rate", 0.001, 100_000.0)
                 .unit("Hz")
                 .default(ArgValue::Number(30.0))
-                .help("frames a second, where no table says when each was true"),
+                .help("frames per second, if no table of times is given"),
             ArgSpec::path("times")
                 .optional()
-                .help("a CSV table with the columns `file` and `t_s` that names every frame"),
+                .help("CSV table with the columns `file` and `t_s`, one row per frame"),
             ArgSpec::choice("pace", ["virtual", "real"])
                 .default(ArgValue::Text("virtual".to_owned()))
-                .help("as fast as frames are asked for, or as fast as they came"),
+                .help("virtual: as fast as frames are requested; real: at the recorded times"),
             ArgSpec::flag("repeat")
                 .default(ArgValue::Flag(false))
-                .help("begin again after the last frame"),
+                .help("start again after the last frame"),
         ];
         let facts = Facts::Sensor(Box::default());
         let title = "a folder of frames, replayed";

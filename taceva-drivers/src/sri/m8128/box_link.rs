@@ -22,7 +22,7 @@ pub(super) enum CommandError {
     Link(#[from] LinkError),
     #[error("no answer to `{}` within {patience:?}", .command.trim_end())]
     Silent { command: String, patience: Duration },
-    #[error("`{}` was answered by `{}`, expected `$OK` at the end", .command.trim_end(), shown(.answer))]
+    #[error("the answer to `{}` is `{}`, expected `$OK` at the end", .command.trim_end(), shown(.answer))]
     Refused { command: String, answer: String },
 }
 

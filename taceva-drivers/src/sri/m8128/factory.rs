@@ -56,21 +56,23 @@ impl M8128Factory {
     pub fn new() -> Result<M8128Factory, DescriptorError> {
         let arguments = [
             ArgSpec::text("host").help("name or address of the box"),
-            port("port", 4008, "its port"),
+            port("port", 4008, "TCP port of the box"),
             ArgSpec::number("rate", 1.0, 2_000.0)
                 .unit("Hz")
                 .default(ArgValue::Number(200.0))
-                .help("readings a second, a whole number")
+                .help("readings per second, a whole number")
                 .changes_facts(),
             ArgSpec::choice("torque", TORQUES.map(|(name, _)| name))
                 .default(ArgValue::Text("N m".to_owned()))
-                .help("the unit of its torques, from its certificate"),
+                .help("unit of its torques, from its certificate"),
             ArgSpec::choice("check", ["sum", "crc32"])
                 .default(ArgValue::Text("sum".to_owned()))
-                .help("how frames are checked: by the sum of their bytes, or by CRC32 where the box can"),
+                .help(
+                    "checksum of frames: the sum of their bytes, or CRC32 if the box supports it",
+                ),
             ArgSpec::choice("zero", ["host", "box"])
                 .default(ArgValue::Text("host".to_owned()))
-                .help("who calls a load zero: this program, or the box, which takes seconds"),
+                .help("device that zeroes the force: host, this program; box, which takes seconds"),
         ];
         let facts = Facts::Force(
             ForceFacts::default()

@@ -133,7 +133,7 @@ impl Transducer {
                 lost_bytes,
                 ..
             }) if missing + lost_bytes > 0 => {
-                format!("; {missing} frames were missing and {lost_bytes} bytes were in no frame")
+                format!("; {missing} frames were lost and {lost_bytes} bytes belonged to no frame")
             }
             _ => String::new(),
         }
@@ -181,7 +181,7 @@ impl ForceTransducer for Transducer {
             return Ok(());
         }
         let stopped = self.fall_silent();
-        stopped.map_err(|error| failed(error.kind(), "end the readings", error))
+        stopped.map_err(|error| failed(error.kind(), "stop the readings", error))
     }
 
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {

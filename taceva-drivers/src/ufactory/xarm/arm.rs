@@ -88,14 +88,14 @@ impl Arm {
             && !workspace.contains(&target.position)
         {
             let why = format!(
-                "{:?} lies outside the workspace from {:?} to {:?}",
+                "{:?} is outside the workspace from {:?} to {:?}",
                 target.position, workspace.least, workspace.greatest
             );
             return Err(failed(ErrorKind::OutOfRange, doing, why));
         }
         let most = self.options.speed_max;
         if speed > most {
-            let why = format!("{speed}, expected at most {most}");
+            let why = format!("a speed of {speed}, expected at most {most}");
             return Err(failed(ErrorKind::OutOfRange, doing, why));
         }
         Ok(())
@@ -117,7 +117,7 @@ impl Arm {
             .ask_for(Command::GetState, ANSWER, Reply::state)
             .map_err(unanswered(doing))?;
         if state > LAST_GOOD_STATE {
-            let why = format!("the controller does not become ready, it stays in state {state}");
+            let why = format!("the controller does not become ready; it is still in state {state}");
             return Err(failed(ErrorKind::DeviceFault, doing, why));
         }
         self.see_ready(mode)
@@ -154,7 +154,7 @@ impl Robot for Arm {
             .observe(&mut self.exchange, None, deadline.remaining())?;
         let pose = seen
             .pose()
-            .map_err(|error| failed(ErrorKind::DeviceFault, "look where the arm is", error))?;
+            .map_err(|error| failed(ErrorKind::DeviceFault, "read the pose of the arm", error))?;
         Ok((pose, Stamp::at(seen.at)))
     }
 

@@ -100,15 +100,15 @@ impl Command {
     /// Name of the command in messages.
     pub(super) fn name(self) -> &'static str {
         match self {
-            Command::GetVersion => "the question for its version",
-            Command::SetState(TargetState::Ready) => "the command to be ready",
+            Command::GetVersion => "the query of its version",
+            Command::SetState(TargetState::Ready) => "the command to become ready",
             Command::SetState(TargetState::Stopped) => "the command to stop",
-            Command::GetState => "the question for its state",
-            Command::GetQueued => "the question for waiting motions",
-            Command::GetError => "the question for errors",
-            Command::SetMode(Mode::Position) => "the command to take positions",
-            Command::SetMode(Mode::Velocity) => "the command to take velocities",
-            Command::GetPose => "the question for its pose",
+            Command::GetState => "the query of its state",
+            Command::GetQueued => "the query of queued motions",
+            Command::GetError => "the query of errors",
+            Command::SetMode(Mode::Position) => "the command for position mode",
+            Command::SetMode(Mode::Velocity) => "the command for velocity mode",
+            Command::GetPose => "the query of its pose",
             Command::MoveLine(_) | Command::MoveVelocity(_) => "the command to move",
         }
     }

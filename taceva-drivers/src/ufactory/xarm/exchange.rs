@@ -21,7 +21,7 @@ use crate::link::{LinkError, connect};
 pub(super) enum ExchangeError {
     #[error(transparent)]
     Link(#[from] LinkError),
-    #[error("{address} sends what is no answer of an xArm: {source}")]
+    #[error("{address} sent an invalid answer for an xArm: {source}")]
     Foreign {
         address: SocketAddr,
         source: FrameError,

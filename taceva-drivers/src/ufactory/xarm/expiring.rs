@@ -55,7 +55,7 @@ impl Arm {
                     return Err(self.not_ready(last.state));
                 }
                 if reply.status.is_invalid() {
-                    let why = "the controller takes no velocities of the tip";
+                    let why = "the controller does not accept velocities of the tip";
                     return Err(failed(ErrorKind::DeviceFault, DOING, why).into());
                 }
                 renewed = Some(now);

@@ -54,16 +54,16 @@ impl XarmFactory {
     pub fn new() -> Result<XarmFactory, DescriptorError> {
         let arguments = [
             ArgSpec::text("host").help("name or address of the control box"),
-            port("port", 502, "the port of commands"),
-            port("pose_port", 30_003, "the port of 100 reports a second; polled where nobody listens there"),
-            port("status_port", 30_001, "the port of reports with errors; polled where nobody listens there"),
+            port("port", 502, "port for commands"),
+            port("pose_port", 30_003, "port of 100 pose reports per second; if it is closed, poses are polled"),
+            port("status_port", 30_001, "port of reports with errors; if it is closed, errors are polled"),
             speed_limit(0.1, 100.0),
             ArgSpec::number("acceleration_mm_s2", 10.0, 5_000.0)
                 .default(ArgValue::Number(500.0))
-                .help("how fast the tip gains and loses speed, in mm/s²"),
+                .help("acceleration and deceleration of the tip, mm/s²"),
             ArgSpec::text("workspace")
                 .optional()
-                .help("the box in which the tip may be, in mm in the base frame: the least x,y,z and the greatest, six numbers with commas")
+                .help("box that the tip must stay in, mm in the base frame: smallest x,y,z, then largest, six numbers with commas")
                 .changes_facts(),
         ];
         let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));

@@ -42,14 +42,14 @@ impl XarmFault {
             18 | 50..=53 => "the force transducer of the arm reports a fault",
             19 | 28 => "the tool does not answer",
             21 | 40 => "the pose cannot be reached",
-            22 => "the arm would touch itself",
+            22 => "the arm would collide with itself",
             23 | 38 => "a joint is at its limit",
-            24 | 30 | 60 => "a speed is above its limit",
-            25 => "the way cannot be planned",
-            31 => "a collision was felt",
+            24 | 30 | 60 => "a speed exceeds its limit",
+            25 => "the path cannot be planned",
+            31 => "a collision was detected",
             35 => "the safety boundary was left",
             110 | 111 => "the controller does not reach the arm",
-            _ => "see the list of errors of the vendor",
+            _ => "see the vendor's list of errors",
         }
     }
 }
@@ -58,7 +58,7 @@ impl fmt::Display for XarmFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "the controller reports error {}: {}; look at the arm, then clear the error in UFACTORY Studio, which this program never does",
+            "the controller reports error {}: {}; inspect the arm, then clear the error by hand in UFACTORY Studio",
             self.code,
             self.meaning()
         )

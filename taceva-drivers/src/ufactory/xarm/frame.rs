@@ -67,9 +67,9 @@ impl Status {
 /// Invalid answer: synchronisation is lost, and there is no mark to restore it.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum FrameError {
-    #[error("a header that names protocol {found:#06x}, expected 2 or 3")]
+    #[error("a header of protocol {found:#06x}, expected 2 or 3")]
     Protocol { found: u16 },
-    #[error("a header that announces {found} bytes, expected 2 to {LENGTH_MAX}")]
+    #[error("a header with a length of {found} bytes, expected 2 to {LENGTH_MAX}")]
     Length { found: usize },
 }
 

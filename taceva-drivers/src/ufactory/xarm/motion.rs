@@ -60,7 +60,11 @@ impl Arm {
         let began = monotonic();
         self.check_ready(deadline)?;
         if deadline.has_passed() {
-            return Err(failed(ErrorKind::Timeout, DOING, "no time to move at all"));
+            return Err(failed(
+                ErrorKind::Timeout,
+                DOING,
+                "the deadline has already passed",
+            ));
         }
         let until = began.saturating_add(deadline.remaining());
         let ended = self.follow(target, speed, until);
@@ -95,7 +99,7 @@ impl Arm {
         }
         if !is_alive {
             // The stop connection is silent but still retried.
-            let why = "the connection by which it would be stopped does not answer";
+            let why = "the connection for stops does not answer";
             return Err(failed(ErrorKind::Timeout, DOING, why));
         }
         let fault = self.observer.error(&mut self.exchange);
@@ -103,12 +107,12 @@ impl Arm {
             return Err(fault.met(DOING));
         }
         if self.observer.is_enabled() == Some(false) {
-            let why = "its motors are off; enable the arm in UFACTORY Studio, which this program never does";
+            let why = "its motors are off; enable the arm by hand in UFACTORY Studio";
             return Err(failed(ErrorKind::DeviceFault, DOING, why));
         }
         if let Some(mode) = self.observer.mode().filter(|mode| *mode != 0) {
             let why = format!(
-                "the controller is in mode {mode}, expected 0, position: end the halt, or choose it in UFACTORY Studio"
+                "the controller is in mode {mode}, expected 0 (position): end the halt, or select mode 0 in UFACTORY Studio"
             );
             return Err(failed(ErrorKind::DeviceFault, DOING, why));
         }
@@ -190,7 +194,7 @@ impl Arm {
                 Ok(Some(fault)) => fault.met(DOING),
                 Ok(None) => {
                     let why = format!(
-                        "the controller is {}, by somebody else or by an earlier halt; end the halt to go on",
+                        "the controller is {}, because of an earlier halt or another client; end the halt to go on",
                         state.name()
                     );
                     failed(ErrorKind::DeviceFault, DOING, why)

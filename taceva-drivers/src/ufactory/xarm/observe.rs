@@ -103,7 +103,7 @@ impl Observer {
             (None, None) => poses.newest().map_or(0, |seen| seen.number),
         };
         let seen = poses.next(after, patience).map_err(|none| {
-            none.while_waiting(&KEY, "look where the arm is", || {
+            none.while_waiting(&KEY, "read the pose of the arm", || {
                 format!("no report within {patience:?}")
             })
         })?;
@@ -122,7 +122,7 @@ impl Observer {
         exchange: &mut Exchange,
         patience: Duration,
     ) -> Result<Observation, DriverError> {
-        let doing = "ask where the arm is";
+        let doing = "query the pose of the arm";
         let refused = |error: ExchangeError| failed(error.kind(), doing, error);
         let since = monotonic().saturating_sub(self.asked);
         std::thread::sleep(ASKED_EVERY.saturating_sub(since).min(patience));

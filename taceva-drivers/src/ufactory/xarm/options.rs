@@ -22,7 +22,7 @@ pub(super) struct XarmOptions {
 /// Arguments that are valid one by one but inconsistent.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum OptionsError {
-    #[error("`workspace`: `{}`, expected six numbers in mm with commas between them, the least x, y, z and then the greatest: `200,-100,150,400,100,350`", shown(.text))]
+    #[error("`workspace`: `{}`, expected six numbers in mm with commas, smallest x, y, z and then largest: `200,-100,150,400,100,350`", shown(.text))]
     Workspace { text: String },
     #[error("`speed_max_mm_s`: expected a speed above 0 mm/s")]
     Speed,

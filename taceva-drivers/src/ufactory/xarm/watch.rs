@@ -100,7 +100,7 @@ fn read(
                     let _ = stream.shutdown(Shutdown::Both);
                     return Ending {
                         kind: ErrorKind::Protocol,
-                        why: format!("{address} sends what is no report of an xArm: {error}"),
+                        why: format!("{address} sent an invalid report for an xArm: {error}"),
                     };
                 }
             }

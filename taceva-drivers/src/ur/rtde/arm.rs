@@ -169,7 +169,7 @@ impl Arm {
         check_pose(target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
         let most = self.options.speed_max;
         if speed > most {
-            let why = format!("{speed}, expected at most {most}");
+            let why = format!("a speed of {speed}, expected at most {most}");
             return Err(failed(ErrorKind::OutOfRange, doing, why));
         }
         Ok(())
@@ -181,7 +181,7 @@ impl Arm {
         after: Option<u64>,
         patience: Duration,
     ) -> Result<Seen<ArmState>, DriverError> {
-        let doing = "look where the arm is";
+        let doing = "read the pose of the arm";
         let mailbox = self.states.mailbox();
         let after = after.unwrap_or_else(|| {
             let newest = mailbox.newest();
@@ -200,7 +200,7 @@ impl Arm {
 /// Pose of a state; an error if it has values that are not finite.
 pub(super) fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pose, DriverError> {
     pose_of(state.pose).ok_or_else(|| {
-        let why = format!("{:?} is no pose, expected numbers", state.pose);
+        let why = format!("a pose of {:?}, expected finite numbers", state.pose);
         failed(ErrorKind::DeviceFault, doing, why)
     })
 }
@@ -216,7 +216,7 @@ fn watched_pose(state: &ArmState) -> Result<Pose, DriverError> {
 impl Robot for Arm {
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let seen = self.look(None, deadline.remaining())?;
-        let pose = numbered_pose(&seen.what, "look where the arm is")?;
+        let pose = numbered_pose(&seen.what, "read the pose of the arm")?;
         Ok((pose, Stamp::at(seen.at)))
     }
 

@@ -56,24 +56,24 @@ impl UrFactory {
         };
         let arguments = [
             ArgSpec::text("host").help("name or address of the controller"),
-            port("port", 30_004, "the port of the real-time data exchange"),
-            port("script_port", 30_002, "the port that takes script"),
+            port("port", 30_004, "port of the real-time data exchange"),
+            port("script_port", 30_002, "port that accepts scripts"),
             number(
                 "rate",
                 [10.0, 500.0, 125.0],
-                "states a second; a CB3 sends at most 125",
+                "states per second; a CB3 sends at most 125",
             )
             .unit("Hz"),
             speed_limit(0.1, 100.0),
             number(
                 "acceleration_mm_s2",
                 [10.0, 5_000.0, 500.0],
-                "how fast the tip gains and loses speed, in mm/s²",
+                "acceleration and deceleration of the tip, mm/s²",
             ),
             number(
                 "deceleration_mm_s2",
                 [100.0, 10_000.0, 2_000.0],
-                "how fast the tip brakes at a halt, in mm/s²",
+                "deceleration of the tip after a halt, mm/s²",
             )
             .changes_facts(),
         ];

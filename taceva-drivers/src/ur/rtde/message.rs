@@ -56,7 +56,7 @@ pub(super) enum Message {
 pub(super) enum MessageError {
     #[error("a message of {found} bytes, expected {HEADER} to {LENGTH_MAX}")]
     Length { found: usize },
-    #[error("a message of kind {kind:#04x} and {length} bytes, which is none of those asked for")]
+    #[error("an unexpected message of kind {kind:#04x} and {length} bytes")]
     Kind { kind: u8, length: usize },
     #[error("outputs of types `{}`, expected `{TYPES}`", shown(.found))]
     Types { found: String },

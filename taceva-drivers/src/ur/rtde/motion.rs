@@ -51,11 +51,15 @@ impl Arm {
             return Err(halted());
         }
         if !self.stop.is_alive() {
-            let why = "the connection by which it would be stopped is gone";
+            let why = "the connection for stops is closed";
             return Err(failed(ErrorKind::Disconnected, DOING, why));
         }
         if deadline.has_passed() {
-            return Err(failed(ErrorKind::Timeout, DOING, "no time to move at all"));
+            return Err(failed(
+                ErrorKind::Timeout,
+                DOING,
+                "the deadline has already passed",
+            ));
         }
         let first = self.after_every_stop(until)?;
         if first.what.runtime != STOPPED {
@@ -86,7 +90,7 @@ impl Arm {
                 return Err(halted());
             }
             if left().is_zero() {
-                let why = "the controller has not said within the deadline that it carried out the last stop";
+                let why = "the controller did not confirm the last stop within the deadline";
                 return Err(failed(ErrorKind::Timeout, DOING, why));
             }
             seen = self.look(Some(seen.number), left())?;

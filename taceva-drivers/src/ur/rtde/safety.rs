@@ -83,18 +83,16 @@ impl fmt::Display for ArmFault {
         match self {
             ArmFault::EmergencyStop => f.write_str("the emergency stop was pressed"),
             ArmFault::ProtectiveStop => {
-                f.write_str("a protective stop: a collision was felt, or a limit was left")
+                f.write_str("a protective stop: a collision was detected, or a limit was exceeded")
             }
-            ArmFault::SafeguardStop => f.write_str("a safeguard stop: somebody is at the arm"),
-            ArmFault::Violation => f.write_str("a limit of its safety was violated"),
-            ArmFault::Fault => f.write_str("its safety reports a fault"),
+            ArmFault::SafeguardStop => f.write_str("a safeguard stop: a person is near the arm"),
+            ArmFault::Violation => f.write_str("a safety limit was violated"),
+            ArmFault::Fault => f.write_str("its safety system reports a fault"),
             ArmFault::NotRunning { mode } => {
                 write!(f, "it is in mode {mode}, expected 7: power on, brakes open")
             }
         }?;
-        f.write_str(
-            "; look at the arm, then clear it at the teach pendant, which this program never does",
-        )
+        f.write_str("; inspect the arm, then clear the stop by hand at the teach pendant")
     }
 }
 

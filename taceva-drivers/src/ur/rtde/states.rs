@@ -29,14 +29,14 @@ pub(super) struct States {
 pub(super) enum StatesError {
     #[error(transparent)]
     Link(#[from] LinkError),
-    #[error("{address} sends what is no data exchange: {source}")]
+    #[error("{address} sent an invalid message for a data exchange: {source}")]
     Foreign {
         address: SocketAddr,
         source: MessageError,
     },
     #[error("{address} does not answer within {ANSWER:?}")]
     Silent { address: SocketAddr },
-    #[error("{address} does not accept version 2 of the exchange, or to start it")]
+    #[error("{address} refused version 2 of the data exchange, or its start")]
     Refused { address: SocketAddr },
 }
 
@@ -162,7 +162,9 @@ fn read(
                     let _ = stream.shutdown(Shutdown::Both);
                     return Ending {
                         kind: ErrorKind::Protocol,
-                        why: format!("{address} sends what is no data exchange: {error}"),
+                        why: format!(
+                            "{address} sent an invalid message for a data exchange: {error}"
+                        ),
                     };
                 }
             }

@@ -55,7 +55,7 @@ impl BenchProxy {
         match self.call(call, doing)? {
             BenchAnswer::Done {} => Ok(()),
             _ => {
-                let error = self.child.life().broke("the answer to another question");
+                let error = self.child.life().broke("an answer to another call");
                 Err(error.of(&self.driver, doing))
             }
         }
@@ -90,7 +90,7 @@ impl SimulatedBench for BenchProxy {
     }
 
     fn provenance(&self) -> Option<String> {
-        match self.call(&BenchCall::Provenance {}, "say what it is") {
+        match self.call(&BenchCall::Provenance {}, "report its provenance") {
             Ok(BenchAnswer::Provenance { text }) => text,
             _ => None,
         }

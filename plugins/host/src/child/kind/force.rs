@@ -117,6 +117,6 @@ impl ForceTransducer for ForceProxy {
 impl Tare for ForceProxy {
     fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError> {
         let call = Call::Zero { deadline };
-        self.link.ask(&call, "call the load zero", deadline)
+        self.link.ask(&call, "zero the force", deadline)
     }
 }

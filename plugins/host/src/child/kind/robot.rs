@@ -87,7 +87,7 @@ impl Server for Box<dyn Robot> {
 impl Robot for RobotProxy {
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let call = Call::Pose { deadline };
-        self.link.ask(&call, "say where it is", deadline)
+        self.link.ask(&call, "read the pose", deadline)
     }
 
     fn move_to(

@@ -84,7 +84,7 @@ impl SensorServer {
     fn attach(&mut self, files: Vec<OwnedFd>) -> Result<Answer, Failure> {
         let refused = |why: &str| Failure::new(ErrorKind::Protocol, "attach memory", why);
         let file = files.into_iter().next();
-        let file = file.ok_or_else(|| refused("no memory came"))?;
+        let file = file.ok_or_else(|| refused("no memory was sent"))?;
         let memory = SharedMemory::attach(file).map_err(|error| refused(&error.to_string()))?;
         if self.frame.byte_len() != Some(memory.length()) {
             let why = format!("{} bytes for a frame of {}", memory.length(), self.frame);
@@ -99,7 +99,7 @@ impl SensorServer {
         let memory = self
             .memory
             .as_mut()
-            .ok_or_else(|| refused("no memory came"))?;
+            .ok_or_else(|| refused("no memory was sent"))?;
         let into = FrameMut::new(self.frame, memory.bytes_mut())
             .map_err(|error| refused(&error.to_string()))?;
         answered(self.sensor.capture(into, deadline))

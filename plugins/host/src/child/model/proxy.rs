@@ -112,7 +112,7 @@ impl ModelProxy {
     }
 
     fn other_answer(&self) -> ModelError {
-        let error = LinkError::Breach("the answer to another question".to_owned());
+        let error = LinkError::Breach("an answer to another call".to_owned());
         of_link(&self.child, &self.estimator, error)
     }
 

@@ -21,7 +21,7 @@ pub(in crate::child) fn serve(
     files: Vec<OwnedFd>,
 ) -> Result<(), Failure> {
     let mut files = files.into_iter();
-    let talk = files.next().ok_or_else(|| broken("no socket came"))?;
+    let talk = files.next().ok_or_else(|| broken("no socket was sent"))?;
     let memories = files
         .map(|file| SharedMemory::attach(file).map_err(|error| broken(&error.to_string())))
         .collect::<Result<Vec<_>, _>>()?;
@@ -47,7 +47,7 @@ fn make(
     progress: &dyn Progress,
 ) -> Result<Box<dyn SavedRegressor>, Failure> {
     let mut memories = memories.into_iter();
-    let mut next = || memories.next().ok_or_else(|| broken("no memory came"));
+    let mut next = || memories.next().ok_or_else(|| broken("no memory was sent"));
     match order {
         ModelOrder::Fit {
             estimator,
@@ -79,7 +79,7 @@ fn make(
             let length = usize::try_from(length).map_err(|_| broken("too many bytes"))?;
             let bytes = memory.bytes_mut().get(..length);
             let saved = Saved::new(
-                bytes.ok_or_else(|| broken("fewer bytes than it is said to be"))?,
+                bytes.ok_or_else(|| broken("fewer bytes than its stated length"))?,
                 &channels,
                 shape,
             );
@@ -116,7 +116,7 @@ fn one_answer(
     let memory = || match memory {
         Some(Ok(memory)) => Ok(memory),
         Some(Err(error)) => Err(broken(&error.to_string())),
-        None => Err(broken("no memory came")),
+        None => Err(broken("no memory was sent")),
     };
     match call {
         ModelCall::Predict { samples } => {
@@ -137,7 +137,7 @@ fn one_answer(
                 .copy_from_slice(saved);
             Ok(ModelAnswer::Done {})
         }
-        ModelCall::Close {} => Err(broken("a call that is answered")),
+        ModelCall::Close {} => Err(broken("a call with an answer")),
     }
 }
 
@@ -147,7 +147,7 @@ fn predict(
     samples: u64,
     memory: &mut SharedMemory,
 ) -> Result<(), Failure> {
-    let refused = || broken("memory that does not hold the samples it is said to");
+    let refused = || broken("memory that is smaller than its samples");
     let samples = usize::try_from(samples).map_err(|_| refused())?;
     let length = samples.checked_mul(model.shape().len());
     let (values, _) = length

@@ -72,7 +72,9 @@ pub(crate) fn no_port(needs: &[Need]) -> Option<String> {
     needs.iter().find_map(|need| match need {
         Need::Serial { path } if !need.has_star() => {
             let is_other = fs::metadata(path).is_ok_and(|metadata| !is_serial(&metadata));
-            is_other.then(|| format!("`{need}`: what is there is no serial port of a device, expected one; `device:` names others"))
+            is_other.then(|| {
+                format!("`{need}`: not a serial port of a device; name other files by `device:`")
+            })
         }
         _ => None,
     })

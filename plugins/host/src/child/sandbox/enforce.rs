@@ -29,7 +29,7 @@ pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolatio
         Ok(isolation)
     } else {
         Err(format!(
-            "this kernel cannot isolate a plugin, expected Landlock {LANDLOCK_WHOLE} (Linux 6.12) and filters of system calls, found {isolation}"
+            "this kernel cannot isolate a plugin, expected Landlock {LANDLOCK_WHOLE} (Linux 6.12) and system-call filters, found {isolation}"
         ))
     }
 }

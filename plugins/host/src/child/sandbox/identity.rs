@@ -71,7 +71,7 @@ pub(super) fn end_with(parent: u32) -> Result<(), String> {
         .map(Pid::as_raw_nonzero)
         .map(std::num::NonZero::get);
     if is_there.and_then(|found| u32::try_from(found).ok()) != Some(parent) {
-        return Err("the process that started it is gone".to_owned());
+        return Err("the process that started it has ended".to_owned());
     }
     set_dumpable_behavior(DumpableBehavior::NotDumpable)
         .map_err(|error| said("hide its memory", error))?;

@@ -82,7 +82,7 @@ fn serve_calls(mut calls: Socket, server: Box<dyn Server>) {
             None => Err(Failure::new(
                 ErrorKind::Panicked,
                 "answer",
-                "the driver panicked before, and is not called any more",
+                "the driver panicked before and is no longer called",
             )),
         };
         let answer = answer.unwrap_or_else(|failure| Answer::Failed { failure });

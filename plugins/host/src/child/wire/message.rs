@@ -100,7 +100,7 @@ impl FirstWord {
     /// Error message for a host with wire version `wire`.
     pub(crate) fn refusal(wire: u32) -> String {
         format!(
-            "it speaks version {WIRE} of the wire, its host version {wire}: both must be of one version of TacEva; install the package `taceva` of the version of the program ({} here), or run the program `taceva` that this package brings along",
+            "it speaks version {WIRE} of the wire, its host version {wire}: install the package `taceva` of the version of the program ({} here), or run the program `taceva` of this package",
             env!("CARGO_PKG_VERSION")
         )
     }

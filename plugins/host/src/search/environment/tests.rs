@@ -129,13 +129,13 @@ fn an_entry_point_that_names_nothing_or_another_plugin_is_refused_with_its_name(
         "{said}"
     );
     assert!(
-        said.contains("its manifest says it is `org.example.scale`"),
+        said.contains("the id in its manifest is `org.example.scale`"),
         "{said}"
     );
     let said = refused(&environment.naming("org.example.scale", "taceva"));
     assert!(
         said.contains(
-            "no plugin.toml lies in it; `python -m taceva.plugin manifest taceva --write`"
+            "it contains no plugin.toml; write it by `python -m taceva.plugin manifest taceva --write`"
         ),
         "{said}"
     );
@@ -173,7 +173,7 @@ fn an_interpreter_that_is_gone_fails_says_nothing_or_lacks_the_package_is_named_
         ("echo hello", "it printed `hello\\n`"),
         (
             "echo '# taceva environment'; echo 'version = 3'",
-            "it did not say what lies in its environment",
+            "it did not list its environment",
         ),
         (
             "echo '# taceva environment'; echo 'version = \"3.11.0\"'; echo 'readable = []'",
@@ -181,7 +181,7 @@ fn an_interpreter_that_is_gone_fails_says_nothing_or_lacks_the_package_is_named_
         ),
         (
             "echo '# taceva environment'; echo 'version = \"3.11.0\"'; echo 'readable = []'; echo 'package = \"/usr\"'",
-            "its package `taceva` is older than plugins in Python",
+            "its package `taceva` is too old for plugins in Python",
         ),
     ] {
         let why = refused(&environment.interpreter(script));
@@ -212,7 +212,7 @@ fn a_manifest_that_does_not_lie_in_the_package_it_names_is_refused() {
     let found = Plugins::search(SearchPath::empty().given([back]), &[]);
     let said = found.rejections[0].to_string();
     assert!(
-        said.contains("no package, expected __init__.py beside the manifest"),
+        said.contains("not a package, expected __init__.py beside the manifest"),
         "{said}"
     );
 }

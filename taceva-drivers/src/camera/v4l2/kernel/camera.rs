@@ -49,7 +49,7 @@ impl Camera {
         for (bit, what) in [
             (
                 ioctls::CAN_CAPTURE,
-                "it gives no pictures; a camera has several files, of which one does",
+                "it gives no pictures; use the other device file of this camera",
             ),
             (ioctls::CAN_STREAM, "it does not stream"),
         ] {
@@ -111,7 +111,7 @@ impl Camera {
     /// # Errors
     /// [`V4l2Error::Rate`] if the resulting rate differs by more than 1 %.
     pub fn set_rate(&mut self, wanted_hz: f64) -> Result<(), V4l2Error> {
-        let doing = "set how many pictures it gives a second";
+        let doing = "set its frame rate";
         let refused = |source| V4l2Error::of(doing, source);
         let mut rate = Rate::default();
         ioctls::get_rate(self.fd(), &mut rate).map_err(refused)?;
@@ -157,7 +157,7 @@ impl Camera {
             offered.push(format!("{} of {sizes}", FourCc::of(name.pixels)));
         }
         match offered.is_empty() {
-            true => "nothing that it names".to_owned(),
+            true => "no listed format".to_owned(),
             false => offered.join("; "),
         }
     }
@@ -184,7 +184,7 @@ impl Camera {
             }
         }
         match sizes.is_empty() {
-            true => "sizes that it does not name".to_owned(),
+            true => "unlisted sizes".to_owned(),
             false => sizes.join(", "),
         }
     }

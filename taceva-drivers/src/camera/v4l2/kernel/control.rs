@@ -134,7 +134,7 @@ impl Camera {
         match ioctls::query_control(self.fd(), &mut info) {
             Ok(()) if info.flags & DISABLED == 0 => Ok(Some(Control::of(&info))),
             Ok(()) | Err(Errno::INVAL | Errno::NOTTY) => Ok(None),
-            Err(source) => Err(V4l2Error::of("look at a control", source)),
+            Err(source) => Err(V4l2Error::of("query a control", source)),
         }
     }
 

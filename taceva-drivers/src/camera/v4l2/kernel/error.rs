@@ -20,7 +20,7 @@ pub enum V4l2Error {
         source: io::Error,
     },
     /// The file is not a camera, or the camera does not support streaming.
-    #[error("{path:?} is no camera that streams: {why}")]
+    #[error("{path:?} is not a streaming camera: {why}")]
     NoCamera {
         /// Path of the device file.
         path: PathBuf,
@@ -28,7 +28,7 @@ pub enum V4l2Error {
         why: String,
     },
     /// The camera does not support the requested format.
-    #[error("the camera gives no {wanted}; it offers {offered}")]
+    #[error("the camera does not support {wanted}; it offers {offered}")]
     Format {
         /// Requested format.
         wanted: PictureFormat,
@@ -36,7 +36,7 @@ pub enum V4l2Error {
         offered: String,
     },
     /// The camera does not support the requested rate.
-    #[error("the camera gives {found:.3} frames a second, asked for {wanted:.3}")]
+    #[error("the camera gives {found:.3} frames per second, expected {wanted:.3}")]
     Rate {
         /// Requested rate, Hz.
         wanted: f64,
@@ -44,13 +44,13 @@ pub enum V4l2Error {
         found: f64,
     },
     /// Another program uses the camera.
-    #[error("another program has the camera: {doing}")]
+    #[error("another program uses the camera: cannot {doing}")]
     Busy {
         /// Operation that failed.
         doing: &'static str,
     },
     /// The camera was unplugged.
-    #[error("the camera is gone: {doing}")]
+    #[error("the camera is unplugged: cannot {doing}")]
     Gone {
         /// Operation that failed.
         doing: &'static str,

@@ -36,7 +36,7 @@ impl Stream {
     }
 
     fn begin(&mut self) -> Result<(), V4l2Error> {
-        let doing = "begin to give pictures";
+        let doing = "start streaming";
         let refused = |source| V4l2Error::of(doing, source);
         let mut request = Request {
             count: BUFFERS,
@@ -61,7 +61,7 @@ impl Stream {
 
     fn queue(&self, index: u32) -> Result<(), V4l2Error> {
         ioctls::queue(self.camera.fd(), &mut buffer(index))
-            .map_err(|source| V4l2Error::of("give a buffer back", source))
+            .map_err(|source| V4l2Error::of("return a buffer", source))
     }
 
     /// Waits up to `patience` for the next image; `None` if none arrives.

@@ -137,7 +137,7 @@ fn a_silent_box_is_a_timeout_and_one_that_comes_back_goes_on() {
     inject(&setup.bench, Device::Force, FaultKind::Silent, 200);
     let silent = (0..5).find_map(|_| transducer.read(patience).err());
     let message = silent.expect("nothing came").to_string();
-    assert!(message.contains("frames were missing"), "{message}");
+    assert!(message.contains("frames were lost"), "{message}");
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn a_box_that_refuses_a_command_says_which() {
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     let message = error.to_string();
     assert!(
-        message.contains("`AT+SMPR=200` was answered by `ACK+SMPR=?$NO\\u{1b}`"),
+        message.contains("the answer to `AT+SMPR=200` is `ACK+SMPR=?$NO\\u{1b}`"),
         "{message}"
     );
 }

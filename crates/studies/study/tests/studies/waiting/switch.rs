@@ -169,7 +169,7 @@ fn an_enable_that_is_no_switch_or_does_not_open_is_refused_with_its_line_before_
     for (enable, line) in [
         (
             "wall/robot",
-            "`wall/robot` is no enabling switch, expected `wall/pedal`",
+            "`wall/robot` is not an enabling switch, expected `wall/pedal`",
         ),
         ("wall/pedal:usb=1", "`usb`"),
         (

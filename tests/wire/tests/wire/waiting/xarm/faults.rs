@@ -204,7 +204,7 @@ fn whoever_is_no_controller_is_refused_by_what_it_said() {
             ErrorKind::Protocol,
             "hello\\u{1b}",
         ),
-        (b"", ErrorKind::Timeout, "the question for its version"),
+        (b"", ErrorKind::Timeout, "the query of its version"),
         (
             b"\x00\x09\x00\x02\x00\x02\x01\x00",
             ErrorKind::Timeout,
