@@ -198,7 +198,10 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
             ),
             Some(_) => return None,
         };
-        Some(format!("`{}` needs {bound}, and its {property} {reason}", need.words))
+        Some(format!(
+            "`{}` needs {bound}, and its {property} {reason}",
+            need.words
+        ))
     });
     unproven.next()
 }
@@ -316,7 +319,8 @@ mod tests {
         let [tried, mine] = choice.open.as_slice() else {
             panic!("{:?}", choice.open);
         };
-        let reason = "its greatest normal force that was tried is 0.7 N, which need not be its limit";
+        let reason =
+            "its greatest normal force that was tried is 0.7 N, which need not be its limit";
         assert!(tried.reason.contains(reason), "{tried:?}");
         assert_eq!(mine.name, "mine");
         assert!(mine.reason.contains("not known"), "{mine:?}");

@@ -114,6 +114,7 @@ fn stable_factories(subject: &Subject) -> Result<(), Unmet> {
         abi::ROBOT_FACTORY,
         abi::FORCE_FACTORY,
         abi::LIGHTING_FACTORY,
+        abi::CHANGER_FACTORY,
         abi::ESTIMATOR_FACTORY,
     ] {
         let once = factory(subject, abi::Text::from(id))?;

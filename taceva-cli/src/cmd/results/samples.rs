@@ -29,10 +29,7 @@ pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Fou
                 reports.join(format!("{number}-*.{SAMPLES}")),
                 of_run(&reports, number)?,
             ),
-            false => (
-                own.clone(),
-                Some(own.clone()).filter(|path| is_alone && path.is_file()),
-            ),
+            false => (own.clone(), of_evaluation(&own, study, is_alone)?),
         };
         match found {
             Some(path) => study.samples = Some(read(&path, study)?),
@@ -45,6 +42,36 @@ pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Fou
         }
     }
     Ok(Found { studies, missing })
+}
+
+/// The table of one evaluation: `own`, beside it with the name of the result, or another table in that folder with the digest in the result.
+fn of_evaluation(own: &Path, study: &Study, is_alone: bool) -> anyhow::Result<Option<PathBuf>> {
+    if !is_alone || own.is_file() {
+        return Ok(Some(own.to_owned()).filter(|_| is_alone));
+    }
+    let Some(expected) = digest(study) else {
+        return Ok(None);
+    };
+    let folder = taceva_files::parent_of(own);
+    let entries = fs::read_dir(folder).with_context(|| format!("cannot read {}", shown(folder)))?;
+    for entry in entries {
+        let path = entry?.path();
+        let is_table = path.extension().is_some_and(|extension| extension == "csv");
+        if !is_table || !path.is_file() {
+            continue;
+        }
+        let table = fs::read(&path).with_context(|| format!("cannot read {}", shown(&path)))?;
+        if taceva_files::seal::digest_of_bytes(&table) == expected {
+            return Ok(Some(path));
+        }
+    }
+    Ok(None)
+}
+
+/// The digest of the table of samples in the results of `study`.
+fn digest(study: &Study) -> Option<&str> {
+    let mut provenance = study.provenance.iter();
+    provenance.find_map(|(name, text)| (name == "samples_table").then_some(text.as_str()))
 }
 
 /// The table of study `number` of a run, counted from 1; the first by name if there are several.
@@ -70,10 +97,8 @@ fn of_run(reports: &Path, number: u32) -> anyhow::Result<Option<PathBuf>> {
 /// Reads the table of samples at `path`, which must have the digest in the results of `study`.
 fn read(path: &Path, study: &Study) -> anyhow::Result<Samples> {
     let table = fs::read_to_string(path).with_context(|| format!("cannot read {}", shown(path)))?;
-    let mut provenance = study.provenance.iter();
-    let expected = provenance.find_map(|(name, text)| (name == "samples_table").then_some(text));
     let found = taceva_files::seal::digest_of_bytes(table.as_bytes());
-    if let Some(expected) = expected.filter(|expected| **expected != found) {
+    if let Some(expected) = digest(study).filter(|expected| *expected != found) {
         bail!(
             "{}: damaged or of other results: expected digest {expected}, found {found}",
             shown(path)

@@ -174,7 +174,12 @@ fn of_jpegs(
     let (_, header) = packets::read_packet(&source, first)?;
     let VideoInfo { width, height, .. } = info;
     if (header.width, u64::from(header.height) * 2) == (width, u64::from(height)) {
-        let known = Known::new("AVI", Some(info.codec), "of two fields a frame");
+        let container = if info.container == "AVI" {
+            "AVI"
+        } else {
+            "MP4"
+        };
+        let known = Known::new(container, Some(info.codec), "of two fields a frame");
         return open_foreign(source.path(), known, decoders);
     }
     let info = VideoInfo {

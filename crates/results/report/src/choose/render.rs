@@ -96,7 +96,8 @@ impl Choice {
             table.note(format!("Not ranked: {}: {}.", barred.name, barred.reason));
         }
         if !self.unknown.is_empty() {
-            let known = self.ranked.len() + self.open.len() + self.dropped.len() + self.barred.len();
+            let known =
+                self.ranked.len() + self.open.len() + self.dropped.len() + self.barred.len();
             table.note(format!(
                 "{known} of {} sensors have a number that is asked for; none is known of: {}.",
                 known + self.unknown.len(),

@@ -59,6 +59,8 @@ impl HeldRigs {
             rig.robot.as_ref().map(|robot| &robot.driver),
             rig.force.as_ref().map(|force| &force.driver),
             rig.operator.as_ref().map(|operator| &operator.enable),
+            rig.changers.specimen.as_ref(),
+            rig.changers.unit.as_ref(),
         ];
         let devices = drivers.into_iter().flatten();
         let devices = devices.map(|driver| (driver.value.clone(), rig.name().to_owned()));
@@ -70,17 +72,26 @@ impl HeldRigs {
         folder: &Path,
         devices: BTreeMap<String, String>,
     ) -> Result<HeldRigs, AcquireError> {
-        let locks = devices.into_iter().map(|(device, rig)| {
-            let path = lock_path(folder, &device);
-            take(&path, &device, &rig)
-        });
+        // Two spellings of one device have one lock.
+        let devices = devices.into_iter();
+        let by_path: BTreeMap<PathBuf, (String, String)> = devices
+            .map(|(device, rig)| (lock_path(folder, &device), (device, rig)))
+            .collect();
+        let locks = by_path
+            .iter()
+            .map(|(path, (device, rig))| take(path, device, rig));
         let locks: Result<Vec<File>, AcquireError> = locks.collect();
         Ok(HeldRigs { _locks: locks? })
     }
 }
 
+/// Path of the lock of a device. Blanks and the order of arguments make no other device.
 fn lock_path(folder: &Path, device: &str) -> PathBuf {
-    folder.join(format!("taceva-rig-{}.lock", ContentId::of_text(device)))
+    let (driver, arguments) = device.split_once(':').unwrap_or((device, ""));
+    let mut words: Vec<&str> = arguments.split(';').map(str::trim).collect();
+    words.sort_unstable();
+    let identity = format!("{}:{}", driver.trim(), words.join(";"));
+    folder.join(format!("taceva-rig-{}.lock", ContentId::of_text(&identity)))
 }
 
 fn take(path: &Path, device: &str, rig: &str) -> Result<File, AcquireError> {
@@ -130,7 +141,9 @@ mod tests {
             said.starts_with("lab.toml: `ufactory/xarm:host=10.0.0.2` is in use by another run"),
             "{said}"
         );
-        let other = lock_path(folder.path(), "ufactory/xarm:host=10.0.0.3");
+        let named = |device: &str| lock_path(folder.path(), device);
+        assert_eq!(named("lab/arm:a=1;b=2"), named(" lab/arm: b=2; a=1"));
+        let other = named("ufactory/xarm:host=10.0.0.3");
         take(&other, device, rig).expect("another arm is free");
         drop(held);
         take(&path, device, rig).expect("free again");
