@@ -15,7 +15,7 @@ pub use value::ArgValue;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The arguments of one driver, checked against what it declares; what was not given stands at its default.
+/// Arguments of one driver, checked against its declarations. Arguments that are not given have their defaults.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, ArgValue, Args};
@@ -36,10 +36,10 @@ pub struct Args {
 }
 
 impl Args {
-    /// Arguments as they stand behind the colon of a selector: `key=value;key=value`; `;;` is a semicolon within a value.
+    /// Parses arguments as written behind the colon of a selector: `key=value;key=value`. `;;` is a semicolon within a value.
     ///
     /// # Errors
-    /// [`ArgError`], for the first thing that is wrong.
+    /// [`ArgError`] for the first fault.
     pub fn parse(specs: &[ArgSpec], text: &str) -> Result<Args, ArgError> {
         let mut pairs = Vec::new();
         for part in parts(text) {
@@ -51,10 +51,10 @@ impl Args {
         Args::from_pairs(specs, pairs)
     }
 
-    /// Arguments given as pairs of key and text, for example those of a table in a scene.
+    /// Checks arguments given as pairs of key and text, for example those of a table in a scene.
     ///
     /// # Errors
-    /// [`ArgError`], for the first thing that is wrong.
+    /// [`ArgError`] for the first fault.
     pub fn from_pairs(
         specs: &[ArgSpec],
         pairs: impl IntoIterator<Item = (impl AsRef<str>, impl AsRef<str>)>,
@@ -126,7 +126,7 @@ impl Args {
         }
     }
 
-    /// Whether `key` is switched on.
+    /// Value of the switch `key`.
     ///
     /// # Panics
     /// As [`whole`](Args::whole).
@@ -139,7 +139,7 @@ impl Args {
 }
 
 impl ArgSpec {
-    /// Whether `args` hold a value for this argument other than its default.
+    /// True if `args` hold a value for this argument other than its default.
     pub fn is_set_by(&self, args: &Args) -> bool {
         match &self.presence {
             Presence::Default(value) => args.get(&self.key) != Some(value),
@@ -173,7 +173,7 @@ fn undeclared(key: &str, expected: &str, found: Option<&ArgValue>) -> ! {
     )
 }
 
-/// The parts of `text` between single semicolons, with `;;` read as one semicolon; blank parts are left out.
+/// Splits `text` at single semicolons, reads `;;` as one semicolon and drops blank parts.
 fn parts(text: &str) -> Vec<String> {
     let mut parts = vec![String::new()];
     let mut characters = text.chars().peekable();
@@ -189,7 +189,7 @@ fn parts(text: &str) -> Vec<String> {
 }
 
 impl fmt::Display for Args {
-    /// The canonical text: every argument, defaults too, by key; [`parse`](Args::parse) reads it back.
+    /// Canonical text: every argument, defaults too, sorted by key. [`parse`](Args::parse) reads it back.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (position, (key, value)) in self.values.iter().enumerate() {
             let separator = if position == 0 { "" } else { ";" };

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use crate::channel::Channels;
 use crate::field::Field;
 
-/// Samples as columns of equal length; a field that no metric asked for is left empty.
+/// Samples as columns of equal length; fields that no metric needs are empty.
 ///
 /// ```
 /// use taceva_core::{Batch, Channel, Channels, Column};
@@ -40,7 +40,7 @@ impl Batch {
     /// # Shapes
     /// `truth`, `prediction`: one column per channel, all of one length; `points`: of that length.
     /// # Panics
-    /// If the shapes differ, which is a mistake of the caller's code, not of its data.
+    /// If the shapes differ: a mistake of the caller's code, not of its data.
     pub fn from_columns(
         channels: Channels,
         truth: Vec<Column>,
@@ -76,7 +76,7 @@ impl Batch {
             channels,
             truth,
             prediction,
-            // A batch in which some rows have no point has no clusters, as with `BatchBuilder`.
+            // As in `BatchBuilder`, a batch with a row without a point has no clusters.
             points: points.filter(Labels::all_named),
             recordings: None,
             labels: BTreeMap::new(),
@@ -87,7 +87,7 @@ impl Batch {
     /// The same batch with the texts of `field`: scene, unit, phase, kind of grating or digest of the frame.
     ///
     /// # Panics
-    /// If there is not one for each row, or the field holds no text.
+    /// If the length differs from the number of rows, or the field is no text.
     #[must_use]
     pub fn with_labels(mut self, field: Field, labels: Labels) -> Batch {
         assert_eq!(labels.index().len(), self.rows, "a label for each row");
@@ -96,10 +96,10 @@ impl Batch {
         self
     }
 
-    /// The same batch with the recording of each sample, of samples of several recordings.
+    /// The same batch with the recording of each sample, for samples of several recordings.
     ///
     /// # Panics
-    /// If there is not one for each row.
+    /// If the length differs from the number of rows.
     ///
     /// ```
     /// use taceva_core::{Batch, Channel, Channels, Column, Labels};
@@ -125,7 +125,7 @@ impl Batch {
     /// The same batch with the numbers of `field`: depth step, repeat, time in s, spacings in whole nm, intensity.
     ///
     /// # Panics
-    /// If there is not one for each row, or the field holds no number.
+    /// If the length differs from the number of rows, or the field is no number.
     #[must_use]
     pub fn with_numbers(mut self, field: Field, numbers: Column) -> Batch {
         assert_eq!(numbers.len(), self.rows, "a number for each row");
@@ -134,7 +134,7 @@ impl Batch {
         self
     }
 
-    /// The same samples in another order, which `rows` states: each row once.
+    /// The same samples in the order of the row indices `rows`, each row once.
     ///
     /// ```
     /// use taceva_core::{Batch, Channel, Channels, Column};
@@ -146,7 +146,7 @@ impl Batch {
     /// ```
     ///
     /// # Panics
-    /// If there are not as many as the batch has, or there is no such row.
+    /// If the number of indices differs from the number of rows, or an index is out of range.
     #[must_use]
     pub fn in_order(&self, rows: &[u32]) -> Batch {
         assert_eq!(rows.len(), self.rows, "each row once");
@@ -168,10 +168,10 @@ impl Batch {
         }
     }
 
-    /// The batch with angles that have a period moved by whole periods: each prediction nearest to its truth, each truth nearest to the centre of
-    /// its channel, by name, where `centres` has one.
+    /// The batch with periodic angles moved by whole periods. Each prediction is then nearest to its truth, and each truth nearest to the
+    /// centre of its channel in `centres`, if there is one.
     ///
-    /// `None` if no channel has a period: the batch is right as it is.
+    /// `None` if no channel has a period, so that the batch needs no change.
     ///
     /// ```
     /// use std::collections::BTreeMap;
@@ -237,7 +237,7 @@ impl Batch {
         self.points.as_ref()
     }
 
-    /// The recording of each sample, where samples of several recordings were put together.
+    /// The recording of each sample, if the batch combines several recordings.
     pub fn recordings(&self) -> Option<&Labels> {
         self.recordings.as_ref()
     }

@@ -1,4 +1,4 @@
-//! What is measured: the six channels of a contact, and named extra ones.
+//! Measured quantities: the six channels of a contact, and named extra ones.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -6,7 +6,7 @@ use std::num::NonZeroU16;
 
 use crate::unit::Unit;
 
-/// One measured quantity: a name and the unit it is kept in.
+/// One measured quantity: a name and a unit.
 ///
 /// # Units
 /// `Px Py Pz` in mm and `Fx Fy Fz` in N. `Pz` is the indentation, positive into the gel; `Fz` is positive in compression;
@@ -62,8 +62,8 @@ impl Channel {
     /// The channel called `name`: one of the six, or an extra one such as `Rx` in degrees or `shear_x` in mm.
     ///
     /// # Errors
-    /// [`ChannelError`] if the name is not an ASCII letter followed by letters, digits or `_` (at most
-    /// [`NAME_MAX`](Channel::NAME_MAX) bytes), or if one of the six is given another unit than its own.
+    /// [`ChannelError`] if the name is not an ASCII letter followed by letters, digits or `_`, or is longer than
+    /// [`NAME_MAX`](Channel::NAME_MAX) bytes. Also if one of the six channels has a unit other than its own.
     pub fn named(name: &str, unit: Unit) -> Result<Channel, ChannelError> {
         if let Some(known) = Channel::SIX
             .into_iter()
@@ -121,24 +121,25 @@ impl Channel {
         }
     }
 
-    /// The name as it stands in tables, maps and reports.
+    /// Name in tables, maps and reports.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The unit its values are kept in.
+    /// Unit of its values.
     pub fn unit(&self) -> Unit {
         self.unit
     }
 
-    /// Degrees after which its values repeat; `None` of a channel that is no angle, or of which nothing is declared.
+    /// Period of the values, degrees; `None` if the channel is no angle or declares no period.
     pub fn period(&self) -> Option<u16> {
         self.period.map(NonZeroU16::get)
     }
 
-    /// The number nearest to `reference` that says the same as `value`: `value` itself without a period, else `value` and a multiple of it.
+    /// Number equivalent to `value` that is nearest to `reference`: `value` itself without a period, else `value` plus a multiple of the
+    /// period.
     ///
-    /// A value at most half a period away is returned as it is, to the bit.
+    /// A value at most half a period away is returned unchanged, to the bit.
     pub fn nearest(&self, value: f64, reference: f64) -> f64 {
         let Some(period) = self.period.map(|period| f64::from(period.get())) else {
             return value;
@@ -157,7 +158,7 @@ impl fmt::Display for Channel {
     }
 }
 
-/// The channels of a stream, each once, in the one order: `Px Py Pz Fx Fy Fz`, then extra ones by name.
+/// Channels of a stream, each once, in canonical order: `Px Py Pz Fx Fy Fz`, then extra ones by name.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels};
@@ -191,7 +192,7 @@ impl Channels {
         Ok(Channels { list })
     }
 
-    /// Where the channel called `name` stands.
+    /// Index of the channel called `name`; `None` if there is none.
     pub fn position(&self, name: &str) -> Option<usize> {
         self.list.iter().position(|channel| channel.name == name)
     }
@@ -211,12 +212,12 @@ impl Channels {
         self.list.iter()
     }
 
-    /// How many there are.
+    /// Number of channels.
     pub fn len(&self) -> usize {
         self.list.len()
     }
 
-    /// Whether there is none.
+    /// True if there are no channels.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
@@ -230,7 +231,7 @@ impl<'a> IntoIterator for &'a Channels {
     }
 }
 
-/// Why a channel or a list of channels is refused.
+/// Rejection of a channel or of a list of channels.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels};

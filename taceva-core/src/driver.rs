@@ -3,11 +3,11 @@
 //! # The order of calls
 //! 1. A [`Factory`](crate::Factory) opens a device from checked [`Args`](crate::Args); nothing moves and no light changes.
 //! 2. `start`, then any number of readings, then `stop`; both may be called twice, and a stopped device starts again.
-//! 3. Dropping a device stops it and gives back what it held, whatever state it was in.
+//! 3. Dropping a device stops it and releases its resources, in every state.
 //!
 //! # Time
-//! There is no clock here. A caller says how long it will wait ([`Deadline`]); a real device counts that on the clock of the
-//! machine, a simulated one on the virtual clock of its bench. A call that does not finish in time returns
+//! This crate reads no clock. A caller states its timeout as a [`Deadline`]: a real device measures it on the clock of the machine, a
+//! simulated one on the virtual clock of its bench. A call that does not finish in time returns
 //! [`ErrorKind::Timeout`](crate::ErrorKind::Timeout) and leaves the device usable.
 //!
 //! # Threads

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// What kind of failure it was, whatever failed; numerically the status of the C boundary, negated. It gets no further variant before the
-/// next major version of that boundary, whose list it is.
+/// Kind of failure of a device, a plugin or a file. Its number is the negated status of the C boundary. It gets no further variant before
+/// the next major version of that boundary, which defines the list.
 ///
 /// ```
 /// use taceva_core::ErrorKind;
@@ -14,21 +14,21 @@ use std::fmt;
 pub enum ErrorKind {
     /// The thing named does not exist.
     NotFound = 1,
-    /// It exists, and this user may not open it.
+    /// The thing exists, but this user may not open it.
     PermissionDenied = 2,
-    /// Somebody else holds it.
+    /// Another program or user holds it.
     Busy = 3,
     /// No answer within the deadline.
     Timeout = 4,
     /// The link is gone.
     Disconnected = 5,
-    /// It cannot do this at all.
+    /// The operation is not supported.
     Unsupported = 6,
-    /// The caller asked for something impossible.
+    /// An argument of the caller is impossible.
     InvalidArgument = 7,
     /// Bytes that do not follow their format.
     Protocol = 8,
-    /// A value outside what is allowed.
+    /// A value outside the allowed range.
     OutOfRange = 9,
     /// Stopped on request.
     Interrupted = 10,

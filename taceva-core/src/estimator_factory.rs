@@ -1,11 +1,11 @@
-//! What makes models of one kind: found by its key, configured by its settings, and able to load what it fitted before.
+//! Factory of one kind of model: found by key, configured by settings, and able to load models that it fitted before.
 
 use crate::args::{ArgSpec, Args};
 use crate::id::DriverKey;
 use crate::model::{ModelError, Saved, SavedRegressor, TrainingSet};
 use crate::progress::Progress;
 
-/// An estimator that is found by its key, with settings that it declares, and whose fitted models can be kept.
+/// An estimator that is found by its key. It declares its settings, and its fitted models can be saved.
 ///
 /// ```
 /// use taceva_core::{
@@ -78,30 +78,30 @@ use crate::progress::Progress;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait EstimatorFactory: Send + Sync {
-    /// The name by which people choose it: the id of the plugin, `/`, and a word.
+    /// Name by which people choose it: the id of the plugin, `/`, and a word.
     fn key(&self) -> &DriverKey;
 
-    /// What it is, in a few words.
+    /// Title of a few words.
     fn title(&self) -> &str;
 
-    /// What can be set.
+    /// Declarations of its settings.
     fn settings(&self) -> &[ArgSpec] {
         &[]
     }
 
-    /// Learns from what `request` holds.
+    /// Fits a model to the samples of `request`.
     ///
     /// # Errors
     /// As [`Estimator::fit`](crate::Estimator::fit).
     fn fit(&self, request: &FitRequest<'_>) -> Result<Box<dyn SavedRegressor>, ModelError>;
 
-    /// The fitted model that was kept.
+    /// Loads a saved model.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `Protocol` for bytes that are none of its models; hostile ones are refused like damaged ones.
+    /// [`ModelError`] of kind `Protocol` for bytes that are not one of its models, whether damaged or hostile.
     fn load(&self, saved: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError>;
 
-    /// The digest of the library that it is in, `sha256:` and 64 hexadecimal digits; `None` where it is linked into the program.
+    /// Digest of its library, `sha256:` and 64 hexadecimal digits; `None` if it is linked into the program.
     ///
     /// # Errors
     /// [`ModelError`] if the library cannot be read.
@@ -119,7 +119,7 @@ pub trait EstimatorFactory: Send + Sync {
     }
 }
 
-/// What a fit is made from.
+/// Input of a fit: settings, samples and progress.
 ///
 /// ```
 /// use taceva_core::{Args, Channel, Channels, FeatureShape, Features, FitRequest, SilentProgress, Targets, TrainingSet};
@@ -133,7 +133,7 @@ pub trait EstimatorFactory: Send + Sync {
 /// ```
 #[non_exhaustive]
 pub struct FitRequest<'a> {
-    /// What was set, checked against what the estimator declares.
+    /// Settings, checked against the declarations of the estimator.
     pub settings: &'a Args,
     /// Samples to learn from.
     pub training: &'a TrainingSet<'a>,

@@ -1,4 +1,4 @@
-//! The parts of a sample, as data: so that a part that is not read is neither decoded nor kept.
+//! Parts of a sample, as data: unread parts are neither decoded nor stored.
 
 use std::fmt;
 use std::ops::BitOr;
@@ -112,7 +112,7 @@ pub struct FieldSet {
 impl FieldSet {
     /// No field.
     pub const EMPTY: FieldSet = FieldSet { bits: 0 };
-    /// What scores of predictions read: truth, prediction and the cluster they belong to.
+    /// Fields that scores of predictions read: truth, prediction and contact point.
     pub const PAIRS: FieldSet = FieldSet::EMPTY
         .with(Field::Truth)
         .with(Field::Prediction)
@@ -132,7 +132,7 @@ impl FieldSet {
         }
     }
 
-    /// Whether `field` is in the set.
+    /// True if `field` is in the set.
     pub const fn contains(self, field: Field) -> bool {
         self.bits & 1 << field as u8 != 0
     }

@@ -1,10 +1,10 @@
-//! Where a sensor senses: declared, never derived from the samples, so that bins do not move with them.
+//! Sensing surface of a sensor. It is declared and never derived from samples, so bins do not move with the samples.
 
 use std::fmt;
 
 use crate::nanometre::Nanometre;
 
-/// The sensing surface seen from above, centred on the sensor's axis, and how deep it may be pressed.
+/// Outline of the sensing surface seen from above, centred on the sensor's axis, and its greatest indentation.
 ///
 /// ```
 /// use taceva_core::{Footprint, Nanometre};
@@ -33,7 +33,7 @@ pub struct Footprint {
 pub enum Outline {
     /// A disc.
     Disc {
-        /// Its radius.
+        /// Radius of the disc.
         radius: Nanometre,
     },
     /// A rectangle with sides along x and y.
@@ -107,7 +107,7 @@ impl Footprint {
         }
     }
 
-    /// Whether the place lies on it, its edge included.
+    /// True if the place is on the surface, edge included.
     pub fn contains(&self, x: Nanometre, y: Nanometre) -> bool {
         match self.outline {
             Outline::Disc { radius } => square(x) + square(y) <= square(radius),

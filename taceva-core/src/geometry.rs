@@ -1,4 +1,4 @@
-//! Where the tool is, seen from the sensor.
+//! Position and rotation of the tool in the sensor's frame.
 
 use crate::quantity::{Degree, Millimetre};
 
@@ -46,17 +46,17 @@ pub struct Rotation {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// Where its tip is.
+    /// Position of the tip.
     pub position: Point,
-    /// How it is turned.
+    /// Rotation of the tool.
     pub rotation: Rotation,
 }
 
 impl Pose {
     /// The nearest pose on the grid of whole nanometres and whole 10⁻⁹ degrees.
     ///
-    /// Poses cross the plugin boundary in metres and quaternions; on this grid, finer than any robot, the way there and back loses nothing,
-    /// so a driver that answers on it gives the same numbers however it is delivered.
+    /// Poses cross the plugin boundary in metres and quaternions. The grid is finer than any robot, and a pose on it survives the
+    /// conversion unchanged. A driver that reports such poses gives the same numbers built in or as a plugin.
     ///
     /// ```
     /// use taceva_core::{Millimetre, Pose};
@@ -84,7 +84,7 @@ impl Pose {
     }
 }
 
-/// The multiple of 1 / `per_unit` nearest to `value`. A value so large that 64-bit numbers lie further apart stays, as do NaN and infinity.
+/// Multiple of 1 / `per_unit` nearest to `value`. Values of 2⁵² steps or more, NaN and infinity are returned unchanged.
 pub(crate) fn nearest(value: f64, per_unit: f64) -> f64 {
     let steps = value * per_unit;
     if steps.abs() < 2_f64.powi(52) {

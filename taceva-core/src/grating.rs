@@ -1,4 +1,4 @@
-//! What a board for spatial resolution carries.
+//! Gratings of boards for spatial resolution.
 
 use std::fmt;
 

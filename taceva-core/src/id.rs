@@ -21,7 +21,7 @@ impl DriverKey {
     /// Longest key, in bytes.
     pub const LENGTH_MAX: usize = 128;
 
-    /// A key that stands in the code.
+    /// A constant key in the code.
     ///
     /// # Panics
     /// If it is no key; in a constant this is an error of the compiler.
@@ -57,7 +57,7 @@ const fn is_key(key: &[u8]) -> bool {
     !word_begins
 }
 
-// Keys compare and hash as their text does, so that maps can be asked by text.
+// Keys compare and hash as their text does, so maps can be queried by text.
 impl Borrow<str> for DriverKey {
     fn borrow(&self) -> &str {
         &self.0

@@ -6,7 +6,7 @@ use crate::field::Field;
 use crate::frame::{Frame, FrameInfo};
 use crate::signals::{SignalInfo, Signals};
 
-/// What a model takes of one sample, borrowed.
+/// Input of a model from one sample, borrowed.
 ///
 /// ```
 /// use taceva_core::{Field, Input, SignalInfo, Signals, Unit};
@@ -26,7 +26,7 @@ pub enum Input<'a> {
 }
 
 impl Input<'_> {
-    /// Its kind and size.
+    /// Kind and size of the input.
     pub fn info(&self) -> InputInfo {
         match self {
             Input::Frame(frame) => InputInfo::Frame(frame.info()),
@@ -68,7 +68,7 @@ pub enum InputInfo {
 }
 
 impl InputInfo {
-    /// The field of a sample that it is in.
+    /// Field of a sample that holds the input.
     pub const fn field(&self) -> Field {
         match self {
             InputInfo::Frame(_) => Field::Frame,

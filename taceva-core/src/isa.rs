@@ -1,16 +1,15 @@
-//! The instruction set that loops over many numbers use.
+//! Instruction set of loops over many numbers.
 
 use std::fmt;
 use std::str::FromStr;
 use std::sync::OnceLock;
 
-/// The environment variable that asks for an instruction set by name.
+/// Environment variable that selects an instruction set by name.
 const VARIABLE: &str = "TACEVA_ISA";
 
-/// An instruction set that there are kernels for.
+/// An instruction set with kernels of its own.
 ///
-/// Whether results depend on the choice is documented with the kernels. NEON was written for 64-bit ARM and is
-/// compiled there only.
+/// Each kernel documents whether its results depend on the choice. NEON kernels are compiled for 64-bit ARM only.
 ///
 /// ```
 /// use taceva_core::Isa;
@@ -27,7 +26,7 @@ pub enum Isa {
     Avx2,
     /// NEON: vectors of 16 bytes.
     Neon,
-    /// Whatever the compiler's target has, without fused multiplication.
+    /// Instructions of the compiler's target, without fused multiplication.
     Portable,
 }
 
@@ -56,7 +55,7 @@ impl Isa {
         })
     }
 
-    /// Whether this machine has it: everything that any kernel for it may ask of the processor.
+    /// True if this machine has every processor feature that a kernel of this set may use.
     pub fn is_available(self) -> bool {
         match self {
             #[cfg(target_arch = "x86_64")]
@@ -78,7 +77,7 @@ impl Isa {
         }
     }
 
-    /// Those that this machine has, the fastest first.
+    /// Instruction sets of this machine, the fastest first.
     pub fn available() -> Vec<Isa> {
         Isa::ALL
             .into_iter()
@@ -86,10 +85,10 @@ impl Isa {
             .collect()
     }
 
-    /// The instruction set to use: what `TACEVA_ISA` asks for, or else the fastest that this machine has.
+    /// Instruction set to use: the one that `TACEVA_ISA` names, or else the fastest of this machine.
     ///
-    /// The variable is read once in the life of a program. A value that cannot be met is ignored here; a program that wants to
-    /// refuse it asks [`requested`](Isa::requested).
+    /// The variable is read once per process, and an unusable value is ignored. A program that must reject it calls
+    /// [`requested`](Isa::requested).
     pub fn detect() -> Isa {
         static DETECTED: OnceLock<Isa> = OnceLock::new();
         *DETECTED.get_or_init(|| match Isa::requested() {
@@ -98,10 +97,10 @@ impl Isa {
         })
     }
 
-    /// What the environment variable `TACEVA_ISA` asks for; `None` if it is not set.
+    /// Instruction set that the environment variable `TACEVA_ISA` names; `None` if it is not set.
     ///
     /// # Errors
-    /// [`IsaError`] if it names no instruction set, or one that this machine does not have.
+    /// [`IsaError`] if it names an unknown instruction set, or one that this machine lacks.
     pub fn requested() -> Result<Option<Isa>, IsaError> {
         let Some(name) = std::env::var_os(VARIABLE) else {
             return Ok(None);
@@ -134,7 +133,7 @@ impl FromStr for Isa {
     }
 }
 
-/// Why an instruction set cannot be used.
+/// Rejected choice of an instruction set.
 ///
 /// ```
 /// use taceva_core::{Isa, IsaError};
@@ -143,14 +142,14 @@ impl FromStr for Isa {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IsaError {
-    /// No instruction set is called so.
+    /// The name is unknown.
     Unknown {
         /// The name as given.
         name: String,
     },
-    /// This machine does not have it.
+    /// This machine lacks the instruction set.
     Unavailable {
-        /// What was asked for.
+        /// Requested instruction set.
         isa: Isa,
     },
 }

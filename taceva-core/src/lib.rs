@@ -87,7 +87,7 @@ pub use suggestion::{nearest, suggestion};
 pub use unit::{SourceUnit, Unit, UnitError};
 pub use wrench::Wrench;
 
-// For `submit_builtin!`, whose user need not depend on it.
+// For `submit_builtin!`, so that its user need not depend on it.
 #[cfg(feature = "inventory")]
 #[doc(hidden)]
 pub use inventory;

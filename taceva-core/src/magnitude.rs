@@ -1,11 +1,11 @@
-//! How large a number may be that is recorded and scored.
+//! Greatest magnitude of numbers that are recorded and scored.
 
 /// Greatest magnitude of a value that is a sample, 2¹⁰²¹ ≈ 2.247 · 10³⁰⁷: sums, differences and means of two such values stay finite.
 ///
-/// Whoever reads numbers refuses greater ones by name, so that none reaches a metric, which could only count it as invalid.
+/// Readers reject greater numbers by name. A metric could only count them as invalid.
 pub const MAGNITUDE_MAX: f64 = f64::from_bits(0x7fc0_0000_0000_0000);
 
-/// Whether `value` is a number that can be recorded and scored: finite, and of a magnitude up to [`MAGNITUDE_MAX`].
+/// True if `value` can be recorded and scored: finite, with a magnitude up to [`MAGNITUDE_MAX`].
 ///
 /// ```
 /// use taceva_core::is_scorable;

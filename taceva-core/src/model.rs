@@ -1,4 +1,4 @@
-//! What a model promises: an [`Estimator`] is fitted and gives a [`Regressor`]; the unfitted one cannot predict.
+//! Interface of models. Fitting an [`Estimator`] gives a [`Regressor`]; only the latter can predict.
 
 mod error;
 mod features;
@@ -69,10 +69,10 @@ use crate::progress::Progress;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Estimator: Send + Sync {
-    /// The name by which people choose it: `ridge`, or the key of a plugin's.
+    /// Name by which people choose it: `ridge`, or the key of a plugin's estimator.
     fn name(&self) -> &str;
 
-    /// Learns from `training`; settings left open are chosen on `validation`, where there is one.
+    /// Fits a model to `training`. Open settings are chosen on `validation`, if it is given.
     ///
     /// # Errors
     /// [`ModelError`] if the sets do not fit each other, nothing can be learnt from them, or `progress` was cancelled.
@@ -118,7 +118,7 @@ pub trait Estimator: Send + Sync {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Regressor: Send + Sync {
-    /// What it predicts.
+    /// Channels that it predicts.
     fn channels(&self) -> &Channels;
 
     /// The shape of features it takes.
@@ -133,7 +133,7 @@ pub trait Regressor: Send + Sync {
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError>;
 }
 
-/// A fitted model that can be kept as bytes in a format of its own, such as that of a plugin.
+/// A fitted model that can be saved as bytes in its own format, such as that of a plugin.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, FeatureShape, Features, Regressor};
@@ -174,7 +174,7 @@ pub trait SavedRegressor: Regressor {
     fn save(&self) -> Result<Vec<u8>, ModelError>;
 }
 
-/// A model as it was kept: bytes in the format of its estimator, and beside them what it takes and predicts.
+/// A saved model: bytes in the format of its estimator, with its channels and the shape of its features.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, FeatureShape, Saved};
@@ -187,9 +187,9 @@ pub trait SavedRegressor: Regressor {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Saved<'a> {
-    /// What [`SavedRegressor::save`] gave.
+    /// Bytes from [`SavedRegressor::save`].
     pub bytes: &'a [u8],
-    /// What it predicts.
+    /// Channels that it predicts.
     pub channels: &'a Channels,
     /// The shape of features it takes.
     pub shape: FeatureShape,

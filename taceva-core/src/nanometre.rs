@@ -21,7 +21,7 @@ const PER_MILLIMETRE: f64 = 1e6;
 const GREATEST: i64 = 1 << 53;
 
 impl Nanometre {
-    /// The nanometre nearest to `millimetres`, ties to the even one; `None` for what is no length up to 2⁵³ nm.
+    /// The nanometre nearest to `millimetres`, ties to even; `None` for NaN or a length above 2⁵³ nm.
     ///
     /// The multiplication rounds, so a tie here is a tie of the rounded product; decimals of up to six places come out exact.
     pub fn from_millimetres(millimetres: f64) -> Option<Nanometre> {
@@ -53,7 +53,7 @@ impl Nanometre {
 impl FromStr for Nanometre {
     type Err = NanometreError;
 
-    /// Millimetres as decimal text, `0.35` or `-1.2e-3`; what lies below a nanometre is rounded half to even, exactly.
+    /// Parses millimetres as decimal text, `0.35` or `-1.2e-3`; parts of a nanometre are rounded half to even, exactly.
     fn from_str(text: &str) -> Result<Nanometre, NanometreError> {
         parse(text).ok_or_else(|| NanometreError {
             text: text.to_owned(),
@@ -75,7 +75,7 @@ fn parse(text: &str) -> Option<Nanometre> {
     if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
         return None;
     }
-    // The first `kept` digits stand before the point once the unit is nanometres.
+    // The first `kept` digits are before the point once the unit is nanometres.
     let kept = i64::try_from(whole.len()).ok()? + i64::from(exponent) + 6;
     let digit = |place: i64| {
         usize::try_from(place)

@@ -1,8 +1,8 @@
-//! What a consumer requires of a stream before it can give a value.
+//! Requirements of a consumer on a stream.
 
 use crate::field::FieldSet;
 
-/// What a metric or another consumer needs; pure data, so that planning needs neither devices nor files.
+/// Requirements of a metric or another consumer on a stream. Pure data, so planning opens neither devices nor files.
 ///
 /// ```
 /// use taceva_core::{FieldSet, Needs};
@@ -12,16 +12,16 @@ use crate::field::FieldSet;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Needs {
-    /// Fields without which there is no value.
+    /// Fields that a value requires.
     pub fields: FieldSet,
-    /// Channels without which there is no value.
+    /// Channels that a value requires.
     pub channels: &'static [&'static str],
-    /// Samples below which the value is undefined.
+    /// Least number of samples; with fewer the value is undefined.
     pub least_samples: u64,
 }
 
 impl Needs {
-    /// What needs `fields`, and no channel and no number of samples in particular.
+    /// Requires `fields` alone, with any channels and any number of samples.
     pub const fn new(fields: FieldSet) -> Needs {
         Needs {
             fields,
@@ -30,13 +30,13 @@ impl Needs {
         }
     }
 
-    /// The same with the channels without which there is no value.
+    /// The same with required channels.
     #[must_use]
     pub const fn with_channels(self, channels: &'static [&'static str]) -> Needs {
         Needs { channels, ..self }
     }
 
-    /// The same with the number of samples below which the value is undefined.
+    /// The same with the least number of samples.
     #[must_use]
     pub const fn with_least_samples(self, least_samples: u64) -> Needs {
         Needs {

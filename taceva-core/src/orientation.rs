@@ -21,11 +21,11 @@ pub struct Orientation {
     w: f64,
 }
 
-/// Greatest distance of the norm of a quaternion from 1: what few decimals in a file leave.
+/// Greatest distance of the norm of a quaternion from 1, for quaternions from files with few decimals.
 const NORM_TOLERANCE: f64 = 0.01;
 
 impl Orientation {
-    /// Orientation that the rotation vector leads to, in radians; the zero vector is the identity.
+    /// Orientation of a rotation vector in radians; the zero vector is the identity.
     pub fn of_vector(vector: [f64; 3]) -> Orientation {
         let angle = norm(&vector);
         let factor = match angle > 0.0 {
@@ -87,7 +87,7 @@ impl Orientation {
         Orientation { x, y, z, w }
     }
 
-    /// Components, in the frame of the body, of a vector that is given in the frame of the world.
+    /// Components of a world-frame vector in the frame of the body.
     pub fn into_body(self, [a, b, c]: [f64; 3]) -> [f64; 3] {
         let Orientation { x, y, z, w } = self;
         [
@@ -103,7 +103,7 @@ impl Orientation {
         ]
     }
 
-    /// The same orientation by the quaternion that is nearer to that of `other`.
+    /// The same orientation, as that of its two quaternions which is nearer to `other`.
     fn beside(self, other: Orientation) -> Orientation {
         let pairs = self.quaternion().into_iter().zip(other.quaternion());
         let product: f64 = pairs.map(|(a, b)| a * b).sum();

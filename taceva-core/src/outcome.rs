@@ -1,4 +1,4 @@
-//! How a press ended, and which limit of the gel may have ended it.
+//! End of a press, and the limit of the gel that may have caused it.
 
 use std::fmt;
 
@@ -46,7 +46,7 @@ impl fmt::Display for Limit {
     }
 }
 
-/// How a press ended.
+/// End of a press.
 ///
 /// ```
 /// use taceva_core::{Limit, PressOutcome};
@@ -60,15 +60,15 @@ impl fmt::Display for Limit {
 pub enum PressOutcome {
     /// Every waypoint was visited.
     Complete,
-    /// A limit ended the way in. The waypoint that was not reached has its sample where the tip rests within the limits; waypoints
-    /// beyond it are left out, and those of the way out are visited. A limit that is met in the search for the gel leaves no sample.
+    /// A limit ended the approach. The unreached waypoint has its sample at the place where the tip rests within the limits. Deeper
+    /// waypoints are skipped, and those of the retreat are visited. A limit met during the search for the gel leaves no sample.
     Limited(Limit),
-    /// Nothing was touched as far down as the search goes.
+    /// The search for the gel reached its end without contact.
     NoContact,
 }
 
 impl PressOutcome {
-    /// Whether a limit of the gel ended it.
+    /// True if a limit of the gel ended the press.
     pub const fn is_limited(self) -> bool {
         matches!(self, PressOutcome::Limited(_))
     }

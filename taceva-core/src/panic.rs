@@ -1,15 +1,15 @@
-//! Panics of code that is not ours, caught and returned as their messages.
+//! Catches panics of foreign code and returns their messages.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 
 thread_local! {
-    /// How many calls of [`contained`] are nested on this thread.
+    /// Nesting depth of [`contained`] on this thread.
     static DEPTH: Cell<usize> = const { Cell::new(0) };
 }
 
-/// The value of `run`, or the message of its panic. Nothing is printed for a panic in here; elsewhere the hook of the program still runs.
+/// Returns the value of `run`, or the message of its panic, which is not printed. Panics outside `run` still call the program's hook.
 pub fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
@@ -26,7 +26,7 @@ pub fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     outcome
 }
 
-/// The value of `run`, or the message of its panic, which the hook of the program has printed.
+/// Returns the value of `run`, or the message of its panic, which the program's hook has printed.
 pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
         let message = match payload.downcast_ref::<&str>() {

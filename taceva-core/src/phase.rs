@@ -1,4 +1,4 @@
-//! On which branch of a press a sample was taken.
+//! Branch of a press on which a sample was taken.
 
 use std::fmt;
 

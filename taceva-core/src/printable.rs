@@ -1,12 +1,12 @@
-//! Text from outside as it is printed for people: names, ids and paths may hold characters that a terminal obeys.
+//! External text for display: names, ids and paths may hold characters that control a terminal.
 
 use std::ffi::OsStr;
 use std::fmt;
 
-/// A name from outside as it is printed: on one line, with every character written out that a terminal obeys or that a reader cannot see.
+/// An external name for display: one line, with control characters and invisible characters escaped.
 ///
-/// Every message of every crate writes ids, names of files and models, keys of maps and what else came from outside through this.
-/// Values that programs read (JSON, CSV, journals, headers) keep the text as it is.
+/// Messages of every crate print ids, names of files and models, map keys and other external text through this type. Values that programs
+/// read (JSON, CSV, journals, headers) keep the text unchanged.
 ///
 /// ```
 /// use taceva_core::shown;
@@ -16,7 +16,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'a>(&'a OsStr);
 
-/// `text`, be it a name or a path, as it is printed in a message.
+/// Escapes `text`, a name or a path, for a message.
 pub fn shown<T: AsRef<OsStr> + ?Sized>(text: &T) -> Shown<'_> {
     Shown(text.as_ref())
 }
@@ -35,7 +35,7 @@ impl fmt::Display for Shown<'_> {
     }
 }
 
-/// Text of several lines as it is printed: lines stay lines, and tabs tabs.
+/// Escapes text of several lines; line feeds and tabs stay.
 ///
 /// The last check before a terminal, for text that was put together elsewhere.
 pub fn shown_lines(text: &str) -> String {
@@ -57,8 +57,8 @@ fn push_shown(written: &mut String, letter: char) {
     }
 }
 
-/// Whether a character controls the display and is not read: control characters (C0 and C1), marks of the direction of writing, line
-/// separators, and characters without width, with which two different names look the same.
+/// True for characters that control the display or are invisible: control characters (C0 and C1), marks of writing direction and line
+/// separators. Also true for zero-width characters, with which two different names look the same.
 pub fn is_obeyed(letter: char) -> bool {
     letter.is_control()
         || matches!(letter,
@@ -66,13 +66,13 @@ pub fn is_obeyed(letter: char) -> bool {
             '\u{ad}' | '\u{61c}' | '\u{180e}'
             // Zero width, and marks of direction.
             | '\u{200b}'..='\u{200f}'
-            // Separators of lines and paragraphs, and what turns the direction of all that follows.
+            // Separators of lines and paragraphs, and overrides of direction.
             | '\u{2028}'..='\u{202e}'
             // Invisible operators, isolates of direction, and older shaping controls.
             | '\u{2060}'..='\u{206f}'
-            // The mark of byte order, annotations, and what is no character.
+            // The mark of byte order, annotations, and noncharacters.
             | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}'
-            // Tags, which spell words that nobody sees.
+            // Tags, which spell invisible words.
             | '\u{e0000}'..='\u{e007f}')
 }
 

@@ -1,6 +1,6 @@
-//! How a long operation reports its progress, and learns that it should stop.
+//! Progress reports and cancellation of long operations.
 
-/// Receives the progress of a long operation, which need not know whether it is shown on a terminal, logged or ignored.
+/// Receives the progress of a long operation, to show, log or ignore it.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicU64, Ordering};
@@ -29,15 +29,15 @@
 /// assert_eq!(progress.0.into_inner(), 12);
 /// ```
 pub trait Progress: Send + Sync {
-    /// A stage begins: what it does, and how many steps it has where that is known.
+    /// Begins a stage: its name, and its number of steps if that is known.
     fn begin(&self, stage: &str, steps: Option<u64>);
-    /// `steps` more of the current stage are done.
+    /// Reports `steps` more done in the current stage.
     fn advance(&self, steps: u64);
-    /// The current stage is over.
+    /// Ends the current stage.
     fn end(&self);
-    /// Whether the work should stop at the next safe place.
+    /// True if the work should stop at the next safe place.
     fn is_cancelled(&self) -> bool;
-    /// Whether the stop was asked for a second time: a moving robot is halted where it is, and is not retracted first.
+    /// True after a second request to stop: a moving robot halts where it is, without retracting first.
     fn is_insisted(&self) -> bool {
         false
     }

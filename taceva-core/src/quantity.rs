@@ -1,4 +1,4 @@
-//! Numbers that carry their unit in their type, for public signatures where a bare `f64` would be guessed at. None gets a further field.
+//! Numbers with their unit in their type, for public signatures in which a bare `f64` would be ambiguous. None gets a further field.
 
 use std::fmt;
 

@@ -1,8 +1,8 @@
 //! Random numbers that are the same on every machine: words of the generator SplitMix64, looked up by counter or taken one after another.
 //!
-//! A number that is looked up is a function of a key and a counter, never of what was drawn before: use [`Draws`] wherever work may be
-//! resumed, reordered or divided among threads. [`SplitMix64`] gives the same words in sequence. [`mix`] makes keys: a seed combined with a
-//! purpose, a press or a sample by exclusive or, and mixed once for each of them.
+//! A number that is looked up depends on a key and a counter, never on earlier draws. Use [`Draws`] wherever work may be resumed, reordered
+//! or divided among threads. [`SplitMix64`] gives the same words in sequence. [`mix`] makes keys: a seed combined with a purpose, a press
+//! or a sample by exclusive or, and mixed once for each of them.
 //!
 //! None of these numbers is fit for cryptography.
 //!
@@ -28,7 +28,7 @@ pub use draws::Draws;
 pub use fnv::{FNV_OFFSET, fnv_1a, fnv_1a_after};
 pub use sequence::SplitMix64;
 
-/// What one step adds to the state of SplitMix64: 2⁶⁴ over the golden ratio, odd.
+/// Increment of the state of SplitMix64 per step: 2⁶⁴ over the golden ratio, odd.
 ///
 /// ```
 /// use taceva_core::random::{STEP, finalise, mix};

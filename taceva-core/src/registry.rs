@@ -28,7 +28,7 @@ use crate::driver::Device;
 use crate::id::DriverKey;
 use crate::suggestion::nearest;
 
-/// The drivers of one kind, by key and always in the order of their keys. It is a value that callers pass on, never a global one.
+/// Drivers of one kind, sorted by key. Callers pass it on; it is never global.
 ///
 /// ```
 /// use taceva_core::{Registry, Sensor};
@@ -100,12 +100,12 @@ impl<D: Device + ?Sized> Registry<D> {
         self.factories.values().map(AsRef::as_ref)
     }
 
-    /// How many there are.
+    /// Number of drivers.
     pub fn len(&self) -> usize {
         self.factories.len()
     }
 
-    /// Whether there is none.
+    /// True if there are no drivers.
     pub fn is_empty(&self) -> bool {
         self.factories.is_empty()
     }

@@ -13,7 +13,7 @@ use crate::signals::Signals;
 use crate::stamp::Stamp;
 use crate::wrench::Wrench;
 
-/// One observation; what is absent is `None`, never a placeholder number.
+/// One observation. Absent values are `None`, never a placeholder number.
 ///
 /// ```
 /// use taceva_core::{Readings, Sample};
@@ -26,7 +26,7 @@ use crate::wrench::Wrench;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Sample {
-    /// Its name within the recording.
+    /// Name within the recording.
     pub id: String,
     /// The sensor model.
     pub sensor_id: Option<String>,
@@ -34,7 +34,7 @@ pub struct Sample {
     pub unit_id: Option<String>,
     /// The lighting scene or the like.
     pub scene_id: Option<String>,
-    /// The contact point: what repeats share, and the cluster of every interval.
+    /// Contact point, which repeats share; the cluster of every interval.
     pub point_id: Option<String>,
     /// The depth level within the point.
     pub depth_step: Option<u32>,
@@ -42,7 +42,7 @@ pub struct Sample {
     pub repeat: Option<u32>,
     /// Load or unload.
     pub phase: Option<Phase>,
-    /// The limit of the gel that kept the tip from its target; labels and picture are then of the place that was reached.
+    /// Limit of the gel that kept the tip from its target. Labels and picture then belong to the place that was reached.
     pub limited_by: Option<Limit>,
     /// When it was taken.
     pub stamp: Option<Stamp>,

@@ -7,7 +7,7 @@ use crate::wrench::Wrench;
 
 /// Millimetres in a metre.
 const PER_METRE: f64 = 1e3;
-/// How far the length of a unit quaternion may be from 1: what single precision keeps.
+/// Greatest deviation of a unit quaternion's length from 1: the accuracy of single precision.
 const LENGTH_TOLERANCE: f64 = 1e-6;
 
 /// A pose in metres and as a unit quaternion. A plain value, which gets no further fields.
@@ -44,9 +44,9 @@ impl From<Pose> for SiPose {
 }
 
 impl SiPose {
-    /// The pose on its grid ([`Pose::on_grid`]); `None` where a number is not finite or the quaternion is none of length 1.
+    /// Pose on its grid ([`Pose::on_grid`]); `None` if a number is not finite or the length of the quaternion is not 1.
     ///
-    /// A pose on the grid comes back as it was, if it is turned by more than −180° and at most 180° about x and z, and by less than 90°
+    /// A pose on the grid is returned unchanged if it is turned by more than −180° and at most 180° about x and z, and by less than 90°
     /// about y.
     ///
     /// ```
@@ -94,7 +94,7 @@ impl SiPose {
 }
 
 impl Wrench {
-    /// Its torque in N·m; its force is in N already.
+    /// Torque in N·m. The force is in N already.
     pub fn torque_nm(&self) -> [f64; 3] {
         self.torque.map(|torque| torque.0 / PER_METRE)
     }
@@ -110,7 +110,7 @@ impl Wrench {
 }
 
 impl Speed {
-    /// In m/s.
+    /// Speed in m/s.
     pub fn metres_per_second(self) -> f64 {
         self.mm_per_s() / PER_METRE
     }

@@ -8,9 +8,9 @@ use std::fmt;
 
 use crate::unit::Unit;
 
-/// The grid of places (taxels) of a tactile sensor that gives numbers, how many numbers each place gives, and their unit.
+/// Grid of places (taxels) of a tactile sensor without a camera, with the numbers per place and their unit.
 ///
-/// A sensor whose places form no grid has one row of them.
+/// A sensor without a grid has one row of places.
 ///
 /// ```
 /// use taceva_core::{SignalInfo, Unit};
@@ -60,7 +60,7 @@ impl SignalInfo {
         }
     }
 
-    /// Whether it has at least one number and at most [`LEN_MAX`](SignalInfo::LEN_MAX); one that was read from a file may not.
+    /// True if a sample has 1 to [`LEN_MAX`](SignalInfo::LEN_MAX) numbers. A value read from a file may be invalid.
     pub const fn is_valid(&self) -> bool {
         let (rows, columns) = (self.rows as u64, self.columns as u64);
         // Two 32-bit numbers have a 64-bit product.
@@ -78,7 +78,7 @@ impl SignalInfo {
         }
     }
 
-    /// Whether a sample has no number.
+    /// True if a sample has no numbers.
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -99,7 +99,7 @@ impl fmt::Display for SignalInfo {
 /// The numbers of all places at one instant, each finite.
 ///
 /// # Shapes
-/// `[rows, columns, channels]`, contiguous: all numbers of a place stand together, place after place along a row, row after row.
+/// `[rows, columns, channels]`, contiguous and row-major; all numbers of a place are adjacent.
 /// # Units
 /// That of its [`SignalInfo`].
 ///

@@ -1,10 +1,10 @@
-//! What was not done, and why: data with a reason, never a log line.
+//! Skipped work with typed reasons, as data and never as a log line.
 
 use std::fmt;
 
 use crate::field::Field;
 
-/// Something that was left out.
+/// A skipped item with its reason.
 ///
 /// ```
 /// use taceva_core::{SkipReason, Skipped};
@@ -14,14 +14,14 @@ use crate::field::Field;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Skipped {
-    /// What: `metric:repeatability`, `field:frame`, `stage:fit`.
+    /// Name of the skipped item: `metric:repeatability`, `field:frame`, `stage:fit`.
     pub what: String,
-    /// Why.
+    /// Reason for the skip.
     pub reason: SkipReason,
 }
 
 impl Skipped {
-    /// `what` was left out because of `reason`.
+    /// Skip of `what` for `reason`.
     pub fn new(what: impl Into<String>, reason: SkipReason) -> Skipped {
         Skipped {
             what: what.into(),
@@ -30,7 +30,7 @@ impl Skipped {
     }
 }
 
-/// Why something was left out.
+/// Reason for a skip.
 ///
 /// ```
 /// use taceva_core::{Field, SkipReason};
@@ -39,21 +39,21 @@ impl Skipped {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum SkipReason {
-    /// The stream does not carry a field that is needed.
+    /// The stream lacks a required field.
     FieldAbsent(Field),
-    /// The stream does not carry a channel that is needed.
+    /// The stream lacks a required channel.
     ChannelAbsent(String),
-    /// Nobody has declared a fact about the sensor that is needed.
+    /// A required fact about the sensor is not declared.
     FactAbsent(&'static str),
-    /// The gel lets no light through, so that nothing outside it can be seen.
+    /// The gel is opaque, so the camera sees nothing outside it.
     GelIsOpaque,
-    /// Nothing that was asked for reads it.
+    /// No requested result reads it.
     NothingReadsIt,
-    /// The samples cannot be divided into training and test parts; the text says why.
+    /// The samples cannot be divided into training and test parts, for the reason in the text.
     NoSplit(String),
-    /// The user asked for something else.
+    /// The user did not request it.
     NotWanted,
-    /// A finished result was given, so it need not be made.
+    /// The caller gave a finished result.
     AlreadyThere,
 }
 

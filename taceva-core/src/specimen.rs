@@ -1,12 +1,13 @@
-//! What touches the gel.
+//! Specimens: objects that touch the gel.
 
 use std::fmt;
 
 use crate::grating::GratingKind;
 use crate::nanometre::Nanometre;
 
-/// What the robot carries. What it displays is the name by which a [`Changer`](crate::Changer) holds it, and stays as it is. It gets no further variant in a compatible version: what touches the gel decides every label and the identity of a
-/// press, so every reader must say what it makes of each.
+/// Object that the robot carries. Its displayed text is the name under which a [`Changer`](crate::Changer) holds it, and stays stable. It
+/// gets no further variant in a compatible version: the specimen decides every label and the identity of a press, so readers must handle
+/// each kind.
 ///
 /// ```
 /// use taceva_core::{GratingKind, Nanometre, Specimen};
@@ -17,14 +18,14 @@ use crate::nanometre::Nanometre;
 pub enum Specimen {
     /// A sphere.
     Sphere {
-        /// Its radius.
+        /// Radius of the sphere.
         radius: Nanometre,
     },
     /// A board with a grating.
     Grating {
-        /// Its relief.
+        /// Relief of the grating.
         kind: GratingKind,
-        /// From one ridge or bump to the next.
+        /// Distance from one ridge or bump to the next.
         spacing: Nanometre,
     },
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
-/// Which clock a time was read from.
+/// Clock from which a time was read.
 ///
 /// ```
 /// use taceva_core::Clock;
@@ -18,7 +18,7 @@ pub enum Clock {
     Unix,
     /// Seconds since an arbitrary start; never jumps.
     Monotonic,
-    /// It is not recorded.
+    /// The recording does not name its clock.
     #[default]
     Unknown,
 }
@@ -42,7 +42,7 @@ impl fmt::Display for Clock {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stamp {
-    /// When the observation was true: the middle of the exposure, where that is known.
+    /// Time at which the observation was valid: the middle of the exposure, if that is known.
     pub valid_s: f64,
     /// When it was received; the difference is the latency.
     pub received_s: Option<f64>,
@@ -52,7 +52,7 @@ pub struct Stamp {
 const NANOSECONDS: f64 = 1e9;
 
 impl Stamp {
-    /// The stamp of times that a clock counts in nanoseconds, as all do that cross the plugin boundary.
+    /// Stamp from times in nanoseconds, as they cross the plugin boundary.
     ///
     /// ```
     /// use std::time::Duration;
@@ -73,7 +73,7 @@ impl Stamp {
         Stamp::new(now, Some(now))
     }
 
-    /// When the observation was true, to the nanosecond; a time before the clock's start is its start.
+    /// Time at which the observation was valid, to the nanosecond. Times before the clock's start become zero.
     pub fn valid(&self) -> Duration {
         nanoseconds(self.valid_s)
     }

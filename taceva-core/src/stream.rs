@@ -1,9 +1,9 @@
-//! How samples flow: pushed, one way, into sinks.
+//! Flow of samples: sources push them one way, into sinks.
 
 use crate::field::{Field, FieldSet};
 use crate::sample::Sample;
 
-/// What a sink reports when it cannot take a sample.
+/// Error of a sink that cannot take a sample.
 ///
 /// ```
 /// use taceva_core::SinkError;
@@ -37,13 +37,13 @@ pub type SinkError = Box<dyn std::error::Error + Send + Sync>;
 /// # Ok::<(), SinkError>(())
 /// ```
 pub trait SampleSink {
-    /// What it reads of a sample; a source need not fill the rest.
+    /// Fields that it reads of a sample; a source need not fill the rest.
     fn fields(&self) -> FieldSet;
 
     /// Takes one sample.
     ///
     /// # Errors
-    /// Whatever keeps the sink from taking it; the source stops and returns the error.
+    /// The sink's own error; the source stops and returns it.
     fn accept(&mut self, sample: &Sample) -> Result<(), SinkError>;
 }
 
@@ -95,7 +95,7 @@ impl<A: SampleSink, B: SampleSink> SampleSink for Tee<A, B> {
     }
 }
 
-/// A sink that hides fields from the one behind it, so that the source does not fill them.
+/// A sink that hides fields from an inner sink, so that the source does not fill them.
 ///
 /// ```
 /// # use taceva_core::{FieldSet, SampleSink, SinkError};
@@ -146,7 +146,7 @@ impl<S: SampleSink> SampleSink for Select<S> {
             depth_step: sample.depth_step.filter(|_| kept(Field::DepthStep)),
             repeat: sample.repeat.filter(|_| kept(Field::Repeat)),
             phase: sample.phase.filter(|_| kept(Field::Phase)),
-            // Like the id, it is no `Field`, and so is always kept.
+            // Like the id, it has no `Field` and is always kept.
             limited_by: sample.limited_by,
             stamp: sample.stamp.filter(|_| kept(Field::Stamp)),
             kind: sample.kind.filter(|_| kept(Field::Kind)),

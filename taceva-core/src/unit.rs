@@ -103,7 +103,7 @@ impl Unit {
         Unit::One,
     ];
 
-    /// How the unit is written in files and reports.
+    /// Symbol in files and reports.
     pub const fn symbol(self) -> &'static str {
         match self {
             Unit::Millimetre => "mm",

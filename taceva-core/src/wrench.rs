@@ -19,7 +19,8 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// The nearest wrench whose torque is a whole number of 10⁻⁶ N·mm, as on [`Pose::on_grid`](crate::Pose::on_grid); forces stay.
+    /// The nearest wrench with torques that are whole multiples of 10⁻⁶ N·mm, as on [`Pose::on_grid`](crate::Pose::on_grid); forces stay
+    /// unchanged.
     #[must_use]
     pub fn on_grid(self) -> Wrench {
         Wrench {

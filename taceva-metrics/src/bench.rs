@@ -1,8 +1,8 @@
-//! Kernels of summation that the exact one is compared with in time and accuracy, and cases on which they differ; behind the feature `bench`.
+//! Kernels of summation for comparison with the exact one in time and accuracy, and cases on which they differ; behind the feature `bench`.
 //!
-//! Every [`Kernel`] forms MAE, R² and sMAPE of two columns under one signature, so that a caller can time it, count how
-//! many [`digits`] it gets right, and see whether the result survives [`shuffled`] rows. Nothing here reads a clock. The
-//! least time that any of them could take is that of [`stream_sum`], which reads both columns and hardly computes anything.
+//! Every [`Kernel`] computes MAE, R² and sMAPE of two columns under one signature. A caller can time it, count its correct [`digits`], and
+//! check that the result survives [`shuffled`] rows. No code here reads a clock. The lower bound of all run times is that of
+//! [`stream_sum`], which reads both columns and hardly computes anything.
 //!
 //! ```
 //! use taceva_metrics::bench::{Kernel, digits, nasty_inputs, shuffled};

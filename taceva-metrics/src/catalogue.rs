@@ -1,4 +1,4 @@
-//! Every metric there is: the only source of names, units, directions, definitions and texts.
+//! Catalogue of every metric: the only source of names, units, directions, definitions and texts.
 
 mod bias;
 mod direction;
@@ -62,13 +62,13 @@ pub static ALL: [&Metric; 25] = [
     &DRIFT,
 ];
 
-/// Names that stand for several metrics.
+/// Names of groups of metrics.
 pub static GROUPS: [(&str, &[&Metric]); 2] = [
     ("accuracy", &[&mae::MAE, &r2::R2, &smape::SMAPE]),
     ("all", &ALL),
 ];
 
-/// Names of metrics that were replaced, each with the one that says what it measures.
+/// Replaced names of metrics, each with its new name.
 const RENAMED: [(&str, &str); 1] = [("minimum_detectable_force", "noise_equivalent_force")];
 
 /// The metric called `id`.
@@ -76,7 +76,7 @@ pub fn find(id: &str) -> Option<&'static Metric> {
     ALL.into_iter().find(|metric| metric.id == id)
 }
 
-/// The metrics called by `names`, of metrics or groups, each once and in the order of reports.
+/// Metrics called by `names` of metrics or groups, each once and in the order of reports.
 ///
 /// ```
 /// use taceva_metrics::catalogue;

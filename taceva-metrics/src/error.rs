@@ -1,11 +1,11 @@
-//! What can go wrong between metrics and their callers.
+//! Errors between metrics and their callers.
 
 use std::error::Error;
 use std::fmt;
 
 use taceva_core::shown;
 
-/// Why columns, batches or states do not fit.
+/// Mismatch of columns, batches, states or settings.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator, MetricError};
@@ -26,7 +26,7 @@ pub enum MetricError {
     },
     /// Columns of different length in one batch.
     Rows {
-        /// What has another length: a channel, or the contact points.
+        /// Column of another length: a channel, or the contact points.
         what: String,
         /// Rows of the first channel.
         expected: usize,
@@ -35,7 +35,7 @@ pub enum MetricError {
     },
     /// A matrix whose number of columns is not the number of channels.
     Columns {
-        /// Which matrix: truth or prediction.
+        /// Name of the matrix: truth or prediction.
         what: &'static str,
         /// Number of channels.
         expected: usize,
@@ -49,12 +49,12 @@ pub enum MetricError {
     },
     /// A batch or a state of other channels.
     Channels {
-        /// Those that are evaluated, with their units.
+        /// Evaluated channels, with their units.
         expected: String,
-        /// Those that came.
+        /// Channels of the batch or state.
         found: String,
     },
-    /// A state that nothing in the plan reads.
+    /// A state of a schema that the plan does not read.
     Schema {
         /// The schemas that are read.
         expected: String,
@@ -63,27 +63,27 @@ pub enum MetricError {
     },
     /// A state made with another parameter.
     Parameter {
-        /// Which one.
+        /// Name of the parameter.
         name: &'static str,
-        /// Its value here.
+        /// Value of the evaluator.
         expected: String,
-        /// Its value there.
+        /// Value of the state.
         found: String,
     },
-    /// A setting whose value no definition allows.
+    /// A setting outside the values that definitions allow.
     Setting {
-        /// Which one.
+        /// Name of the setting.
         name: &'static str,
-        /// What would be accepted.
+        /// Accepted values, in words.
         expected: String,
-        /// What was given.
+        /// Value that was given.
         found: String,
     },
     /// A state whose parts are not those of its schema.
     Malformed {
         /// The schema.
         schema: &'static str,
-        /// What is wrong with it.
+        /// Fault of the state.
         what: String,
     },
 }

@@ -1,4 +1,4 @@
-//! Sums and quotients without rounding: what makes every score a function of the set of samples alone.
+//! Sums and quotients without rounding, so that every score is a function of the set of samples alone.
 
 mod block_sums;
 mod bounds;

@@ -1,7 +1,8 @@
-//! Families of metrics, one folder or file each: what is kept of the samples, and the formulas that are finished from it.
+//! Families of metrics, one folder or file each: their sums of samples, and their formulas.
 //!
-//! [`Family`](crate::evaluate::family::Family) says what every family implements, [`channelwise`] what those that keep the same of each channel share, [`cells`] what those
-//! that compare presses of one contact point and depth keep, [`gathered`] how some rows of several columns come side by side.
+//! [`Family`](crate::evaluate::family::Family) is the trait of every family. [`channelwise`] is shared by families with the same sums for
+//! each channel, and [`cells`] by those that compare presses of one contact point and depth. [`row_columns`] gathers some rows of several
+//! columns.
 
 pub(crate) mod accuracy;
 pub(crate) mod bias_level;

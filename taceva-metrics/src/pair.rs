@@ -1,4 +1,4 @@
-//! What was predicted beside what is true, by role: swapped arguments would pass every check of shapes.
+//! Predictions beside truths, named by role: swapped arguments would pass every check of shapes.
 
 use taceva_core::Batch;
 
@@ -47,7 +47,7 @@ impl Paired<f64> {
         self.residual().abs() / scale
     }
 
-    /// Whether both are numbers of a magnitude up to [`GREATEST`]; other pairs are counted and left out.
+    /// True if both magnitudes are at most [`GREATEST`]; other pairs are counted and skipped.
     #[inline]
     pub fn is_valid(self) -> bool {
         is_valid(self.estimate) && is_valid(self.reference)
@@ -105,7 +105,7 @@ impl<'a> Paired<&'a [f64]> {
     }
 }
 
-/// Whether a value is a number of a magnitude up to [`GREATEST`].
+/// True if the magnitude of `value` is at most [`GREATEST`].
 #[inline]
 pub(crate) fn is_valid(value: f64) -> bool {
     value.abs() <= GREATEST

@@ -1,4 +1,4 @@
-//! One number of a report with all that is needed to trust and repeat it.
+//! One number of a report, with everything needed to trust and repeat it.
 
 mod bootstrap_ends;
 pub(crate) mod curve;
@@ -30,7 +30,7 @@ use crate::score::range::Range;
 use crate::score::standing::Standing;
 use crate::score::value::Value;
 
-/// What share of intervals should cover the truth.
+/// Nominal coverage of intervals: the share that should contain the truth.
 pub(crate) const COVERAGE: f64 = 0.95;
 
 /// A metric of a channel, or of the two channels of a plane.
@@ -51,26 +51,26 @@ pub struct Score {
     pub value: Value,
     /// The unit of value and interval.
     pub unit: Unit,
-    /// Samples it is made of; of two channels the smaller number.
+    /// Number of samples; of two channels the smaller one.
     pub n: u64,
-    /// Samples left out because a value was no usable number; of two channels the larger number.
+    /// Samples skipped for an unusable value; of two channels the larger number.
     pub n_invalid: u64,
-    /// Where the value would lie with other clusters (contact points), at 95 %.
+    /// 95 % interval of the value for other clusters (contact points).
     pub interval: Interval,
-    /// Which definition was computed: `mae/1`.
+    /// Computed definition: `mae/1`.
     pub definition: &'static str,
     /// The constants of the definition.
     pub parameters: Vec<Parameter>,
-    /// What was counted on the way: samples outside the footprint, bins that have a value.
+    /// Counts beside the value: samples outside the footprint, bins that have a value.
     pub counts: Vec<Count>,
-    /// What a reader must know before trusting it.
+    /// Warnings for the reader.
     pub flags: Vec<Flag>,
-    /// Whether it takes part in verdicts.
+    /// Standing of the score in verdicts.
     pub standing: Standing,
-    /// Which share of the predictions it was formed with lie beyond the bounds of the model, of its worst channel; `None` where no
-    /// prediction enters it or no bounds are known.
+    /// Share of its predictions beyond the bounds of the model, for the worst channel. `None` if it uses no predictions or no bounds are
+    /// known.
     pub bounded_share: Option<f64>,
-    /// The channels it is made of, if it is not one channel's own.
+    /// Channels of the score, unless it belongs to a single channel.
     pub of: Vec<String>,
     /// Further values of the same metric: other readings of its definition, maps and curves.
     pub variants: Vec<Variant>,
@@ -82,7 +82,7 @@ impl Score {
         self.variants.iter().find(|variant| variant.name == name)
     }
 
-    /// The number called `name` that was counted on the way.
+    /// The count called `name`.
     pub fn count(&self, name: &str) -> Option<u64> {
         let found = self.counts.iter().find(|count| count.name == name);
         found.map(|count| count.value)
@@ -103,15 +103,15 @@ impl Score {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Variant {
-    /// What it is called, as a field of its metric: `slope`, `within`, `map`.
+    /// Name, as a field of its metric: `slope`, `within`, `map`.
     pub name: Cow<'static, str>,
     /// The value, in `unit`.
     pub value: Value,
     /// The unit of value and interval.
     pub unit: Unit,
-    /// Which values it can have.
+    /// Range of possible values.
     pub range: Range,
-    /// Where the value would lie with other clusters (contact points), at 95 %; `None` where the question makes no sense, as for maps.
+    /// 95 % interval of the value for other clusters (contact points); `None` if undefined for its kind, as for maps.
     pub interval: Option<Interval>,
 }
 
@@ -136,9 +136,9 @@ impl Variant {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Count {
-    /// What was counted: `outside`, `bins_used`.
+    /// Name of the count: `outside`, `bins_used`.
     pub name: &'static str,
-    /// How many there are.
+    /// Number counted.
     pub value: u64,
 }
 
@@ -150,8 +150,8 @@ pub struct Count {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// What it is called: `eps`, `gate`.
+    /// Name of the constant: `eps`, `gate`.
     pub name: &'static str,
-    /// How large it is, in the unit of the channel.
+    /// Value, in the unit of the channel.
     pub value: f64,
 }

@@ -1,4 +1,4 @@
-//! Pure statistics: how far a score would move with other contact points, and whether two scores differ.
+//! Statistics: intervals of scores between choices of contact points, and tests for differences of two scores.
 
 mod bootstrap;
 mod by_intervals;

@@ -4,7 +4,7 @@ use crate::text::Text;
 
 /// `taceva_arg`: one argument.
 ///
-/// The value is there as text and, where it is a number, as one: a driver reads whichever it needs.
+/// The value is given as text and, for a number, as a number too: a driver reads whichever it needs.
 ///
 /// ```
 /// use taceva_abi::{Arg, Text};
@@ -14,9 +14,9 @@ use crate::text::Text;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Arg {
-    /// Its name.
+    /// Name of the argument.
     pub key: Text,
-    /// Its value as text, whatever its type.
+    /// Value as text, for every type.
     pub text: Text,
     /// The value of a whole number; 0 or 1 for a flag.
     pub whole: i64,
@@ -52,8 +52,8 @@ impl Arg {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Args {
-    /// The first argument; may be NULL only where `count` is 0.
+    /// The first argument; NULL only if `count` is 0.
     pub items: *const Arg,
-    /// How many arguments there are.
+    /// Number of arguments.
     pub count: usize,
 }

@@ -22,7 +22,7 @@ use crate::text::{TakeText, Text};
 pub struct ChangerCalls {
     /// The calls that every device has; the table begins with them.
     pub device: DeviceCalls,
-    /// `[owner & open]` Brings what is called `name` into place; `take` is handed the name of what is there, once nothing moves.
+    /// `[owner & open]` Brings the item `name` into place; `take` receives the name of the item in place, once nothing moves.
     pub bring: Option<
         unsafe extern "C" fn(
             *mut c_void,

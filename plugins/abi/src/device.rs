@@ -1,4 +1,4 @@
-//! What every kind of device shares.
+//! Types that every kind of device shares.
 
 use core::ffi::c_void;
 use core::marker::{PhantomData, PhantomPinned};
@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::{TakeText, Text};
 
-/// `taceva_stamp`: when something was true, and when it was received.
+/// `taceva_stamp`: the time of an observation, and of its reception.
 ///
 /// Frozen: it is part of other structs.
 ///
@@ -20,15 +20,15 @@ use crate::text::{TakeText, Text};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Stamp {
-    /// When the observation was true, in ns of the clock of the device.
+    /// Time at which the observation was valid, in ns of the clock of the device.
     pub valid_ns: u64,
-    /// When the host's side received it, in ns; 0 where that is not known.
+    /// Time at which the host's side received it, in ns; 0 if unknown.
     pub received_ns: u64,
 }
 
 /// `taceva_rig`: the devices that are opened together, opaque.
 ///
-/// Only the plugin knows what it points to; a host keeps the pointer that `open_rig` wrote and hands it back.
+/// Only the plugin knows its contents; a host keeps the pointer that `open_rig` wrote and passes it back.
 ///
 /// ```
 /// use taceva_abi::Rig;
@@ -77,7 +77,7 @@ pub struct DeviceCalls {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Device {
-    /// The plugin's own handle of the device, handed back with every call.
+    /// The plugin's own handle of the device, passed with every call.
     pub handle: *mut c_void,
     /// The table of its kind; lives as long as the library.
     pub calls: *const DeviceCalls,
@@ -97,9 +97,9 @@ pub struct Device {
 pub struct Factory {
     /// The size of this struct, in bytes.
     pub size: u32,
-    /// How many drivers of this kind the plugin has.
+    /// Number of drivers of this kind in the plugin.
     pub drivers: u32,
-    /// `[any]` Writes the `[[provides]]` table of the manifest as it holds for the arguments; NULL stands for any arguments. No device is touched.
+    /// `[any]` Writes the `[[provides]]` table of the manifest for the arguments; NULL is for any arguments. No device is touched.
     pub describe:
         Option<unsafe extern "C" fn(u32, *const Args, TakeText, *mut c_void, *mut Error) -> Status>,
     /// `[any]` Names each device that is present by the arguments that choose it.

@@ -27,16 +27,17 @@ pub struct Error {
     pub size: u32,
     /// Out: the device's own number, 0 for none.
     pub vendor_code: i32,
-    /// Out: UTF-8, ends with a NUL, cut where it does not fit.
+    /// Out: UTF-8 with a final NUL, cut if it does not fit.
     pub message: [c_char; MESSAGE_SIZE],
-    /// Out, since minor 1: the [`FaultNumber`] for which the device stopped by itself; a plugin writes it only where `size` covers it.
+    /// Out, since minor 1: the [`FaultNumber`] for which the device stopped by itself. A plugin writes it only if `size` covers it.
     pub fault: FaultNumber,
 }
 
-/// `taceva_fault`: why a device stopped by itself. Nothing moves after it until a person has looked.
+/// `taceva_fault`: the fault for which a device stopped by itself. Nothing moves after it until a person has looked.
 ///
-/// A number rather than an enum: a plugin may write any. Of those that begin as these do one that is not listed counts as
-/// [`SERVO`](FaultNumber::SERVO), never as none. No text begins so: a message of an old plugin that ran on into this field is no fault.
+/// A number rather than an enum: a plugin may write any. An unlisted number with the same upper 16 bits counts as
+/// [`SERVO`](FaultNumber::SERVO), never as none. No text begins with these bits, so a message of an old plugin that overran into this field
+/// is no fault.
 ///
 /// ```
 /// use taceva_abi::{Error, FaultNumber};
@@ -49,23 +50,23 @@ pub struct FaultNumber(pub u32);
 impl FaultNumber {
     /// The device did not stop by itself.
     pub const NONE: FaultNumber = FaultNumber(0);
-    /// Somebody pressed an emergency stop, or a guard opened.
+    /// An emergency stop was pressed, or a safety guard opened.
     pub const EMERGENCY_STOP: FaultNumber = FaultNumber(0xfa17_0001);
-    /// It struck something.
+    /// The device struck something.
     pub const COLLISION: FaultNumber = FaultNumber(0xfa17_0002);
-    /// It came to the border of where it may move.
+    /// The device reached the limit of its workspace.
     pub const BOUNDARY: FaultNumber = FaultNumber(0xfa17_0003);
     /// A servo, a brake or its controller failed.
     pub const SERVO: FaultNumber = FaultNumber(0xfa17_0004);
 
-    /// Whether it says that there was a fault, listed or not.
+    /// True for a fault, listed or not.
     pub const fn is_fault(self) -> bool {
         self.0 >> 16 == FaultNumber::SERVO.0 >> 16
     }
 }
 
 impl Error {
-    /// One without a message.
+    /// An error without a message.
     pub const fn new() -> Error {
         #[expect(clippy::cast_possible_truncation, reason = "516")]
         let size = size_of::<Error>() as u32;
@@ -77,7 +78,7 @@ impl Error {
         }
     }
 
-    /// Writes a message, cut between two characters where it does not fit.
+    /// Writes a message, cut between two characters if it does not fit.
     pub fn write(&mut self, message: &str) {
         let mut end = message.len().min(MESSAGE_SIZE - 1);
         while !message.is_char_boundary(end) {
@@ -89,7 +90,7 @@ impl Error {
         self.message[end] = 0;
     }
 
-    /// The bytes of the message, up to its NUL; all of them where there is none.
+    /// The bytes of the message, up to its NUL; all bytes without one.
     pub fn bytes(&self) -> impl Iterator<Item = u8> + '_ {
         self.message
             .iter()

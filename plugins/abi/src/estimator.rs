@@ -36,7 +36,7 @@ pub struct TrainingSet {
     pub size: u32,
     /// Columns of the targets.
     pub channels: u32,
-    /// How many samples.
+    /// Number of samples.
     pub samples: u64,
     /// Rows of one sample's features; 1 for a flat list.
     pub height: u32,
@@ -50,13 +50,13 @@ pub struct TrainingSet {
     pub features: *const f32,
     /// `[samples, channels]`
     pub targets: *const f64,
-    /// `[samples]`: the contact point of each; NULL where that is not known.
+    /// `[samples]`: the contact point of each; NULL if unknown.
     pub groups: *const u32,
     /// `[channels]`
     pub channel_names: *const Text,
 }
 
-/// `taceva_progress`: called with how far a fit is, from 0 to 1; a return that is not 0 asks it to end.
+/// `taceva_progress`: callback with the progress of a fit, from 0 to 1. A nonzero return cancels the fit.
 ///
 /// ```
 /// use std::ffi::c_void;
@@ -88,7 +88,7 @@ pub struct RegressorCalls {
     pub reserved: u32,
     /// `[owner & open]`
     pub close: Option<unsafe extern "C" fn(*mut c_void)>,
-    /// `[any & open]` Writes `[samples, channels]`; a model of another shape than the lengths say touches neither array.
+    /// `[any & open]` Writes `[samples, channels]`. Touches neither array if the lengths do not match the model's shape.
     pub predict: Option<
         unsafe extern "C" fn(
             *const c_void,
@@ -100,7 +100,7 @@ pub struct RegressorCalls {
             *mut Error,
         ) -> Status,
     >,
-    /// `[any & open]` The model as bytes; `OUT_OF_RANGE` with the length needed where they do not fit.
+    /// `[any & open]` The model as bytes; `OUT_OF_RANGE` with the required length if they do not fit.
     pub save: Option<
         unsafe extern "C" fn(*const c_void, into: *mut u8, length: *mut u64, *mut Error) -> Status,
     >,
@@ -118,7 +118,7 @@ pub struct RegressorCalls {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Regressor {
-    /// The plugin's own handle of the model, handed back with every call.
+    /// The plugin's own handle of the model, passed with every call.
     pub handle: *mut c_void,
     /// Lives as long as the library.
     pub calls: *const RegressorCalls,
@@ -138,7 +138,7 @@ pub struct Regressor {
 pub struct EstimatorFactory {
     /// The size of this struct, in bytes.
     pub size: u32,
-    /// How many estimators the plugin has.
+    /// Number of estimators in the plugin.
     pub estimators: u32,
     /// `[any]` Writes the `[[provides]]` table of the manifest.
     pub describe: Option<unsafe extern "C" fn(u32, TakeText, *mut c_void, *mut Error) -> Status>,
@@ -155,7 +155,7 @@ pub struct EstimatorFactory {
             *mut Error,
         ) -> Status,
     >,
-    /// `[any]` From the bytes of `save`; hostile bytes are refused.
+    /// `[any]` Loads the bytes of `save`; hostile bytes are rejected.
     pub load: Option<
         unsafe extern "C" fn(
             u32,

@@ -1,4 +1,4 @@
-//! Abilities that a device may have: asked for by id, absent by default.
+//! Optional abilities of a device, requested by id.
 
 mod bench;
 mod expiring_motion;

@@ -6,7 +6,7 @@ use crate::device::{DeviceCalls, Stamp};
 use crate::error::Error;
 use crate::status::Status;
 
-/// `taceva_wrench`: what presses on the gel.
+/// `taceva_wrench`: force and torque on the gel.
 ///
 /// Frozen: the caller has room for exactly this.
 ///

@@ -1,4 +1,4 @@
-//! What the host offers to a plugin.
+//! Services of the host for a plugin: log and clock.
 
 use core::ffi::c_void;
 
@@ -31,7 +31,7 @@ pub struct Host {
     pub size: u32,
     /// The minor version that the host knows.
     pub abi_minor: u32,
-    /// Handed back with every call.
+    /// Passed with every call.
     pub context: *mut c_void,
     /// `[any]` Takes a line of the log.
     pub log: Option<unsafe extern "C" fn(*mut c_void, level: i32, target: Text, message: Text)>,
@@ -39,9 +39,9 @@ pub struct Host {
     pub now_ns: Option<unsafe extern "C" fn(*mut c_void) -> u64>,
 }
 
-/// How much a line of the log matters.
+/// Severity of a line of the log.
 ///
-/// It crosses as a number; one that is not listed counts as [`Level::Debug`].
+/// Crosses the boundary as a number; an unlisted number counts as [`Level::Debug`].
 ///
 /// ```
 /// use taceva_abi::Level;
@@ -58,6 +58,6 @@ pub enum Level {
     Warn = 2,
     /// Something happened.
     Info = 3,
-    /// For whoever looks for a fault.
+    /// Detail for debugging.
     Debug = 4,
 }

@@ -22,7 +22,7 @@ use crate::text::Text;
 pub struct LightingCalls {
     /// The calls that every device has; the table begins with them.
     pub device: DeviceCalls,
-    /// `[owner & open]` Returns once the scene holds.
+    /// `[owner & open]` Sets a scene; returns once it is steady.
     pub set: Option<
         unsafe extern "C" fn(*mut c_void, scene: Text, timeout_ns: u64, *mut Error) -> Status,
     >,

@@ -8,11 +8,11 @@ use crate::host::Host;
 use crate::status::Status;
 use crate::text::Text;
 
-/// "TAE1", little-endian: a wrong file is noticed before any call.
+/// "TAE1", little-endian; identifies a wrong file before any call.
 pub const MAGIC: u32 = 0x3145_4154;
-/// The major version of the interface: equal on both sides, or the library is refused.
+/// Major version of the interface: equal on both sides, or the host rejects the library.
 pub const ABI_MAJOR: u32 = 1;
-/// The minor version of the interface: may differ either way.
+/// Minor version of the interface; the two sides may differ.
 pub const ABI_MINOR: u32 = 2;
 /// The name of the one exported symbol.
 pub const ENTRY_SYMBOL: &CStr = c"taceva_plugin_v1";
@@ -75,12 +75,12 @@ pub struct Plugin {
     pub deinit: Option<unsafe extern "C" fn()>,
     /// `[any]` The factory of a kind, or NULL.
     pub factory: Option<unsafe extern "C" fn(id: Text) -> *const c_void>,
-    /// `[any]` What the devices of a rig share.
+    /// `[any]` Opens a rig: the shared objects of its devices.
     pub open_rig: Option<unsafe extern "C" fn(*mut *mut Rig, *mut Error) -> Status>,
     /// `[owner]` After the last device of the rig.
     pub close_rig: Option<unsafe extern "C" fn(*mut Rig)>,
     /// `[owner]` A table of calls on the rig, or NULL.
     pub rig_extension: Option<unsafe extern "C" fn(*mut Rig, id: Text) -> *const c_void>,
-    /// Since minor 1: what it must reach outside itself, a need of the manifest a line; nothing where it does not say.
+    /// Since minor 1: needs outside the plugin, one need of the manifest per line; empty if not stated.
     pub needs: Text,
 }

@@ -6,9 +6,9 @@ use crate::device::{DeviceCalls, Stamp};
 use crate::error::Error;
 use crate::status::Status;
 
-/// How one pixel is stored.
+/// Storage format of one pixel.
 ///
-/// A number rather than an enum, so that a later interface can add one and an older host refuses it.
+/// A number rather than an enum, so that a later interface can add a format, which an older host rejects.
 ///
 /// ```
 /// use taceva_abi::PixelFormat;
@@ -62,7 +62,7 @@ pub const FRAME_DROPPED: u32 = 1;
 pub struct Frame {
     /// The size of this struct, in bytes.
     pub size: u32,
-    /// How one pixel is stored.
+    /// Storage format of one pixel.
     pub format: PixelFormat,
     /// Pixels a row.
     pub width: u32,
@@ -74,7 +74,7 @@ pub struct Frame {
     pub reserved: u32,
     /// The device's count of frames; a gap is a loss.
     pub sequence: u64,
-    /// Valid: mid of the exposure, where it is known.
+    /// Stamp, valid at the middle of the exposure if known.
     pub stamp: Stamp,
     /// In: the caller's buffer, or NULL.
     pub buffer: *mut u8,
@@ -105,7 +105,7 @@ pub struct Frame {
 pub struct SensorCalls {
     /// The calls that every device has; the table begins with them.
     pub device: DeviceCalls,
-    /// How many frames may be lent at once; 0 of a sensor that never lends.
+    /// Most frames that may be lent at once; 0 for a sensor that never lends.
     pub max_lent: u32,
     /// Reserved, 0.
     pub reserved: u32,

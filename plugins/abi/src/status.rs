@@ -1,8 +1,8 @@
-//! How a call ended.
+//! Status of a call.
 
-/// `taceva_status`: 0, or one of the closed list of failures, negative.
+/// `taceva_status`: 0, or a negative number from the closed list of failures.
 ///
-/// A number rather than an enum: a plugin may return any, and one that is not listed is an error of the interface.
+/// A number rather than an enum: a plugin may return any, and an unlisted one is an error of the interface.
 ///
 /// ```
 /// use taceva_abi::Status;
@@ -14,21 +14,21 @@
 pub struct Status(pub i32);
 
 impl Status {
-    /// It did what it was asked.
+    /// The call succeeded.
     pub const OK: Status = Status(0);
-    /// The device, file or key is not there.
+    /// The device, file or key does not exist.
     pub const NOT_FOUND: Status = Status(-1);
-    /// This user may not.
+    /// This user lacks the permission.
     pub const PERMISSION_DENIED: Status = Status(-2);
-    /// Somebody else holds it.
+    /// Another program holds the device.
     pub const BUSY: Status = Status(-3);
-    /// Not within the time given; the device stays usable.
+    /// The timeout expired; the device stays usable.
     pub const TIMEOUT: Status = Status(-4);
-    /// It was there, and is not any more.
+    /// The device has gone.
     pub const DISCONNECTED: Status = Status(-5);
-    /// It cannot do this at all.
+    /// The operation is not supported.
     pub const UNSUPPORTED: Status = Status(-6);
-    /// The caller's fault.
+    /// An argument of the caller is wrong.
     pub const INVALID_ARGUMENT: Status = Status(-7);
     /// Malformed data from the device.
     pub const PROTOCOL: Status = Status(-8);
@@ -38,16 +38,16 @@ impl Status {
     pub const INTERRUPTED: Status = Status(-10);
     /// The device reports a fault, or a number that is not finite.
     pub const DEVICE_FAULT: Status = Status(-11);
-    /// The two sides do not understand each other.
+    /// The interfaces of the two sides do not match.
     pub const ABI: Status = Status(-12);
-    /// Nothing will come any more.
+    /// No more data will come.
     pub const END_OF_STREAM: Status = Status(-13);
     /// A bug of the plugin, caught; the handle is dead.
     pub const PANICKED: Status = Status(-14);
-    /// A bug that was noticed.
+    /// A detected bug.
     pub const INTERNAL: Status = Status(-15);
 
-    /// Whether the call did what it was asked.
+    /// True if the call succeeded.
     pub const fn is_ok(self) -> bool {
         self.0 == 0
     }

@@ -21,20 +21,20 @@ use core::str::Utf8Error;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Text {
-    /// The first byte; may be NULL only where `length` is 0.
+    /// The first byte; NULL only if `length` is 0.
     pub data: *const c_char,
     /// The length of the text, in bytes.
     pub length: usize,
 }
 
-// SAFETY: a `Text` in a constant points to constant text; any other is read only where whoever made it promises the bytes.
+// SAFETY: a `Text` in a constant points to constant text; any other is read only if its maker guarantees the bytes.
 unsafe impl Sync for Text {}
 
 impl Text {
     /// No text.
     pub const EMPTY: Text = Text::from("");
 
-    /// The text, for as long as it lives.
+    /// Borrows `text`; valid for its lifetime.
     pub const fn from(text: &str) -> Text {
         Text {
             data: text.as_ptr().cast(),
@@ -47,7 +47,7 @@ impl Text {
     /// # Errors
     /// [`Utf8Error`] if it is not UTF-8.
     /// # Safety
-    /// Unless it is NULL, `data` points to `length` bytes that nobody changes during `'a`.
+    /// Unless it is NULL, `data` points to `length` bytes that stay unchanged during `'a`.
     pub unsafe fn to_str<'a>(self) -> Result<&'a str, Utf8Error> {
         if self.data.is_null() {
             return Ok("");
@@ -58,7 +58,7 @@ impl Text {
     }
 }
 
-/// `taceva_take_text`: takes what a function lists or writes.
+/// `taceva_take_text`: callback that receives the texts that a function lists or writes.
 ///
 /// ```
 /// use std::ffi::c_void;

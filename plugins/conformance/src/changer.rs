@@ -8,7 +8,7 @@ use crate::promise::{Unmet, answered, broken, expect, refused, skipped};
 use crate::report::Report;
 use crate::trial::{Alarm, Promise, Trial, Tried, report, was_within};
 
-/// Tries a changer, which moves: it brings what it holds.
+/// Tries a changer, which moves each of its items into place.
 pub fn changer(factory: &dyn Factory<dyn Changer>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }
@@ -36,7 +36,7 @@ fn declared<'a>(tried: &'a Subject<'_>) -> Result<&'a [String], Unmet> {
     }
 }
 
-/// The changer and what it holds; skipped if its arguments have it hold nothing.
+/// The changer and its items; skipped without any item.
 fn holding(tried: &Subject<'_>) -> Result<(Box<dyn Changer>, Vec<String>), Unmet> {
     let changer = tried.open()?;
     match changer.holds().to_vec() {
@@ -45,7 +45,7 @@ fn holding(tried: &Subject<'_>) -> Result<(Box<dyn Changer>, Vec<String>), Unmet
     }
 }
 
-/// Round twice, so that each thing comes after another and after itself.
+/// Two rounds, so that each item comes after another and after itself.
 fn brings_each(tried: &Subject<'_>) -> Result<(), Unmet> {
     tried.may_move()?;
     let (mut changer, holds) = holding(tried)?;
@@ -76,7 +76,7 @@ fn passed_deadline(tried: &Subject<'_>) -> Result<(), Unmet> {
         let brought = tried.at_once(doing, || changer.bring(name, Deadline::PASSED))?;
         answered(doing, brought, ErrorKind::Timeout)?;
     }
-    // It is usable after it.
+    // The changer is usable afterwards.
     changer.bring(&holds[0], tried.trial.deadline)?;
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Promises of force transducers, which nothing should press meanwhile.
+//! Promises of force transducers, which must be unloaded meanwhile.
 
 use taceva_core::{Axis, Factory, ForceFacts, ForceTransducer, Wrench, check_wrench};
 
@@ -81,7 +81,7 @@ fn tares(tried: &Subject<'_>) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// Each reading has a number of its own if the driver declares numbers, and none if it does not.
+/// Each reading has its own number if the driver declares numbers, and none otherwise.
 fn numbers(tried: &Subject<'_>) -> Result<(), Unmet> {
     let declared = facts(tried)?.numbered;
     let mut transducer = started(tried)?;

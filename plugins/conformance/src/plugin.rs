@@ -1,7 +1,7 @@
 //! Promises of a plugin, each checked in a confined process of its own with a time limit.
 //!
 //! A check runs beside the plugin, in the child, and calls the functions of its tables as a host would, and as no host should. Whatever it
-//! does to its process, the others go on. A plugin that its user trusts is checked as it runs: in a process that nothing is kept from.
+//! does to its process, the other checks continue. A trusted plugin is checked as it runs: in an unconfined process.
 
 mod changer_table;
 mod driver;
@@ -42,7 +42,7 @@ use crate::{changer, force, lighting, robot, sensor};
 /// One promise of a plugin.
 #[derive(Clone, Copy)]
 pub struct Check {
-    /// Its name: the group, and what holds.
+    /// Name: the group, and the promise.
     pub name: &'static str,
     pub(crate) of: Of,
     pub(crate) test: Test,
@@ -128,7 +128,8 @@ pub fn checks() -> Vec<Check> {
     .concat()
 }
 
-/// The promises of a kind, and those of its table, which take the place of others of the same name: there the host would answer for the plugin.
+/// Promises of a kind, and those of its table. The latter replace promises of the same name, for which the host would answer instead of the
+/// plugin.
 fn of_kind<D: ?Sized>(
     kind: DriverKind,
     promises: &'static [Promise<D>],
@@ -145,30 +146,30 @@ fn of_kind<D: ?Sized>(
     of_devices.chain(table.iter().copied()).collect()
 }
 
-/// Serves as the child of a host and ends, if this process was started as one; such a child makes checks too.
+/// Serves as the child of a host and exits, if this process was started as one; such a child runs checks too.
 ///
-/// A program that checks plugins calls this in the place of [`taceva_host::main_if_child`].
+/// A program that checks plugins calls this instead of [`taceva_host::main_if_child`].
 pub fn main_if_child() {
     taceva_host::main_if_child_examining(run);
 }
 
-/// The same as [`taceva_host::serve_as_child`], and makes checks of the module.
+/// The same as [`taceva_host::serve_as_child`], with checks of the module.
 pub fn serve_as_child(import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>) -> i32 {
     taceva_host::serve_as_child(import, Some(run))
 }
 
-/// How a plugin is checked.
+/// Request to check a plugin.
 #[derive(Clone, Debug)]
 pub struct CheckRequest {
-    /// The seed of everything that is drawn at random.
+    /// Seed of all random draws.
     pub seed: u64,
-    /// The checks whose names begin with one of these; all, where there is none.
+    /// Prefixes of the names of the checks to run; empty for all.
     pub only: Vec<String>,
-    /// The arguments of drivers by their keys; a driver that is not named is opened with its defaults.
+    /// Arguments of drivers by their keys; other drivers are opened with their defaults.
     pub arguments: BTreeMap<DriverKey, String>,
-    /// Whether robots and changers that are not simulated may be moved.
+    /// True if real robots and changers may be moved.
     pub moves: bool,
-    /// How long one check may take.
+    /// Time limit of one check.
     pub limit: Duration,
 }
 
@@ -187,38 +188,38 @@ impl Default for CheckRequest {
 /// In the message of a device that did not open.
 const NOT_OPENED: &str = ": cannot open the device: ";
 
-/// A check that was made.
+/// Result of a check.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CheckResult {
-    /// Its name.
+    /// Name of the check.
     pub check: &'static str,
-    /// The driver or estimator that was looked at; the plugin as a whole without.
+    /// Checked driver or estimator; `None` for the plugin as a whole.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub subject: Option<String>,
-    /// How it ended.
+    /// Outcome of the check.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// How long it took, in seconds.
+    /// Duration, seconds.
     pub took_s: f64,
 }
 
-/// Makes the checks of `request` on `plugin`, and calls `tell` with the result of each.
+/// Runs the checks of `request` on `plugin`, and calls `tell` with each result.
 ///
 /// # Errors
-/// [`DriverError`] if its library cannot even be read.
+/// [`DriverError`] if its library cannot be read.
 pub fn check(
     host: &PluginHost,
     plugin: &Plugin,
     request: &CheckRequest,
     tell: &mut dyn FnMut(CheckResult),
 ) -> Result<(), DriverError> {
-    // One that cannot be run at all breaks no promise: its user hears why, once.
+    // A plugin that cannot run at all breaks no promise: its user gets the reason once.
     let examination = host.examination(plugin)?;
     let is_wanted = |check: &Check| {
         let mut only = request.only.iter();
         request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
     };
-    // Of each driver, why a check failed or could not be made, and which one was the first: a cause is told once.
+    // First check by driver and cause of a failure or skip, so that each cause is reported once.
     let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
     for check in checks().into_iter().filter(is_wanted) {
         for key in subjects(&check, plugin) {
@@ -261,7 +262,7 @@ pub fn check(
     Ok(())
 }
 
-/// One check, in a child.
+/// Runs one check in a child.
 fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Outcome {
     let call = Arc::new(Mutex::new(String::new()));
     let order = ExaminationOrder {
@@ -291,10 +292,10 @@ fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Outcom
     };
     let call = call.lock().unwrap_or_else(PoisonError::into_inner);
     let outcome = ended(hung_in(*error, &call));
-    // A plugin may take what it may not reach for what is not there, which would be no failure.
+    // A plugin may take a withheld resource for a missing one, which would be no failure.
     match &outcome {
-        // What its arguments name is not allowed, so the name of a machine was not looked up for it either: one cause, whatever it is
-        // that the plugin noticed.
+        // Its arguments name something that is not allowed, so host names were not resolved for it either: one cause, whatever the plugin
+        // noticed.
         Outcome::Failed(why) | Outcome::Skipped(why)
             if lacks_bound && (why.starts_with(NO_DEVICE) || why.contains(NOT_OPENED)) =>
         {
@@ -308,7 +309,7 @@ fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Outcom
     }
 }
 
-/// A log that notes in `call` which call a check says that it is in.
+/// Log that stores in `call` the call that a check is in.
 fn noting(call: &Arc<Mutex<String>>) -> Log {
     let call = Arc::clone(call);
     Box::new(move |_, target, message| {
@@ -318,7 +319,7 @@ fn noting(call: &Arc<Mutex<String>>) -> Log {
     })
 }
 
-/// The error of a check that was ended, in whose place the call stands that did not return, where it is known.
+/// Error of a check that was killed, with the call that did not return, if known.
 fn hung_in(error: ChildError, call: &str) -> ChildError {
     match error {
         ChildError::Gone {
@@ -357,7 +358,7 @@ fn ended(error: ChildError) -> Outcome {
     }
 }
 
-/// The keys that a check is made on; one nothing for the plugin as a whole.
+/// Keys of the drivers or estimators of a check; a single `None` for the plugin as a whole.
 fn subjects<'a>(check: &Check, plugin: &'a Plugin) -> Vec<Option<&'a DriverKey>> {
     if check.of == Of::Plugin {
         return vec![None];

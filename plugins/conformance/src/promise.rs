@@ -1,4 +1,4 @@
-//! Broken promises, and the helpers that say how a promise was broken.
+//! Broken promises, and helpers that describe the breach.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use taceva_core::{DriverError, ErrorKind, ModelError, Stamp};
 pub(crate) enum Unmet {
     /// The driver broke it.
     Broken(String),
-    /// It could not be tried, or says nothing about this driver.
+    /// The promise could not be tried, or does not apply to this driver.
     Skipped(String),
 }
 
@@ -42,7 +42,7 @@ pub(crate) fn expect(holds: bool, why: impl FnOnce() -> String) -> Result<(), Un
 
 /// An error with a kind.
 pub(crate) trait Kinded: fmt::Display {
-    /// Its kind.
+    /// Kind of the error.
     fn of_kind(&self) -> ErrorKind;
 }
 
@@ -86,7 +86,7 @@ pub(crate) fn answered<T>(
     }
 }
 
-/// Breaks the promise unless times are finite, increase, and nothing arrived before it was true.
+/// Breaks the promise unless times are finite and increase, and each is received no earlier than it is valid.
 pub(crate) fn in_order(stamps: &[Stamp]) -> Result<(), Unmet> {
     for Stamp {
         valid_s,

@@ -17,9 +17,9 @@ pub struct Report {
 /// One promise that was tested.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tested {
-    /// Its name: the kind, and what holds.
+    /// Name: the kind, and the promise.
     pub name: &'static str,
-    /// Its outcome.
+    /// Outcome of the promise.
     pub outcome: Outcome,
 }
 
@@ -36,7 +36,7 @@ pub enum Outcome {
 }
 
 impl Report {
-    /// Whether no promise is broken and at least one holds.
+    /// True if no promise is broken and at least one holds.
     pub fn passed(&self) -> bool {
         let some = |wanted: fn(&Outcome) -> bool| {
             let mut outcomes = self.promises.iter().map(|tested| &tested.outcome);

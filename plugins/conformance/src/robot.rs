@@ -36,7 +36,7 @@ pub(crate) const PROMISES: &[Promise<dyn Robot>] = &[
 
 type Subject<'a> = Tried<'a, dyn Robot>;
 
-/// Poses are near each other and in the workspace, their stamps never go back, and one without time comes at once.
+/// Poses are near each other and in the workspace, their stamps never go back, and a pose without time is returned at once.
 fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let (first, mut last) = robot.pose(tried.trial.deadline)?;
@@ -135,7 +135,7 @@ fn refuses_too_fast(tried: &Subject<'_>) -> Result<(), Unmet> {
     course.still_home(tried, &mut *robot)
 }
 
-/// A motion without the time for it is given up, the robot stands, and the next motion is accepted.
+/// A motion without enough time is aborted, the robot stands still, and the next motion is accepted.
 fn timeout_stops(tried: &Subject<'_>) -> Result<(), Unmet> {
     tried.may_move()?;
     let deadline = tried.trial.deadline;
@@ -177,7 +177,7 @@ fn latches_halt(tried: &Subject<'_>) -> Result<(), Unmet> {
     }
     for _ in 0..2 {
         let moved = robot.move_to(course.away, course.speed, deadline);
-        // A halt that was asked for is acknowledged by nobody; a fault would be.
+        // A requested halt needs no acknowledgement; a fault would.
         let fault = moved.as_ref().err().and_then(DriverError::fault);
         expect(fault.is_none(), || {
             "moving after a halt names a fault, expected one of the device alone".to_owned()
@@ -199,7 +199,7 @@ fn halts_from_another_thread(tried: &Subject<'_>) -> Result<(), Unmet> {
     let course = Course::of(tried, &mut *robot)?;
     let handle = robot.halt_handle();
     let moving = AtomicBool::new(false);
-    // Set once the halt has returned: when it was called, and what it gave.
+    // Set once the halt has returned: the time of its call, and its result.
     let halted = OnceLock::new();
     let moved = thread::scope(|scope| {
         scope.spawn(|| {
@@ -246,7 +246,7 @@ fn halts_from_another_thread(tried: &Subject<'_>) -> Result<(), Unmet> {
     course.still_home(tried, &mut *robot)
 }
 
-/// Halts from four threads are all taken, and the handle of a robot that is gone stops no other.
+/// Halts from four threads all succeed, and the handle of a dropped robot stops no other.
 fn halts_from_all_sides(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let handle = robot.halt_handle();
@@ -298,14 +298,14 @@ fn guards_as_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     course.still_home(tried, &mut *robot)
 }
 
-/// A short way out of the gel, and how fast.
+/// A short way out of the gel, with its speed.
 struct Course {
     home: Pose,
     away: Pose,
     speed: Speed,
 }
 
-/// How fast a trial moves, where the robot can, in mm/s.
+/// Speed of a trial, mm/s, if the robot can reach it.
 const UNHURRIED: f64 = 5.0;
 
 impl Course {
@@ -331,7 +331,7 @@ impl Course {
         })
     }
 
-    /// Breaks off unless the robot stands where it stood.
+    /// Breaks the promise unless the robot is back at its first pose.
     fn still_home(&self, tried: &Subject<'_>, robot: &mut dyn Robot) -> Result<(), Unmet> {
         near(tried, &robot.pose(tried.trial.deadline)?.0, &self.home)
     }
@@ -346,7 +346,7 @@ fn facts<'a>(tried: &'a Subject<'_>) -> Result<&'a RobotFacts, Unmet> {
     facts.ok_or_else(|| broken("does not declare itself a robot"))
 }
 
-/// Breaks off unless the two are as near as the robot repeats itself: six standard deviations of a difference, or 0.1 mm.
+/// Breaks the promise unless the two poses are within the robot's repeatability: six standard deviations of a difference, or 0.1 mm.
 fn near(tried: &Subject<'_>, found: &Pose, expected: &Pose) -> Result<(), Unmet> {
     const UNKNOWN_MM: f64 = 0.1;
     const ROUNDING_MM: f64 = 1e-6;

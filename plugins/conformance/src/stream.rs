@@ -1,4 +1,4 @@
-//! Promises of every device that is started and then gives one item after another: frames of a sensor, readings of a transducer.
+//! Promises of devices that are started and then give items: frames of a sensor, readings of a transducer.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -10,11 +10,11 @@ use taceva_core::{
 use crate::promise::{Unmet, answered, expect, in_order, refused, skipped};
 use crate::trial::{Alarm, Tried, was_within};
 
-/// A device that gives one item after another.
+/// A device that yields a sequence of items.
 pub(crate) trait Stream {
     /// The name of an item.
     const ITEM: &'static str;
-    /// How many items a promise looks at.
+    /// Number of items that a promise examines.
     const COUNT: usize;
 
     fn begin(&mut self, deadline: Deadline) -> Result<(), DriverError>;
@@ -141,7 +141,7 @@ pub(crate) fn any_order<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
     in_order(&stamps)
 }
 
-/// A device that is dropped gives back what it held, in whichever state it was.
+/// A dropped device releases its resources in every state.
 pub(crate) fn dropped<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     drop(tried.open()?);
     drop(started(tried)?);
@@ -199,7 +199,7 @@ pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
         let waited = device.next(long);
         let ended = Instant::now();
         match waited {
-            // It came by itself. Whether the interrupt met this call or none, the next must work.
+            // The item came by itself. The next call must work, whether or not the interrupt met this one.
             Ok(_) if alarm.rang().is_none() => begun = ended,
             Ok(_) => break,
             Err(error) if error.kind() == ErrorKind::Interrupted => {
@@ -231,7 +231,7 @@ pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
     expect(first == second, || "two runs differ".to_owned())
 }
 
-/// True for an ability that is there, false for one that is neither there nor declared.
+/// Passes for an ability that is present and declared, and skips one that is neither. Breaks the promise if the two differ.
 pub(crate) fn as_declared(ability: &str, declared: bool, has: bool) -> Result<(), Unmet> {
     match (has, declared) {
         (true, true) => Ok(()),

@@ -1,4 +1,4 @@
-//! A trial of a driver: how it is made, and the device that is opened again and again.
+//! Trial of a driver: its settings, and the device that is opened repeatedly.
 
 use std::sync::{Arc, mpsc};
 use std::thread;
@@ -12,25 +12,25 @@ use taceva_core::{
 use crate::promise::{Unmet, broken, expect, skipped};
 use crate::report::{Outcome, Report, Tested};
 
-/// How a driver is tried.
+/// Settings of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// The arguments it is opened with, as they stand behind the colon of a selector.
+    /// Arguments of opening, as written behind the colon of a selector.
     pub arguments: String,
-    /// The deadline of calls that should succeed, in the time of the device.
+    /// Deadline of calls that should succeed, in the time of the device.
     pub deadline: Deadline,
-    /// How long a call that should return at once may take on the clock of the machine.
+    /// Time limit of a call that should return at once, on the clock of the machine.
     pub at_once: Duration,
-    /// How long an interrupt and a halt may take to act.
+    /// Time limit for an interrupt or a halt to act.
     pub acts_within: Duration,
-    /// How far a robot is moved away from the gel.
+    /// Distance that a robot moves away from the gel.
     pub travel: Millimetre,
-    /// False skips what would move a robot or a changer.
+    /// False skips promises that move a robot or a changer.
     pub moves: bool,
 }
 
 impl Trial {
-    /// A trial with `arguments`: a second for what should succeed, half a second for what should return at once, 0.5 mm of travel.
+    /// A trial with `arguments`: 1 s for calls that should succeed, 0.5 s for calls that should return at once, 0.5 mm of travel.
     pub fn with_arguments(arguments: impl Into<String>) -> Trial {
         Trial {
             arguments: arguments.into(),
@@ -151,7 +151,7 @@ impl<'a, D: ?Sized> Tried<'a, D> {
         self.in_time(doing, Duration::ZERO, call)
     }
 
-    /// The result of `call`, if it returns at most at once after `given`.
+    /// The result of `call`, if it returns within `given` plus the limit of an immediate call.
     pub(crate) fn in_time<T>(
         &self,
         doing: &str,
@@ -168,7 +168,7 @@ impl<'a, D: ?Sized> Tried<'a, D> {
 /// Beginning of the reason for which a promise was skipped that needs a device.
 pub(crate) const NO_DEVICE: &str = "no device is there";
 
-/// Reason why a device did not open: a real one that is absent keeps no promise and breaks none.
+/// Reason why a device did not open: an absent real device keeps no promise and breaks none.
 pub(crate) fn unopened(error: DriverError, is_real: bool) -> Unmet {
     match error.kind() {
         ErrorKind::NotFound | ErrorKind::Disconnected if is_real => {
@@ -199,7 +199,7 @@ impl Alarm {
             thread::sleep(Duration::from_millis(20));
             let now = Instant::now();
             interrupt.interrupt();
-            // Nobody waits any more if the promise is broken already.
+            // No receiver is left if the promise is broken already.
             let _ = sender.send(now);
         });
         Ok(Alarm { rung })

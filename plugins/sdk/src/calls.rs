@@ -1,4 +1,4 @@
-//! The calls on an open device, kind by kind; every function takes what it is given through [`guard`] and [`memory`](crate::memory).
+//! Calls on an open device, kind by kind. Every function checks its arguments through [`guard`] and [`memory`](crate::memory).
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -20,22 +20,22 @@ use crate::guard::{caught, guard};
 use crate::handles::{self, Handle};
 use crate::memory;
 
-/// A kind of device: what is behind its handles, and the calls on them.
+/// A kind of device: the type behind its handles, and the calls on them.
 pub(crate) trait Kind: 'static {
-    /// What is behind a handle.
+    /// Type behind a handle.
     type Opened: Any + Send;
     /// The calls of its table.
     type Calls: 'static;
     const CALLS: &'static Self::Calls;
 
-    /// Its drivers.
+    /// Drivers of this kind.
     fn drivers(loaded: &Loaded) -> &Drivers<Self>;
 
-    /// What is put behind a handle: a device of which `facts` are known.
+    /// Makes the handle of a device with these `facts`.
     fn handle(device: Box<Self>, facts: &Facts) -> Handle<Self::Opened>;
 }
 
-/// The calls that every device has, for a table of type `T` and what is behind its handles.
+/// Calls that every device has, for a table of type `T` and devices of type `O` behind its handles.
 const fn device_calls<T, O: Any + Send>(
     extension: unsafe extern "C" fn(*mut c_void, Text) -> *const c_void,
 ) -> DeviceCalls {
@@ -55,7 +55,7 @@ unsafe extern "C" fn close(handle: *mut c_void) {
 }
 
 unsafe extern "C" fn interrupt<O: Any + Send>(handle: *mut c_void) {
-    // A call without an answer: there is nobody to report a failure to.
+    // The call returns no status, so a failure cannot be reported.
     drop(caught(|| {
         if let Ok(handle) = handles::find::<Handle<O>>(handle) {
             handle
@@ -66,7 +66,7 @@ unsafe extern "C" fn interrupt<O: Any + Send>(handle: *mut c_void) {
     }));
 }
 
-/// Does `work` on the device behind `handle`, alone.
+/// Runs `work` with exclusive access to the device behind `handle`.
 ///
 /// # Safety
 /// As [`guard`].
@@ -79,7 +79,7 @@ unsafe fn call<O: Any + Send>(
     unsafe { guard(error, || handles::find::<Handle<O>>(handle)?.call(work)) }
 }
 
-/// The table `calls` where `id` is the name of it and the device `has` that ability; NULL where not.
+/// Returns the table `calls` if `id` is its `name` and the device `has` that ability; else NULL.
 ///
 /// # Safety
 /// `id` is lent for the call.

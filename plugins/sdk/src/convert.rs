@@ -1,4 +1,5 @@
-//! Between the numbers of the boundary, SI, and those of core, mm and degrees; a number that is not finite is refused in both directions.
+//! Conversion between the SI numbers of the boundary and the mm and degrees of core; numbers that are not finite are rejected in both
+//! directions.
 
 use std::time::Duration;
 
@@ -18,7 +19,7 @@ pub(crate) fn nanoseconds(time: Duration) -> u64 {
     u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
 }
 
-/// The pose and the speed that a motion asks for.
+/// Requested pose and speed of a motion.
 pub(crate) fn motion(motion: &Motion) -> Result<(Pose, Speed), Failure> {
     let AbiPose {
         x,

@@ -6,7 +6,7 @@ use taceva_core::{
 
 use crate::estimator::EstimatorFactory;
 
-/// A driver or an estimator that a plugin provides: how its factory is made.
+/// Driver or estimator that a plugin provides: the function that makes its factory.
 ///
 /// [`export_plugin!`](crate::export_plugin) makes these from the lines that it is given.
 ///
@@ -40,11 +40,11 @@ pub enum Driver {
     Changer(Builtin<dyn Changer>),
     /// An estimator.
     Estimator(MakeEstimator),
-    /// One that is known only when the program runs.
+    /// A factory made at run time.
     Made(Made),
 }
 
-/// The factory of a driver or an estimator that is known only when the program runs, such as one that another language describes.
+/// Factory of a driver or an estimator made at run time, such as one described in another language.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory, Facts, ForceFacts};
@@ -63,17 +63,17 @@ pub enum Driver {
 /// ```
 #[non_exhaustive]
 pub enum Made {
-    /// Of a sensor.
+    /// Factory of a sensor.
     Sensor(Box<dyn Factory<dyn Sensor>>),
-    /// Of a robot.
+    /// Factory of a robot.
     Robot(Box<dyn Factory<dyn Robot>>),
-    /// Of a force transducer.
+    /// Factory of a force transducer.
     Force(Box<dyn Factory<dyn ForceTransducer>>),
-    /// Of a lighting.
+    /// Factory of a lighting.
     Lighting(Box<dyn Factory<dyn Lighting>>),
-    /// Of a changer.
+    /// Factory of a changer.
     Changer(Box<dyn Factory<dyn Changer>>),
-    /// Of an estimator.
+    /// Factory of an estimator.
     Estimator(Box<dyn EstimatorFactory>),
 }
 
@@ -96,7 +96,7 @@ pub enum Made {
 /// ```
 pub type MakeEstimator = fn() -> Box<dyn EstimatorFactory>;
 
-/// A kind of thing that a plugin can provide, as [`export_plugin!`](crate::export_plugin) names it: `dyn Sensor` for one.
+/// A kind of driver or estimator that a plugin can provide, as [`export_plugin!`](crate::export_plugin) names it: `dyn Sensor` for one.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};
@@ -116,10 +116,10 @@ pub type MakeEstimator = fn() -> Box<dyn EstimatorFactory>;
 /// assert_eq!(drivers.len(), 1);
 /// ```
 pub trait Provide {
-    /// What makes its factory.
+    /// Function that makes its factory.
     type Make;
 
-    /// The driver whose factory `make` makes.
+    /// The driver with the factory of `make`.
     fn provide(make: Self::Make) -> Driver;
 }
 

@@ -21,7 +21,7 @@ pub(crate) struct Loaded {
     pub(crate) lightings: Drivers<dyn Lighting>,
     pub(crate) changers: Drivers<dyn Changer>,
     pub(crate) estimators: Vec<Box<dyn EstimatorFactory>>,
-    /// What the keys of the drivers have before their last `/`.
+    /// Parts of the drivers' keys before their last `/`.
     pub(crate) prefixes: BTreeSet<String>,
     pub(crate) tables: Tables,
 }
@@ -46,7 +46,7 @@ pub(crate) fn loaded() -> Result<&'static Loaded, Failure> {
         .ok_or_else(|| Failure::argument("the plugin is not initialised"))
 }
 
-/// Keeps `drivers` for the life of the library; where two threads initialise it at once, both have loaded the same.
+/// Keeps `drivers` for the life of the library. If two threads initialise it at once, both have loaded the same.
 pub(crate) fn keep(drivers: Loaded) {
     LOADED.get_or_init(|| drivers);
 }

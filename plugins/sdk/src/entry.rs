@@ -94,7 +94,7 @@ fn table<D: Kind + ?Sized>(drivers: usize) -> Option<Factory> {
     count(drivers).map(factory::table::<D>)
 }
 
-/// How many, or nothing where a plugin has none.
+/// Number of drivers; `None` for none.
 fn count(drivers: usize) -> Option<u32> {
     u32::try_from(drivers).ok().filter(|count| *count > 0)
 }

@@ -18,13 +18,13 @@ use crate::driver::Driver;
 /// assert_eq!(table.abi_major, taceva_plugin::abi::ABI_MAJOR);
 /// ```
 pub trait Export {
-    /// Its id, reverse DNS, as in the manifest.
+    /// Id of the plugin, reverse DNS, as in the manifest.
     const ID: &'static str;
-    /// Its version, as in the manifest.
+    /// Version of the plugin, as in the manifest.
     const VERSION: &'static str;
-    /// What it must reach outside itself, a need a line, as `needs` of the manifest lists them: `taceva plugin manifest --write` writes them there.
+    /// Needs outside the plugin, one per line, as `needs` of the manifest lists them. `taceva plugin manifest --write` writes them there.
     const NEEDS: &'static str = "";
 
-    /// What it provides.
+    /// Drivers and estimators that it provides.
     fn drivers() -> Vec<Driver>;
 }

@@ -1,4 +1,4 @@
-//! Drivers of one kind: described, looked for and opened.
+//! Drivers of one kind: their description, discovery and opening.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -71,7 +71,7 @@ unsafe extern "C" fn describe<D: Kind + ?Sized>(
     unsafe { guard(error, work) }
 }
 
-/// Whether a host asks before it knows any arguments: with NULL, or with none where one must be given.
+/// True if the host does not know the arguments yet: NULL, or none although one is required.
 ///
 /// # Safety
 /// As for [`args`].
@@ -130,10 +130,10 @@ unsafe extern "C" fn open<D: Kind + ?Sized>(
     unsafe { guard(error, work) }
 }
 
-/// The arguments that are given, checked once more against what the driver declares; NULL is none.
+/// Reads the given arguments and checks them once more against the declarations; NULL is an empty list.
 ///
 /// # Safety
-/// Unless it is NULL, `given` points to arguments that nobody changes during the call.
+/// Unless it is NULL, `given` points to arguments that stay unchanged during the call.
 pub(crate) unsafe fn args(given: *const AbiArgs, specs: &[ArgSpec]) -> Result<Args, Failure> {
     let mut pairs = Vec::new();
     if !given.is_null() {

@@ -1,9 +1,9 @@
-//! Why a call across the boundary did not do what it was asked.
+//! Failures of calls across the boundary.
 
 use taceva_abi::{FaultNumber, MESSAGE_SIZE, Status};
 use taceva_core::{DriverError, ErrorKind, Fault, ModelError};
 
-/// A failure on its way to the host: a status, and a message that needs no context but the call.
+/// Failure for the host: a status, and a message that needs no context but the call.
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub(crate) status: Status,
@@ -14,27 +14,27 @@ pub(crate) struct Failure {
 impl Failure {
     pub(crate) fn new(kind: ErrorKind, message: impl Into<String>) -> Failure {
         Failure {
-            // The numbers of the kinds are those of the statuses, negated: a test of core holds them to it.
+            // The numbers of the kinds are the negated statuses; a test of core verifies this.
             status: Status(-(kind as i32)),
             message: message.into(),
             fault: FaultNumber::NONE,
         }
     }
 
-    /// The caller's fault.
+    /// Failure by a wrong argument of the caller.
     pub(crate) fn argument(message: impl Into<String>) -> Failure {
         Failure::new(ErrorKind::InvalidArgument, message)
     }
 
-    /// A bug of the device.
+    /// Failure by a fault of the device.
     pub(crate) fn device(message: impl Into<String>) -> Failure {
         Failure::new(ErrorKind::DeviceFault, message)
     }
 }
 
 impl From<DriverError> for Failure {
-    /// What it did and the reason, or the reason alone where both are longer than a message may be: which driver it was, the host knows, and what
-    /// it was asked to do.
+    /// Message with the operation and the reason, or the reason alone if both exceed the length of a message. The host knows the driver and
+    /// its call.
     fn from(error: DriverError) -> Failure {
         let message = match std::error::Error::source(&error) {
             Some(reason) => {
@@ -44,7 +44,7 @@ impl From<DriverError> for Failure {
                     false => reason.to_string(),
                 }
             }
-            // The fault is said beside the message.
+            // The fault is reported beside the message.
             None if error.fault().is_some() => String::new(),
             None => error.kind().to_string(),
         };
@@ -60,7 +60,7 @@ fn number(fault: Fault) -> FaultNumber {
         Fault::EmergencyStop => FaultNumber::EMERGENCY_STOP,
         Fault::Collision => FaultNumber::COLLISION,
         Fault::Boundary => FaultNumber::BOUNDARY,
-        // One that is newer than this crate is still a fault.
+        // A fault newer than this crate is still a fault.
         _ => FaultNumber::SERVO,
     }
 }

@@ -9,10 +9,10 @@ use taceva_core::ErrorKind;
 
 use crate::failure::Failure;
 
-/// Does `work` and says how it ended: nothing unwinds into the host, and a failure leaves its message in `error`.
+/// Runs `work` and returns its status. No panic unwinds into the host, and a failure leaves its message in `error`.
 ///
 /// # Safety
-/// `error` is NULL, or points to an error that is the caller's for the time of the call and as long as its `size` says.
+/// `error` is NULL, or points to memory that belongs to the caller during the call and is as long as its `size` states.
 pub(crate) unsafe fn guard(
     error: *mut Error,
     work: impl FnOnce() -> Result<(), Failure>,
@@ -30,9 +30,9 @@ pub(crate) unsafe fn guard(
     failure.status
 }
 
-/// What `work` gives, or its panic as a failure.
+/// Result of `work`, or its panic as a failure.
 pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Failure> {
-    // What a panic leaves half done is a handle's, and the handle is dead from then on.
+    // A panic can leave only a handle half changed, and that handle is dead from then on.
     taceva_core::caught(work).map_err(|message| {
         Failure::new(
             ErrorKind::Panicked,
@@ -41,7 +41,7 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Failure> {
     })
 }
 
-/// Leaves `message` in the caller's error, cut between two characters where it does not fit.
+/// Writes `message` to the caller's error, cut between two characters if it does not fit.
 unsafe fn write_message(error: *mut Error, message: &str) {
     const HEAD: usize = offset_of!(Error, message);
     if error.is_null() || !error.is_aligned() {
@@ -65,7 +65,7 @@ unsafe fn write_message(error: *mut Error, message: &str) {
     }
 }
 
-/// Leaves `fault` in the caller's error, where that has room for one.
+/// Writes `fault` to the caller's error, if that has room for it.
 unsafe fn write_fault(error: *mut Error, fault: FaultNumber) {
     const END: usize = offset_of!(Error, fault) + size_of::<FaultNumber>();
     if error.is_null() || !error.is_aligned() {

@@ -1,6 +1,6 @@
-//! What is open: devices, rigs and fitted models, under numbers that the host knows as handles.
+//! Open devices, rigs and fitted models, by numbers that the host uses as handles.
 //!
-//! A handle is a number and never an address, so that one that was closed, or was never given out, is refused instead of followed.
+//! A handle is a number and never an address: a closed or unknown handle is rejected and never dereferenced.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ type Thing = Arc<dyn Any + Send + Sync>;
 static OPEN: RwLock<BTreeMap<usize, Thing>> = RwLock::new(BTreeMap::new());
 static NEXT: AtomicUsize = AtomicUsize::new(1);
 
-/// Keeps `thing` until it is closed, and gives its handle.
+/// Stores `thing` until it is closed, and returns its handle.
 pub(crate) fn keep(thing: impl Any + Send + Sync) -> *mut c_void {
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
     let mut open = OPEN.write().unwrap_or_else(PoisonError::into_inner);
@@ -37,7 +37,7 @@ pub(crate) fn find<T: Any + Send + Sync>(handle: *const c_void) -> Result<Arc<T>
         .ok_or_else(|| Failure::argument("the handle is none that is open, or of another kind"))
 }
 
-/// Forgets a handle and drops what is behind it, unless a call on another thread is still using it: then that call does.
+/// Removes a handle and drops its object. If a call on another thread still uses the object, that call drops it.
 pub(crate) fn close(handle: *const c_void) {
     let mut open = OPEN.write().unwrap_or_else(PoisonError::into_inner);
     let thing = open.remove(&handle.addr());
@@ -50,7 +50,7 @@ pub(crate) fn close(handle: *const c_void) {
 pub(crate) struct Handle<T> {
     is_dead: AtomicBool,
     device: Mutex<T>,
-    /// What ends a pending call, and stops a motion: called without waiting for the device.
+    /// Interrupt of a pending call and, below, halt of a motion; both are called without waiting for the device.
     pub(crate) interrupt: Option<Arc<dyn Interrupt>>,
     pub(crate) halt: Option<Arc<dyn Halt>>,
 }
@@ -65,18 +65,18 @@ impl<T> Handle<T> {
         }
     }
 
-    /// The same handle with what ends a pending call.
+    /// The same handle with an interrupt of pending calls.
     pub(crate) fn interrupted_by(self, interrupt: Option<Arc<dyn Interrupt>>) -> Handle<T> {
         Handle { interrupt, ..self }
     }
 
-    /// The same handle with what stops a motion.
+    /// The same handle with a halt of motions.
     pub(crate) fn halted_by(self, halt: Arc<dyn Halt>) -> Handle<T> {
         let halt = Some(halt);
         Handle { halt, ..self }
     }
 
-    /// Does `work` on the device, alone; a panic kills the handle, and nothing but that handle.
+    /// Runs `work` with exclusive access to the device. A panic kills this handle and no other.
     pub(crate) fn call<R>(
         &self,
         work: impl FnOnce(&mut T) -> Result<R, Failure>,

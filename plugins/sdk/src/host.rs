@@ -1,4 +1,4 @@
-//! What the host offers: its log and its clock.
+//! Log and clock of the host.
 
 #![expect(unsafe_code, reason = "functions of the host are called")]
 
@@ -17,7 +17,7 @@ pub(crate) fn remember(host: *const Host) {
     HOST.store(host.cast_mut(), Ordering::Release);
 }
 
-/// Forgets the host: nothing of it is called any more.
+/// Forgets the host: none of its functions is called afterwards.
 pub(crate) fn forget() {
     HOST.store(null_mut(), Ordering::Release);
 }
@@ -28,7 +28,7 @@ fn host() -> Option<&'static Host> {
     unsafe { host.as_ref() }
 }
 
-/// Writes a line to the log of the host. Nobody listens where the driver is linked in.
+/// Writes a line to the log of the host. Does nothing if the driver is linked in.
 ///
 /// ```
 /// taceva_plugin::log(taceva_plugin::Level::Warn, "the camera is warm");
@@ -42,9 +42,9 @@ pub fn log(level: Level, message: &str) {
     unsafe { log(host.context, level as i32, target, Text::from(message)) };
 }
 
-/// The time of the host's monotonic clock, in which stamps of real devices count.
+/// Time of the host's monotonic clock, which stamps of real devices use.
 ///
-/// Linked in, or before the plugin is initialised, it counts from the first time that it is asked.
+/// Linked in, or before the plugin is initialised, the time counts from the first call.
 ///
 /// ```
 /// let before = taceva_plugin::now();

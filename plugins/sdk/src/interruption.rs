@@ -1,4 +1,4 @@
-//! Waiting that another thread can end.
+//! Waits that another thread can end.
 
 use std::fmt;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use taceva_core::{DriverError, Halt, Interrupt};
 
-/// Ends the pending call of a device: what a sensor, a force transducer or a changer gives as its `interrupt_handle`.
+/// Ends the pending call of a device; the `interrupt_handle` of a sensor, a force transducer or a changer.
 ///
 /// ```
 /// use std::{sync::Arc, thread, time::Duration};
@@ -33,7 +33,7 @@ struct Pending {
     is_interrupted: bool,
 }
 
-/// Somebody asked the call to end.
+/// Error of a call that was interrupted.
 ///
 /// ```
 /// use taceva_core::{DriverError, DriverKey, ErrorKind};
@@ -71,7 +71,7 @@ pub struct InterruptibleCall<'a> {
 }
 
 impl Interruption {
-    /// A handle to it, as devices give it away.
+    /// Handle for the `interrupt_handle` of a device.
     pub fn handle(self: &Arc<Interruption>) -> Option<Arc<dyn Interrupt>> {
         Some(Arc::clone(self) as Arc<dyn Interrupt>)
     }
@@ -91,7 +91,7 @@ impl InterruptibleCall<'_> {
     /// Waits for `time`, or less if the call is interrupted.
     ///
     /// # Errors
-    /// [`Interrupted`] if it was, before or during the wait.
+    /// [`Interrupted`] if the call was interrupted, before or during the wait.
     pub fn rest(&self, time: Duration) -> Result<(), Interrupted> {
         let bell = &self.interruption.bell;
         let pending = self.interruption.pending();
@@ -126,9 +126,9 @@ impl Interrupt for Interruption {
     }
 }
 
-/// A halt that latches: what a robot without one of its own gives as its `halt_handle`.
+/// A latching halt, for the `halt_handle` of a robot without its own.
 ///
-/// A motion that rests on it in steps ends within a step; a robot that moves by itself must be stopped besides.
+/// A motion that waits on it in steps ends within a step; a robot that moves by itself must be stopped too.
 ///
 /// ```
 /// use std::{sync::Arc, time::Duration};
@@ -147,7 +147,7 @@ pub struct HaltLatch {
 }
 
 impl HaltLatch {
-    /// A handle to it, as robots give it away.
+    /// Handle for the `halt_handle` of a robot.
     pub fn handle(self: &Arc<HaltLatch>) -> Arc<dyn Halt> {
         Arc::clone(self) as Arc<dyn Halt>
     }
@@ -155,7 +155,7 @@ impl HaltLatch {
     /// Waits for `time`, or until it is halted.
     ///
     /// # Errors
-    /// [`Interrupted`] if it is, since before or during the wait.
+    /// [`Interrupted`] if it is halted, since before or during the wait.
     pub fn rest(&self, time: Duration) -> Result<(), Interrupted> {
         let latch = self.latch();
         let (is_halted, _) = self

@@ -8,30 +8,30 @@ use taceva_abi::{TakeText, Text};
 
 use crate::failure::Failure;
 
-/// What `pointer` points to; NULL and a misaligned address are refused.
+/// Object behind `pointer`; NULL and misaligned addresses are rejected.
 ///
 /// # Safety
-/// Otherwise it points to a `T` that nobody changes during `'a`.
+/// Otherwise it points to a `T` that stays unchanged during `'a`.
 pub(crate) unsafe fn given<'a, T>(name: &str, pointer: *const T) -> Result<&'a T, Failure> {
     straight(name, pointer)?;
     // SAFETY: promised by the caller; NULL and misalignment were refused.
     Ok(unsafe { &*pointer })
 }
 
-/// The place that `pointer` names, to be written.
+/// Object behind `pointer`, to be written.
 ///
 /// # Safety
-/// Unless it is NULL or misaligned, it points to a `T` that is the callee's during `'a`.
+/// Unless it is NULL or misaligned, it points to a `T` that belongs to the callee during `'a`.
 pub(crate) unsafe fn place<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut T, Failure> {
     straight(name, pointer)?;
     // SAFETY: promised by the caller; NULL and misalignment were refused.
     Ok(unsafe { &mut *pointer })
 }
 
-/// A struct that begins with its own size, read only if it is as long as it is known here.
+/// A struct that begins with its own size; rejected if it is shorter than `T`.
 ///
 /// # Safety
-/// Unless it is NULL or misaligned, `pointer` points to as many bytes as the `u32` that it begins with says.
+/// Unless it is NULL or misaligned, `pointer` points to the number of bytes that its first `u32` states.
 pub(crate) unsafe fn sized<'a, T>(name: &str, pointer: *const T) -> Result<&'a T, Failure> {
     straight(name, pointer)?;
     // SAFETY: promised by the caller.
@@ -76,10 +76,10 @@ fn long_enough<T>(name: &str, size: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-/// `length` things from `first` on.
+/// List of `length` objects from `first` on.
 ///
 /// # Safety
-/// Unless `first` is NULL or misaligned, `length` things begin there that nobody changes during `'a`.
+/// Unless `first` is NULL or misaligned, `length` objects begin there that stay unchanged during `'a`.
 pub(crate) unsafe fn list<'a, T>(
     name: &str,
     first: *const T,
@@ -97,7 +97,7 @@ pub(crate) unsafe fn list<'a, T>(
 /// As [`list`], to be written.
 ///
 /// # Safety
-/// As [`list`], and the things are the callee's during `'a`.
+/// As [`list`], and the objects belong to the callee during `'a`.
 pub(crate) unsafe fn list_place<'a, T>(
     name: &str,
     first: *mut T,
@@ -122,7 +122,7 @@ fn fits<T>(name: &str, length: usize) -> Result<(), Failure> {
     }
 }
 
-/// The text that is lent.
+/// The lent text.
 ///
 /// # Safety
 /// Unless `data` is NULL, its bytes are not changed during `'a`.
@@ -135,7 +135,7 @@ pub(crate) unsafe fn text<'a>(name: &str, text: Text) -> Result<&'a str, Failure
     unsafe { text.to_str() }.map_err(|error| Failure::argument(format!("`{name}`: {error}")))
 }
 
-/// Hands `text` to the host.
+/// Passes `text` to the host.
 ///
 /// # Safety
 /// `take` may be called with `context` and any text.

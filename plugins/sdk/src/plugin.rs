@@ -28,7 +28,7 @@ pub const fn plugin<E: Export>() -> Plugin {
 
 /// Exports the drivers of a crate of type `cdylib` as the plugin `id`; its version is that of the crate.
 ///
-/// `needs: ["usb"],` may follow the id: what the plugin must reach outside itself, as the manifest lists it.
+/// `needs: ["usb"],` may follow the id: the needs outside the plugin, as the manifest lists them.
 ///
 /// Each line is a kind of device and a `fn` that makes a factory, as `taceva_core::submit_builtin!` takes them too.
 ///

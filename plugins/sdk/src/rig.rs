@@ -1,4 +1,4 @@
-//! What the devices of a rig share, and the simulated bench, if the plugin is one.
+//! Shared objects of the devices of a rig, and the simulated bench, if the plugin is one.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -42,13 +42,13 @@ pub(crate) unsafe extern "C" fn extension(_: *mut AbiRig, id: Text) -> *const c_
     }
 }
 
-/// Does `work` with the rig behind a handle.
+/// Runs `work` with the rig behind a handle.
 pub(crate) fn with_rig<R>(
     rig: *const AbiRig,
     work: impl FnOnce(&mut Rig) -> R,
 ) -> Result<R, Failure> {
     let shared = handles::find::<Shared>(rig.cast())?;
-    // A driver that panicked left the rig as it was: what is shared is put there whole.
+    // A panicked driver left the rig intact: shared objects are inserted whole.
     let mut rig = shared.lock().unwrap_or_else(PoisonError::into_inner);
     Ok(work(&mut rig))
 }
@@ -65,7 +65,7 @@ static CALLS: BenchCalls = BenchCalls {
     provenance: Some(provenance),
 };
 
-/// The bench that devices were opened in with `rig=name`: drivers offer it under what their keys begin with.
+/// Bench in which devices were opened with `rig=name`. Drivers offer it under the prefix of their keys.
 unsafe fn bench(rig: *const AbiRig, name: Text) -> Result<Arc<dyn SimulatedBench>, Failure> {
     // SAFETY: the host lends the text for the call.
     let name = unsafe { memory::text("bench", name) }?;
@@ -81,7 +81,7 @@ unsafe fn bench(rig: *const AbiRig, name: Text) -> Result<Arc<dyn SimulatedBench
 unsafe extern "C" fn now_ns(rig: *mut AbiRig, name: Text) -> u64 {
     // SAFETY: the host lends the text for the call.
     let now = caught(|| unsafe { bench(rig, name) }.map(|bench| bench.now()));
-    // A bench that is not there has a clock that does not turn.
+    // The clock of a missing bench stands at 0.
     let now = now.unwrap_or_else(Err).unwrap_or_default();
     u64::try_from(now.as_nanos()).unwrap_or(u64::MAX)
 }

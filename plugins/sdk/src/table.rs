@@ -11,7 +11,7 @@ use taceva_core::{
 
 use self::toml::{Number, Text, written};
 
-/// What a manifest says below `[[provides]]`: TOML, with `[[args]]` where the manifest has `[[provides.args]]`.
+/// Table of a driver below `[[provides]]` of a manifest: TOML, with `[[args]]` where the manifest has `[[provides.args]]`.
 ///
 /// The key is the last word of the driver's: a plugin `org.example.digit` provides `org.example.digit/finger` as `finger`.
 ///
@@ -40,7 +40,7 @@ pub fn provides_table(descriptor: &Descriptor) -> String {
         Facts::Lighting(facts) => table.scenes(&facts.scenes),
         Facts::Changer(facts) if facts.holds.is_empty() => {}
         Facts::Changer(facts) => table.texts("holds", facts.holds.iter().map(String::as_str)),
-        // Of a kind that is newer than this writer only the name is written, which the host refuses.
+        // For a kind newer than this writer only the name is written, which the host rejects.
         _ => {}
     }
     table.arguments(descriptor.arguments());
@@ -95,7 +95,7 @@ impl Table {
         }
     }
 
-    /// An inline table of what is known; nothing where nothing is.
+    /// An inline table of the known fields; nothing without any.
     fn inline(&mut self, key: &str, fields: &[(&str, Option<String>)]) {
         let known: Vec<String> = fields
             .iter()
@@ -149,7 +149,7 @@ impl Table {
         let (shape, [radius, half_x, half_y]) = match footprint.outline() {
             Outline::Disc { radius } => ("disc", [Some(radius), None, None]),
             Outline::Rectangle { half_x, half_y } => ("rect", [None, Some(half_x), Some(half_y)]),
-            // As a kind that is newer than this writer.
+            // Skipped, as a kind newer than this writer.
             _ => return,
         };
         let length = |length: Option<taceva_core::Nanometre>| {
@@ -248,7 +248,7 @@ impl Table {
                     );
                 }
             }
-            // As a kind of driver that is newer than this writer.
+            // Skipped, as a kind of driver newer than this writer.
             _ => {}
         }
         if let Some(unit) = &argument.unit {
@@ -260,7 +260,7 @@ impl Table {
             Presence::Default(ArgValue::Whole(value)) => self.line("default", value),
             Presence::Default(ArgValue::Number(value)) => self.line("default", &Number(*value)),
             Presence::Default(ArgValue::Flag(value)) => self.line("default", value),
-            // A text, or what is written like one.
+            // A text, or a value written like one.
             Presence::Default(value) => self.line("default", &Text(&value.to_string())),
         }
         if !argument.help.is_empty() {

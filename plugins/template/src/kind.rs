@@ -9,7 +9,7 @@ pub enum Kind {
     Sensor,
     /// Moves the indenter.
     Robot,
-    /// Measures how hard it presses.
+    /// Measures the force on the gel.
     Force,
     /// Sets the light around the sensor.
     Lighting,
@@ -47,7 +47,7 @@ impl Kind {
         Kind::Estimator,
     ];
 
-    /// How the kind is written in manifests.
+    /// Name of the kind in manifests.
     pub const fn name(self) -> &'static str {
         match self {
             Kind::Sensor => "sensor",
@@ -59,7 +59,7 @@ impl Kind {
         }
     }
 
-    /// What people call it.
+    /// Noun for people.
     pub(crate) const fn noun(self) -> &'static str {
         match self {
             Kind::Force => "force transducer",

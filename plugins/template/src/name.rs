@@ -1,4 +1,4 @@
-//! What a new plugin is called.
+//! Names of new plugins.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,7 +9,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name(String);
 
-/// Longest name, in bytes: with `org.example.` before it, it is still an id.
+/// Longest name, in bytes; with `org.example.` before it, it is still an id.
 const LENGTH_MAX: usize = 64;
 
 /// Words that the language, its libraries or the crates that a project depends on have taken.
@@ -65,7 +65,7 @@ impl fmt::Display for Name {
     }
 }
 
-/// Text that no plugin can be called.
+/// Text that is no valid name of a plugin.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{text:?} is no name for a plugin, {problem}")]
 pub struct NameError {

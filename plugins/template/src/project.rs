@@ -6,7 +6,7 @@ use crate::name::Name;
 /// The sources of the crates that a plugin in Rust is built from: `taceva-core/src/lib.rs` and its text.
 const SOURCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
 
-/// Their manifests, in which nothing is left to a workspace.
+/// Manifests of these crates, without inheritance from a workspace.
 const MANIFESTS: [(&str, &str); 3] = [
     (
         "taceva-core",
@@ -28,7 +28,7 @@ const HEADERS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/headers.rs"
 /// The version of this program, and of the crates that it embeds.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Where the crates come from that a plugin is built from.
+/// Source of the crates that a plugin is built from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sources {
     /// From this program, under `vendor/`: it builds without a network, against what this program knows.
@@ -40,9 +40,9 @@ pub enum Sources {
 /// A file of a project.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
-    /// Where, below the folder of the project, with `/` between its parts.
+    /// Path below the folder of the project, with `/` between its parts.
     pub path: String,
-    /// What is in it.
+    /// Content of the file.
     pub text: String,
 }
 

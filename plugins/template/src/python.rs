@@ -4,7 +4,7 @@ use crate::kind::Kind;
 use crate::name::Name;
 use crate::project::File;
 
-/// The module and what its manifest says.
+/// The module and its part of the manifest.
 fn module(kind: Kind) -> (&'static str, &'static str) {
     macro_rules! files {
         ($kind:literal) => {

@@ -1,9 +1,9 @@
-//! Why an argument was refused.
+//! Errors of arguments.
 
 use crate::printable::shown;
 use std::fmt;
 
-/// An argument that the driver does not take; every text is as the user wrote it.
+/// An argument that the driver rejects. Every text is as the user wrote it.
 ///
 /// ```
 /// use taceva_core::{ArgError, ArgSpec, Args};
@@ -24,7 +24,7 @@ pub enum ArgError {
     Unknown {
         /// The key.
         key: String,
-        /// The declared key that is most like it, if one is.
+        /// Most similar declared key, if any.
         nearest: Option<String>,
         /// Every declared key.
         known: Vec<String>,
@@ -38,9 +38,9 @@ pub enum ArgError {
     Missing {
         /// The key.
         key: String,
-        /// What would be accepted.
+        /// Accepted values, in words.
         expected: String,
-        /// What it means.
+        /// Help text of the argument.
         help: String,
     },
     /// A value that the key does not take.
@@ -49,9 +49,9 @@ pub enum ArgError {
         key: String,
         /// The value.
         value: String,
-        /// What would be accepted.
+        /// Accepted values, in words.
         expected: String,
-        /// The choice that is most like it, if one is.
+        /// Most similar choice, if any.
         nearest: Option<String>,
     },
 }

@@ -1,8 +1,8 @@
-//! What the value of an argument is, and whether it must be given.
+//! Type of an argument's value, and presence of the argument.
 
 use super::value::ArgValue;
 
-/// What the value of an argument is.
+/// Type of an argument's value, with its range.
 ///
 /// ```
 /// use taceva_core::{ArgKind, ArgSpec};
@@ -39,7 +39,7 @@ pub enum ArgKind {
     Flag,
 }
 
-/// Whether an argument must be given. It gets no further variant: it must be given, or something or nothing stands in its place.
+/// Presence of an argument. It gets no further variant: an omitted argument has a default or no value.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, Args, Presence};
@@ -50,10 +50,10 @@ pub enum ArgKind {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Presence {
-    /// It must.
+    /// The argument must be given.
     Required,
-    /// It need not, and then the driver knows that it was not.
+    /// The argument may be omitted, and then has no value.
     Optional,
-    /// It need not, and then it has this value.
+    /// The argument may be omitted, and then has this value.
     Default(ArgValue),
 }

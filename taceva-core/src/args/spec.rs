@@ -1,4 +1,4 @@
-//! What an argument may be: declared once, used for checking, for help and for listing.
+//! Declaration of an argument, used for checks, help and listings.
 
 use std::fmt;
 
@@ -19,17 +19,17 @@ use crate::unit::SourceUnit;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ArgSpec {
-    /// Its key.
+    /// Key of the argument.
     pub key: String,
-    /// What its value is, and within which range.
+    /// Type and range of its value.
     pub kind: ArgKind,
     /// The unit of its number, as it is written behind the number: `ms`, `mm/h`.
     pub unit: Option<String>,
-    /// Whether it must be given.
+    /// Presence: required, optional or with a default.
     pub presence: Presence,
-    /// What it means, in words that follow a colon.
+    /// Help text, in words that follow a colon.
     pub help: String,
-    /// Whether it can change what is known of the device before it is opened, such as the size of its frames.
+    /// True if it can change the facts of the unopened device, such as the size of its frames.
     pub changes_facts: bool,
 }
 
@@ -84,14 +84,14 @@ impl ArgSpec {
         self
     }
 
-    /// The same argument, which need not be given.
+    /// The same argument as an optional one.
     #[must_use]
     pub fn optional(mut self) -> ArgSpec {
         self.presence = Presence::Optional;
         self
     }
 
-    /// The same argument, which is `value` where it is not given.
+    /// The same argument with the default `value`.
     #[must_use]
     pub fn default(mut self, value: ArgValue) -> ArgSpec {
         self.presence = Presence::Default(value);
@@ -105,14 +105,14 @@ impl ArgSpec {
         self
     }
 
-    /// The same argument, which can change what is known of the device.
+    /// The same argument, marked as one that can change the facts of the device.
     #[must_use]
     pub fn changes_facts(mut self) -> ArgSpec {
         self.changes_facts = true;
         self
     }
 
-    /// The value written as `text`.
+    /// Parses `text` as a value.
     ///
     /// # Errors
     /// [`ArgError::Value`] if it is of another type or outside the range.
@@ -140,7 +140,7 @@ impl ArgSpec {
             })
     }
 
-    /// `text` without the unit, where it stands behind the number.
+    /// Strips the unit behind the number of `text`, if there is one.
     fn bare<'a>(&self, text: &'a str) -> &'a str {
         self.unit
             .as_deref()
@@ -149,7 +149,7 @@ impl ArgSpec {
             .trim_end()
     }
 
-    /// Whether `value` is of its type and within its range.
+    /// True if `value` has the type of the argument and is within its range.
     pub fn accepts(&self, value: &ArgValue) -> bool {
         match (&self.kind, value) {
             (ArgKind::Text | ArgKind::Path, ArgValue::Text(text)) => !text.is_empty(),
@@ -165,7 +165,7 @@ impl ArgSpec {
         }
     }
 
-    /// What would be accepted, in words that follow "expected".
+    /// Accepted values, in words that follow "expected".
     pub fn expected(&self) -> String {
         let mut words = match &self.kind {
             ArgKind::Text => "a text".to_owned(),
@@ -190,7 +190,7 @@ impl ArgSpec {
         words
     }
 
-    /// What is wrong with the declaration itself, or `None`.
+    /// Fault of the declaration itself, or `None`.
     pub fn fault(&self) -> Option<String> {
         let key_is_plain = self
             .key

@@ -8,7 +8,7 @@ use crate::nanometre::Nanometre;
 use crate::phase::Phase;
 use crate::sample::{Readings, Sample};
 
-/// Collects samples into batches, in which only the fields that are read are filled.
+/// Collects samples into batches, with only the needed fields.
 ///
 /// ```
 /// use taceva_core::{BatchBuilder, Channel, Channels, FieldSet, Readings, Sample};
@@ -94,7 +94,7 @@ impl BatchBuilder {
         &self.batch
     }
 
-    /// The batch so far; the builder starts anew.
+    /// Takes the batch so far and leaves an empty one.
     pub fn take(&mut self) -> Batch {
         let fresh = empty(self.batch.channels.clone(), self.fields);
         std::mem::replace(&mut self.batch, fresh)

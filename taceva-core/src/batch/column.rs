@@ -38,7 +38,7 @@ impl Column {
         }
     }
 
-    /// Adds a value, or the fact that there is none.
+    /// Adds a row with a value, or without one.
     pub fn push(&mut self, value: Option<f64>) {
         if value.is_none() && self.present.is_none() {
             self.present = Some(vec![true; self.values.len()]);
@@ -60,7 +60,7 @@ impl Column {
         &self.values
     }
 
-    /// Which rows have a value; `None` if all have.
+    /// Presence of a value by row; `None` if all rows have one.
     pub fn present(&self) -> Option<&[bool]> {
         self.present.as_deref()
     }
@@ -80,7 +80,7 @@ impl Column {
         }
     }
 
-    /// The same rows in another order, which `rows` states.
+    /// Copies the rows in the order of the indices `rows`.
     ///
     /// ```
     /// use taceva_core::Column;
@@ -89,7 +89,7 @@ impl Column {
     /// ```
     ///
     /// # Panics
-    /// If there is no such row.
+    /// If an index is out of range.
     #[must_use]
     pub fn in_order(&self, rows: &[u32]) -> Column {
         let present = self.present.as_ref();
@@ -104,7 +104,7 @@ impl Column {
         self.values.len()
     }
 
-    /// Whether there is no row.
+    /// True if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.values.is_empty()
     }

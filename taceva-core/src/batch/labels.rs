@@ -24,7 +24,7 @@ struct Known {
     lookup: HashMap<String, u32>,
 }
 
-/// Whole numbers get a place each if there are no more places than this a row, and are looked up if there are.
+/// Most table slots per row for the lookup of whole numbers; sparser numbers use a hash map.
 const PLACES_A_ROW: usize = 4;
 
 impl Labels {
@@ -59,7 +59,7 @@ impl Labels {
         self.index.push(index);
     }
 
-    /// Whole numbers as names, a number a row, called by their digits.
+    /// Labels from whole numbers, one per row, named by their digits.
     ///
     /// ```
     /// use taceva_core::Labels;
@@ -74,7 +74,7 @@ impl Labels {
         let mut labels = Labels::default();
         let least = numbers.iter().copied().min().unwrap_or(0);
         let most = numbers.iter().copied().max().unwrap_or(0);
-        // Numbers of points mostly lie close together: then a place each costs less than to look them up.
+        // Point numbers are mostly dense; a table then costs less than a hash map.
         match most.checked_sub(least).map(usize::try_from) {
             Some(Ok(width)) if width / PLACES_A_ROW < numbers.len() => {
                 let mut places = vec![Labels::ABSENT; width + 1];
@@ -117,12 +117,12 @@ impl Labels {
         &self.known.names
     }
 
-    /// For each row, which of the names it has; [`ABSENT`](Labels::ABSENT) for none.
+    /// Index of each row's name in [`names`](Labels::names); [`ABSENT`](Labels::ABSENT) for a row without a name.
     pub fn index(&self) -> &[u32] {
         &self.index
     }
 
-    /// The labels of the same rows in another order, which `rows` states: each row once. The order of the names stays.
+    /// Labels in the order of the row indices `rows`, each row once. The order of the names stays.
     ///
     /// ```
     /// use taceva_core::Labels;
@@ -131,7 +131,7 @@ impl Labels {
     /// ```
     ///
     /// # Panics
-    /// If there is no such row.
+    /// If an index is out of range.
     #[must_use]
     pub fn in_order(&self, rows: &[u32]) -> Labels {
         Labels {
@@ -140,7 +140,7 @@ impl Labels {
         }
     }
 
-    /// Whether every row has a name.
+    /// True if every row has a name.
     pub fn all_named(&self) -> bool {
         !self.index.contains(&Labels::ABSENT)
     }

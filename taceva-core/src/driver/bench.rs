@@ -1,12 +1,11 @@
-//! What a simulated bench has besides its devices: a virtual clock, and the exchange of specimens.
+//! Simulated bench besides its devices: a virtual clock, and the exchange of specimens.
 
 use std::time::Duration;
 
 use super::DriverError;
 use crate::specimen::Specimen;
 
-/// A simulated bench, as the code that carries out a run uses it; found in a [`Rig`](crate::Rig) under the name that its devices were opened
-/// with.
+/// Simulated bench, as the code of a run uses it. A [`Rig`](crate::Rig) holds it under the name with which its devices were opened.
 ///
 /// ```
 /// use std::sync::{Arc, Mutex};
@@ -47,7 +46,7 @@ use crate::specimen::Specimen;
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait SimulatedBench: Send + Sync {
-    /// The time of its clock: that of every stamp of its devices.
+    /// Time of its clock, which stamps every reading of its devices.
     fn now(&self) -> Duration;
 
     /// Lets time pass.
@@ -56,25 +55,25 @@ pub trait SimulatedBench: Send + Sync {
     /// [`DriverError`] of kind `Disconnected` if the bench is gone.
     fn rest(&self, rest: Duration) -> Result<(), DriverError>;
 
-    /// Exchanges what the robot carries.
+    /// Mounts another specimen on the robot.
     ///
     /// # Errors
     /// [`DriverError`] of kind `InvalidArgument` for a specimen that it does not have, or while the tip is in the gel.
     fn mount(&self, specimen: Specimen) -> Result<(), DriverError>;
 
-    /// Gives the press that begins now the number `name`: every random number in it is a function of this and of the place, so that a run
-    /// that was interrupted and resumed has the same random errors as one without interruption.
+    /// Sets the number `name` of the press that begins now. Every random number of a press is a function of this number and the place. A
+    /// resumed run therefore has the same random errors as an uninterrupted one.
     ///
     /// # Errors
     /// As [`rest`](SimulatedBench::rest).
     fn name_press(&self, name: u64) -> Result<(), DriverError>;
 
-    /// Lets the next tare in the air wait until `at` on the bench's clock, unless it is later already.
+    /// Delays the next tare in the air until `at` on the bench's clock, unless it is later already.
     ///
     /// # Errors
     /// As [`rest`](SimulatedBench::rest).
     fn schedule(&self, at: Duration) -> Result<(), DriverError>;
 
-    /// What it is a model of: version, parameters and seed; `None` before a sensor was opened in it.
+    /// Provenance of the simulation: version, parameters and seed; `None` until a sensor is opened in it.
     fn provenance(&self) -> Option<String>;
 }

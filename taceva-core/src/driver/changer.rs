@@ -1,16 +1,17 @@
-//! What brings things into place.
+//! Changers, which bring specimens or units of a sensor into place.
 
 use std::sync::Arc;
 
 use super::{Deadline, DriverError, Interrupt};
 
-/// Brings one of the things that it holds into place: specimens under the robot (a tool changer, a carousel) or units of a sensor (a
-/// revolver, a slide).
+/// Brings one of its items into place: specimens under the robot (a tool changer, a carousel) or units of a sensor (a revolver, a slide).
 ///
-/// Things have names. Those of specimens are what [`Specimen`](crate::Specimen) displays, such as `sphere of radius 4 mm` or `line grating
-/// of 1.5 mm`; those of units are what a scene calls them. Light is set by a [`Lighting`](super::Lighting), which has names in the same way.
+/// Items have names. The name of a specimen is its text as [`Specimen`](crate::Specimen) displays it, such as `sphere of radius 4 mm` or
+/// `line grating of 1.5 mm`. The name of a unit is that of the scene. Light is set by a [`Lighting`](super::Lighting), which has names in
+/// the same way.
 ///
-/// The robot is halted away from the gel while a changer moves, and moves again only after it has said that what was asked for is in place.
+/// The robot is halted away from the gel while a changer moves. The robot moves again only after the changer has confirmed the requested
+/// item.
 ///
 /// ```
 /// use taceva_core::{Changer, Deadline, DriverError, DriverKey, ErrorKind};
@@ -44,20 +45,20 @@ use super::{Deadline, DriverError, Interrupt};
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait Changer: Send {
-    /// The names of what it holds, each once.
+    /// Names of its items, each once.
     fn holds(&self) -> &[String];
 
-    /// Brings what is called `name` into place, and gives the name of what is in place once nothing of the changer moves any more: what its
-    /// own signals say, where it has such, and `name` where it has none. Where that is in place already, it need not move.
+    /// Brings the item `name` into place, waits until the changer is at rest, and returns the name of the item in place. That name comes
+    /// from the changer's own signals if it has any, else it is `name`. For an item already in place, the changer need not move.
     ///
-    /// After an error nobody knows what is in place; the changer stands, or comes to stand by itself.
+    /// After an error the item in place is unknown, and the changer is at rest or stops by itself.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `InvalidArgument` for a name that is not in [`holds`](Changer::holds), `Timeout` where it did not arrive in
-    /// time, `Interrupted`, or what went wrong.
+    /// [`DriverError`] of kind `InvalidArgument` for a name that is not in [`holds`](Changer::holds), `Timeout` if the item did not arrive
+    /// in time, `Interrupted`, or the kind of the failure.
     fn bring(&mut self, name: &str, deadline: Deadline) -> Result<String, DriverError>;
 
-    /// What ends a call under way and lets the changer stand, from any thread; `None` of one whose calls never wait.
+    /// Handle that interrupts a pending call and stops the changer, from any thread; `None` if its calls never block.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }

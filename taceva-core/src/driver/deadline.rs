@@ -1,9 +1,9 @@
-//! How long a caller will wait: a value, because there is no clock here.
+//! Deadlines as a remaining time, because this crate reads no clock.
 
 use std::fmt;
 use std::time::Duration;
 
-/// How much time is left for a call to a device.
+/// Time left for a call to a device.
 ///
 /// ```
 /// use std::time::Duration;
@@ -32,12 +32,12 @@ impl Deadline {
         self.remaining
     }
 
-    /// Whether no time is left.
+    /// True if no time is left.
     pub const fn has_passed(self) -> bool {
         self.remaining.is_zero()
     }
 
-    /// What is left of it after `spent`.
+    /// Deadline after `spent` has passed; never negative.
     #[must_use]
     pub const fn less(self, spent: Duration) -> Deadline {
         Deadline::after(self.remaining.saturating_sub(spent))

@@ -4,10 +4,10 @@ use super::DriverError;
 
 /// An enabling switch: held, the robot may move; released, it is halted.
 ///
-/// It is no safety function: what it says passes through an operating system and a program. The switch of the robot's own safety circuit
-/// stays in charge.
+/// It is no safety function: its state passes through an operating system and a program. The switch of the robot's own safety circuit stays
+/// in charge.
 ///
-/// A caller asks at least as often as a release must be noticed, and treats an error as a release.
+/// A caller polls it at least as often as a release must be noticed, and treats an error as a release.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,10 +32,10 @@ use super::DriverError;
 /// assert!(!may_move(&Button::default()));
 /// ```
 pub trait EnablingSwitch: Send + Sync {
-    /// Whether it is held now and was held without a break since the last call: a release is reported once, however short it was. Never
-    /// waits; a switch from which nothing was received yet counts as released.
+    /// True if the switch is held now and was held without a break since the last call. A release is reported once, however short. Never
+    /// blocks; before the first received state the switch counts as released.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `Disconnected` once it is gone, or of the kind that says why its state can no longer be known.
+    /// [`DriverError`] of kind `Disconnected` once it is gone, or of another kind if its state can no longer be known.
     fn is_held(&self) -> Result<bool, DriverError>;
 }

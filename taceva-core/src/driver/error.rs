@@ -1,4 +1,4 @@
-//! Why a device did not do what it was asked.
+//! Errors of calls to devices.
 
 use std::borrow::Cow;
 use std::error::Error;
@@ -8,7 +8,7 @@ use super::Fault;
 use crate::error::ErrorKind;
 use crate::id::DriverKey;
 
-/// A call to a device that failed: what kind of failure, which driver, what it was doing, and what caused it.
+/// A failed call to a device: kind of failure, driver, operation and cause.
 ///
 /// ```
 /// use taceva_core::{DriverError, DriverKey, ErrorKind};
@@ -42,21 +42,21 @@ impl DriverError {
         }
     }
 
-    /// The same error, which the device gave because of `fault`.
+    /// The same error with the `fault` of the device.
     #[must_use]
     pub fn with_fault(mut self, fault: Fault) -> DriverError {
         self.fault = Some(fault);
         self
     }
 
-    /// The same error with what caused it: another error, or a sentence that names the value and what would be accepted.
+    /// The same error with its cause: another error, or a sentence that names the value found and the values accepted.
     #[must_use]
     pub fn because(mut self, source: impl Into<Box<dyn Error + Send + Sync>>) -> DriverError {
         self.source = Some(source.into());
         self
     }
 
-    /// What kind of failure it was.
+    /// Kind of failure.
     pub fn kind(&self) -> ErrorKind {
         self.kind
     }
@@ -71,7 +71,7 @@ impl DriverError {
         &self.driver
     }
 
-    /// What it was doing.
+    /// Failed operation, in words that follow "cannot".
     pub fn doing(&self) -> &str {
         &self.doing
     }

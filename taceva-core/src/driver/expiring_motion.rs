@@ -6,10 +6,9 @@ use super::{Deadline, DriverError, Speed};
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
-/// The ability of a robot to stop when its host stops sending: a command is valid for a short time, and is repeated many times a second.
+/// The ability of a robot to stop when its host stops sending. A command is valid for a short time and repeated many times a second.
 ///
-/// It is meant for motions towards a surface. A robot without it completes the motion that it was given, even if the program that gave it
-/// has ended.
+/// Meant for motions towards a surface. A robot without it completes its motion even if the commanding program has ended.
 ///
 /// ```
 /// use std::time::Duration;
@@ -42,5 +41,5 @@ pub trait ExpiringMotion {
     ) -> Result<Stamp, DriverError>;
 }
 
-/// The longest time for which a robot moves on after the last message of its host; the time in which it brakes is added.
+/// Longest time for which a robot moves on after the last message of its host, without the braking time.
 pub const EXPIRES: Duration = Duration::from_millis(200);

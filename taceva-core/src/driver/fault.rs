@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-/// Why a device stopped by itself, where it says so.
+/// Fault for which a device stopped by itself, as the device reports it.
 ///
-/// A run then leaves the tip where it is: it neither retracts it nor clears the fault, which a person acknowledges at the device.
+/// A run then leaves the tip in place, without retracting it, and does not clear the fault. A person acknowledges it at the device.
 ///
 /// ```
 /// use taceva_core::Fault;
@@ -14,11 +14,11 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Fault {
-    /// Somebody pressed an emergency stop, or a guard opened.
+    /// An emergency stop was pressed, or a safety guard opened.
     EmergencyStop,
-    /// It struck something.
+    /// The robot struck something.
     Collision,
-    /// It reached the limit of its workspace.
+    /// The robot reached the limit of its workspace.
     Boundary,
     /// A servo, a brake or its controller failed.
     Servo,

@@ -1,11 +1,11 @@
-//! Refuses NaN and infinity, in what is sent to a device and in what comes from it.
+//! Rejects NaN and infinity in values sent to a device or received from it.
 
 use std::fmt;
 
 use crate::geometry::Pose;
 use crate::wrench::Wrench;
 
-/// Refuses a pose with a coordinate that is not finite.
+/// Rejects a pose with a coordinate that is not finite.
 ///
 /// # Errors
 /// [`NotFinite`], naming the coordinate.
@@ -21,7 +21,7 @@ pub fn check_pose(pose: &Pose) -> Result<(), NotFinite> {
     ])
 }
 
-/// Refuses a wrench with a component that is not finite.
+/// Rejects a wrench with a component that is not finite.
 ///
 /// # Errors
 /// [`NotFinite`], naming the component.
@@ -44,7 +44,7 @@ fn check(named: &[(&'static str, f64)]) -> Result<(), NotFinite> {
     }
 }
 
-/// A number that is NaN or infinite where a device takes or gives finite ones.
+/// A NaN or infinite number in place of a finite one.
 ///
 /// ```
 /// use taceva_core::{Newton, Wrench, check_wrench};

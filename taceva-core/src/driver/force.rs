@@ -46,10 +46,10 @@ use crate::wrench::Wrench;
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait ForceTransducer: Send {
-    /// Which components it measures; the others are 0 in every reading and mean nothing.
+    /// Components that it measures; the others are 0 in every reading and have no meaning.
     fn axes(&self) -> Axes;
 
-    /// Begins to send readings. A transducer that has nothing to begin does nothing.
+    /// Starts the readings. Does nothing if the transducer needs no start.
     ///
     /// # Errors
     /// As [`Sensor::start`](super::Sensor::start).
@@ -68,8 +68,8 @@ pub trait ForceTransducer: Send {
     /// - `Disconnected` or `EndOfStream` if nothing will come any more.
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError>;
 
-    /// The number that the device itself gave the last reading, where it numbers them: a frozen link or device repeats it, even under a new
-    /// stamp. The numbers may start again; two of them can only be compared for equality.
+    /// Sequence number that the device gave the last reading, if it numbers them. A frozen link or device repeats it, even under a new
+    /// stamp. The numbers may restart, so compare them for equality only.
     fn sequence(&self) -> Option<u64> {
         None
     }
@@ -82,12 +82,12 @@ pub trait ForceTransducer: Send {
         Ok(())
     }
 
-    /// What ends a pending call from another thread; without it a call lasts until its deadline.
+    /// Handle that interrupts a pending call from another thread; without one a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }
 
-    /// Its ability to take the present load as zero, where it has one.
+    /// Tare of the transducer, if it has one.
     fn tare(&mut self) -> Option<&mut dyn Tare> {
         None
     }
@@ -170,7 +170,7 @@ impl Axis {
     /// Every component.
     pub const ALL: [Axis; 6] = [Axis::Fx, Axis::Fy, Axis::Fz, Axis::Tx, Axis::Ty, Axis::Tz];
 
-    /// How the component is written.
+    /// Name of the component, such as `Fz`.
     pub const fn name(self) -> &'static str {
         match self {
             Axis::Fx => "Fx",
@@ -209,12 +209,12 @@ impl Axes {
         Axes(self.0 | 1 << axis as u8)
     }
 
-    /// Whether `axis` is in the set.
+    /// True if `axis` is in the set.
     pub const fn contains(self, axis: Axis) -> bool {
         self.0 & 1 << axis as u8 != 0
     }
 
-    /// Whether the set is empty.
+    /// True if the set is empty.
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }

@@ -55,7 +55,7 @@ pub trait GuardedMotion {
     ) -> Result<GuardedStop, DriverError>;
 }
 
-/// What ends a guarded motion.
+/// Condition that ends a guarded motion.
 ///
 /// ```
 /// use taceva_core::{Guard, Newton};
@@ -75,7 +75,7 @@ impl Guard {
     }
 }
 
-/// How a guarded motion ended. It gets no further variant: what ends it otherwise is an error.
+/// End of a guarded motion. It gets no further variant: every other end is an error.
 ///
 /// ```
 /// use std::time::Duration;
@@ -92,7 +92,7 @@ pub enum GuardedStop {
     },
     /// At the guard.
     Guarded {
-        /// Where it came to rest, beyond the place where the guard was reached.
+        /// Pose at rest, beyond the place where the guard was reached.
         pose: Pose,
         /// When it came to rest.
         stamp: Stamp,

@@ -4,8 +4,8 @@ use super::DriverError;
 
 /// Stops the robot it came from: from any thread, in every state, beside any other call.
 ///
-/// It outlives the robot harmlessly: once that is dropped there is nothing left to stop and the halt succeeds.
-/// It is advisory: software is not a safety function, the emergency stop of the site is.
+/// The handle may outlive the robot: once the robot is dropped, the halt succeeds without effect. It is advisory: software is not a safety
+/// function, the emergency stop of the site is.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,6 +32,6 @@ pub trait Halt: Send + Sync {
     /// Stops the motion within 50 ms and latches, see [`Robot`](super::Robot); never waits for another call to finish.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `Disconnected` if the stop could not be sent; the halt is latched on this side all the same.
+    /// [`DriverError`] of kind `Disconnected` if the stop could not be sent; the halt is still latched on this side.
     fn halt(&self) -> Result<(), DriverError>;
 }

@@ -2,8 +2,8 @@
 
 /// Ends the pending call of the device it came from: from any thread, beside any other call.
 ///
-/// A call that waits returns [`ErrorKind::Interrupted`](crate::ErrorKind::Interrupted) within 50 ms and leaves the device usable; where
-/// none is pending nothing happens. It outlives the device harmlessly.
+/// A waiting call returns [`ErrorKind::Interrupted`](crate::ErrorKind::Interrupted) within 50 ms and leaves the device usable. Without a
+/// pending call nothing happens. The handle may outlive the device.
 ///
 /// ```
 /// use std::sync::mpsc::{SyncSender, sync_channel};
@@ -24,6 +24,6 @@
 /// assert!(receiver.recv().is_ok());
 /// ```
 pub trait Interrupt: Send + Sync {
-    /// Ends the pending call, and never waits for it.
+    /// Ends the pending call, without waiting for its return.
     fn interrupt(&self);
 }

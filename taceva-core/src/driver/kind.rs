@@ -37,7 +37,7 @@ impl DriverKind {
         DriverKind::Changer,
     ];
 
-    /// How the kind is written in manifests and scenes.
+    /// Name of the kind in manifests and scenes.
     pub const fn name(self) -> &'static str {
         match self {
             DriverKind::Sensor => "sensor",
@@ -62,7 +62,7 @@ impl fmt::Display for DriverKind {
 /// assert_eq!(<dyn Robot as Device>::KIND, DriverKind::Robot);
 /// ```
 pub trait Device {
-    /// Its kind.
+    /// Kind of the device.
     const KIND: DriverKind;
 }
 

@@ -36,7 +36,7 @@ use super::{Deadline, DriverError};
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait Lighting: Send {
-    /// The names of the scenes, in the order in which a sweep visits them; the first is the one in which a sensor is calibrated.
+    /// Names of the scenes, in the order of a sweep; the first is the scene of the calibration.
     fn scenes(&self) -> &[String];
 
     /// Sets the scene called `scene` and returns once the light is steady.

@@ -12,7 +12,7 @@ use crate::stamp::Stamp;
 /// Poses in mm and degrees in the sensor's frame; z points into the gel.
 ///
 /// # The physical contract
-/// - Opening moves nothing; the robot holds where it stands.
+/// - Opening moves nothing; the robot holds its position.
 /// - [`move_to`](Robot::move_to) moves the tip along a straight line and blocks until it rests there. No other call moves it.
 /// - [`halt`](Robot::halt) stops the motion and latches: every later move is refused with `Interrupted` until
 ///   [`clear_halt`](Robot::clear_halt). A halt between two moves is therefore never lost.
@@ -79,7 +79,7 @@ pub trait Robot: Send {
     /// [`DriverError`] of kind `Timeout`, `Disconnected`, or `DeviceFault` for a coordinate that is not finite.
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError>;
 
-    /// Moves the tip to `target` along a straight line, blocks until it rests there, and says when it came to rest.
+    /// Moves the tip to `target` along a straight line, blocks until it rests there, and returns the time of arrival.
     ///
     /// If `deadline` passes first, the motion is stopped before the error is returned.
     ///
@@ -89,7 +89,7 @@ pub trait Robot: Send {
     /// - `OutOfRange` for a target outside the workspace or a speed above the greatest; nothing moves,
     /// - `Timeout` if it did not arrive within `deadline`,
     /// - `Interrupted` if it was halted, before or during the motion,
-    /// - `DeviceFault` if it reports a fault; with its [`Fault`](super::Fault) where it is one of those.
+    /// - `DeviceFault` if it reports a fault, with its [`Fault`](super::Fault) if it is one of those.
     fn move_to(
         &mut self,
         target: Pose,
@@ -100,12 +100,12 @@ pub trait Robot: Send {
     /// A handle that stops this robot from any thread, while any other call is under way.
     fn halt_handle(&self) -> Arc<dyn Halt>;
 
-    /// A handle that looks at this robot from any thread while it moves, where it has a second connection for that.
+    /// Handle that watches this robot from any thread while it moves; `None` without a second connection for it.
     fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
         None
     }
 
-    /// Stops the robot; legal in every state, and stopping it twice is stopping it once.
+    /// Stops the robot. Legal in every state and idempotent.
     ///
     /// # Errors
     /// As [`Halt::halt`].
@@ -115,19 +115,19 @@ pub trait Robot: Send {
 
     /// Ends a halt, so that moves are accepted again; without one it does nothing. Nothing moves.
     ///
-    /// It ends the halt of [`halt`](Robot::halt) alone. A [`Fault`](super::Fault) of the device is never cleared: a person looks, and
+    /// Ends the halt of [`halt`](Robot::halt) alone. A [`Fault`](super::Fault) of the device is never cleared: a person looks, and
     /// acknowledges it at the device.
     ///
     /// # Errors
     /// [`DriverError`] of kind `DeviceFault` if the device itself still reports a fault that a person must acknowledge.
     fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError>;
 
-    /// Its ability to stop by itself at a force, where it has one.
+    /// Motion that the robot itself ends at a force; `None` if unsupported.
     fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
         None
     }
 
-    /// Its ability to stop by itself when its host stops sending, where it has one.
+    /// Motion that the robot itself ends when its host stops sending; `None` if unsupported.
     fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
         None
     }

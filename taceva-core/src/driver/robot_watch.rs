@@ -1,12 +1,12 @@
-//! Looking at a robot from another thread.
+//! Watching a robot from another thread.
 
 use super::{Deadline, DriverError};
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
-/// Looks at the robot it came from while that moves: from any thread, beside any other call, over a connection of its own.
+/// Watches its robot while that moves: from any thread, beside any other call, over a separate connection.
 ///
-/// It outlives the robot harmlessly: once that is dropped it answers `Disconnected`.
+/// The handle may outlive the robot; it then returns `Disconnected`.
 ///
 /// ```
 /// use taceva_core::{Deadline, DriverError, Pose, RobotWatch};
@@ -17,12 +17,12 @@ use crate::stamp::Stamp;
 /// }
 /// ```
 pub trait RobotWatch: Send + Sync {
-    /// The present pose of the tip, and when it was there; never waits for a motion.
+    /// The present pose of the tip, and its time; never waits for a motion.
     ///
     /// # Units
     /// As [`Robot::pose`](super::Robot::pose): mm and degrees in the sensor's frame.
     /// # Errors
     /// [`DriverError`] of kind `Timeout` if no pose came within `deadline`, `Disconnected`, or `DeviceFault`, with its
-    /// [`Fault`](super::Fault) where the robot names one.
+    /// [`Fault`](super::Fault) if the robot names one.
     fn pose(&self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError>;
 }

@@ -37,10 +37,10 @@ pub trait Sensor: Send {
     /// Size and format of every frame, from opening to dropping.
     fn frame_info(&self) -> FrameInfo;
 
-    /// Begins to send frames. A sensor that has nothing to begin does nothing.
+    /// Starts the frames. Does nothing if the sensor needs no start.
     ///
     /// # Errors
-    /// [`DriverError`] if the device does not answer within `deadline`, is held by somebody else, or is gone.
+    /// [`DriverError`] if the device does not answer within `deadline`, is in use elsewhere, or is gone.
     fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
         let _ = deadline;
         Ok(())
@@ -59,8 +59,8 @@ pub trait Sensor: Send {
     /// - `Disconnected` or `EndOfStream` if none will come any more.
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
 
-    /// The number of the last frame, where the device or its link counts frames, starting anywhere: a gap between two numbers means frames
-    /// that arrived and were not read in time.
+    /// Sequence number of the last frame, if the device or its link counts frames; it starts anywhere. A gap between two numbers means that
+    /// frames were not read in time.
     fn sequence(&self) -> Option<u64> {
         None
     }
@@ -78,18 +78,18 @@ pub trait Sensor: Send {
         Ok(())
     }
 
-    /// What ends a pending call from another thread; without it a call lasts until its deadline.
+    /// Handle that interrupts a pending call from another thread; without one a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }
 
-    /// The settings of the camera as read back from it, by name, such as `exposure_ms` with `15.7`; a recording keeps them. Empty where none
-    /// is known.
+    /// Settings of the camera as read back from it, by name, such as `exposure_ms` with `15.7`; a recording keeps them. Empty if none is
+    /// known.
     fn settings(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
     }
 
-    /// The light around this sensor, where it can be set.
+    /// Light around this sensor, if it can be set.
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {
         None
     }

@@ -1,4 +1,4 @@
-//! How fast a robot moves.
+//! Speed of a robot.
 
 use std::fmt;
 
@@ -28,7 +28,7 @@ impl Speed {
         }
     }
 
-    /// In mm/s.
+    /// Speed in mm/s.
     pub const fn mm_per_s(self) -> f64 {
         self.0
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// How one pixel is stored. 16-bit samples are little-endian, whatever the machine.
+/// Storage format of one pixel. 16-bit samples are little-endian on every machine.
 ///
 /// ```
 /// use taceva_core::PixelFormat;
@@ -61,7 +61,7 @@ impl PixelFormat {
         }
     }
 
-    /// How the format is written in files.
+    /// Name of the format in files.
     pub const fn name(self) -> &'static str {
         match self {
             PixelFormat::Gray8 => "gray8",
@@ -86,7 +86,7 @@ pub struct FrameInfo {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// How one pixel is stored.
+    /// Storage format of one pixel.
     pub format: PixelFormat,
 }
 

@@ -1,11 +1,11 @@
-//! Why a model could not be fitted or used.
+//! Error of fitting or using a model.
 
 use std::error::Error;
 use std::fmt;
 
 use crate::error::ErrorKind;
 
-/// Why a model could not be fitted or used.
+/// Error of fitting or using a model.
 ///
 /// ```
 /// use taceva_core::{ErrorKind, ModelError};
@@ -20,7 +20,7 @@ pub struct ModelError {
 }
 
 impl ModelError {
-    /// An error of `kind` that says what was being done and on what.
+    /// An error of `kind` with a message that names the operation and its subject.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> ModelError {
         ModelError {
             kind,
@@ -29,14 +29,14 @@ impl ModelError {
         }
     }
 
-    /// The same error with what caused it.
+    /// The same error with its cause.
     #[must_use]
     pub fn because(mut self, source: impl Into<Box<dyn Error + Send + Sync>>) -> ModelError {
         self.source = Some(source.into());
         self
     }
 
-    /// What kind of failure it was.
+    /// Kind of failure.
     pub fn kind(&self) -> ErrorKind {
         self.kind
     }

@@ -38,13 +38,13 @@ impl FeatureShape {
         self.height * self.width * self.depth
     }
 
-    /// Whether a sample has no number.
+    /// True if a sample has no numbers.
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// The features of some samples, sample by sample. Samples that follow each other are a part of the same memory, which a copy shares.
+/// Features of some samples, sample by sample. Copies and consecutive selections share the memory.
 ///
 /// # Shapes
 /// `[samples, height, width, depth]`, contiguous.
@@ -59,7 +59,7 @@ impl FeatureShape {
 pub struct Features {
     shape: FeatureShape,
     memory: Arc<Vec<f32>>,
-    /// Where in the memory the values are.
+    /// Range of the values within the memory.
     place: Range<usize>,
 }
 
@@ -122,10 +122,10 @@ impl Features {
         &self.values()[position * length..(position + 1) * length]
     }
 
-    /// The samples at `positions`, in that order; those that follow each other are not copied.
+    /// Samples at `positions`, in that order. Nothing is copied if all positions are consecutive.
     ///
     /// # Panics
-    /// If there is no sample at one of them.
+    /// If a position is out of range.
     pub fn select(&self, positions: &[usize]) -> Features {
         let follow = |pair: &[usize]| pair[1] == pair[0] + 1;
         if let (Some(first), Some(last)) = (positions.first(), positions.last())
@@ -147,7 +147,7 @@ impl Features {
         Features::of(self.shape, values.collect())
     }
 
-    /// These samples and then those of `other`; where these lie before those in the same memory, nothing is copied.
+    /// Concatenates these samples and those of `other`. Nothing is copied if both are adjacent in the same memory.
     ///
     /// ```
     /// use taceva_core::{FeatureShape, Features};

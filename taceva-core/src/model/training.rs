@@ -1,9 +1,9 @@
-//! What a model learns from.
+//! Training data of a model.
 
 use super::Features;
 use crate::channel::Channels;
 
-/// What should be predicted, sample by sample.
+/// Values to predict, sample by sample.
 ///
 /// # Shapes
 /// `values`: `[samples, channels]`.
@@ -18,14 +18,14 @@ use crate::channel::Channels;
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Targets<'a> {
-    /// What each column means.
+    /// Channel of each column.
     pub channels: &'a Channels,
     /// Every value is finite.
     pub values: &'a [f64],
 }
 
 impl<'a> Targets<'a> {
-    /// A value of each of `channels`, sample by sample; an estimator refuses `values` whose number does not fit the samples of its features.
+    /// Targets with one value per channel, sample by sample. An estimator rejects `values` whose number does not match its samples.
     pub const fn new(channels: &'a Channels, values: &'a [f64]) -> Targets<'a> {
         Targets { channels, values }
     }
@@ -47,9 +47,9 @@ impl<'a> Targets<'a> {
 pub struct TrainingSet<'a> {
     /// The features of each sample.
     pub features: &'a Features,
-    /// What should be predicted for each sample.
+    /// Targets of each sample.
     pub targets: Targets<'a>,
-    /// Which samples belong together, one number per sample; for settings chosen by leaving one group out.
+    /// Group of each sample, one number per sample, for settings chosen by leaving one group out.
     pub groups: Option<&'a [u32]>,
 }
 

@@ -4,8 +4,8 @@ use super::{STEP, finalise, mix, scaled, unit};
 
 /// The random numbers of one key, each looked up by its counter.
 ///
-/// Number `n` is what [`SplitMix64`](super::SplitMix64) gives at step n + 1 from the key as its state, so that any of them can be had
-/// without those before it.
+/// Number `n` equals that of [`SplitMix64`](super::SplitMix64) at step n + 1 from the key as its state. Each can be computed without those
+/// before it.
 ///
 /// ```
 /// use taceva_core::random::Draws;
@@ -20,7 +20,7 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// The numbers of `key`, which is a seed or what [`mix`] made of one.
+    /// The numbers of `key`, a seed or the result of [`mix`].
     #[inline]
     #[must_use]
     pub const fn new(key: u64) -> Draws {
@@ -48,12 +48,12 @@ impl Draws {
         unit(self.bits(counter))
     }
 
-    /// A normal number of mean 0 and variance 1 (Box and Muller), from the numbers 2 · `counter` and 2 · `counter` + 1. Its last places are
-    /// those of the platform's logarithm and cosine.
+    /// A normal number of mean 0 and variance 1 (Box and Muller), from the numbers 2 · `counter` and 2 · `counter` + 1. Its last digits
+    /// depend on the platform's logarithm and cosine.
     #[must_use]
     pub fn normal(self, counter: u64) -> f64 {
         let (first, second) = (self.unit(2 * counter), self.unit(2 * counter + 1));
-        // 1 − u lies in (0, 1], so that its logarithm is finite.
+        // 1 − u is in (0, 1], so its logarithm is finite.
         (-2.0 * (1.0 - first).ln()).sqrt() * (std::f64::consts::TAU * second).cos()
     }
 

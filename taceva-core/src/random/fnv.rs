@@ -1,4 +1,4 @@
-/// FNV-1a hash of no byte.
+/// FNV-1a hash of the empty input.
 ///
 /// ```
 /// use taceva_core::random::{FNV_OFFSET, fnv_1a};
@@ -17,7 +17,7 @@ pub fn fnv_1a(bytes: &[u8]) -> u64 {
     fnv_1a_after(FNV_OFFSET, bytes)
 }
 
-/// FNV-1a hash of `bytes` behind those whose hash is `hash`.
+/// FNV-1a hash of `bytes` appended to those with the hash `hash`.
 ///
 /// ```
 /// use taceva_core::random::{fnv_1a, fnv_1a_after};

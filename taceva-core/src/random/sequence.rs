@@ -39,7 +39,7 @@ impl SplitMix64 {
         unit(self.next_u64())
     }
 
-    /// A number below `bound`, each with the same probability: words that would favour some are discarded.
+    /// A number below `bound`, all equally likely: words that would bias the result are discarded.
     ///
     /// # Panics
     /// If `bound` is zero.
@@ -54,7 +54,7 @@ impl SplitMix64 {
         }
     }
 
-    /// Brings `items` into a random order (Fisher and Yates), each as likely.
+    /// Shuffles `items`, with all orders equally likely (Fisher and Yates).
     pub fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             items.swap(last, self.below(last + 1));

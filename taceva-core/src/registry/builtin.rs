@@ -2,7 +2,7 @@
 
 use super::{DescriptorError, Factory};
 
-/// A driver that is linked in: how to make its factory.
+/// A linked-in driver: the function that makes its factory.
 ///
 /// With the feature `inventory`, `submit_builtin!` puts it on the list of the program, which `Registry::builtin` reads.
 ///
@@ -38,12 +38,12 @@ pub struct Builtin<D: ?Sized + 'static> {
 }
 
 impl<D: ?Sized + 'static> Builtin<D> {
-    /// A driver whose factory `make` makes.
+    /// A driver with the factory of `make`.
     pub const fn new(make: fn() -> Result<Box<dyn Factory<D>>, DescriptorError>) -> Builtin<D> {
         Builtin { make }
     }
 
-    /// Its factory.
+    /// Factory of the driver.
     ///
     /// # Errors
     /// [`DescriptorError`] if the driver contradicts itself.

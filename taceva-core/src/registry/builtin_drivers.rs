@@ -1,4 +1,4 @@
-//! The list of the drivers that are linked into the program.
+//! List of the drivers that are linked into the program.
 
 use super::{Builtin, Registry, RegistryError};
 use crate::driver::{Changer, Device, ForceTransducer, Lighting, Robot, Sensor};
@@ -13,9 +13,9 @@ impl<D: Device + ?Sized + 'static> Registry<D>
 where
     Builtin<D>: inventory::Collect,
 {
-    /// The drivers of this kind that are linked in. The list of the program has no order; the registry has.
+    /// The linked-in drivers of this kind. The list of the program has no order; the registry has.
     ///
-    /// A crate that is named in `Cargo.toml` and nowhere in the code is not linked, and its drivers are missing without a message:
+    /// A crate that is named in `Cargo.toml` and nowhere in the code is not linked, and its drivers are silently missing.
     /// `use the_crate as _;` keeps them.
     ///
     /// # Errors
@@ -29,7 +29,7 @@ where
     }
 }
 
-/// Adds a driver to those that are linked in: the device trait, then a `fn` that makes its factory.
+/// Adds a linked-in driver: the device trait, then a `fn` that makes its factory.
 ///
 /// `submit_builtin!(dyn Sensor, || Ok(Box::new(Replay::new()?)));`
 #[macro_export]

@@ -30,9 +30,9 @@ pub struct DescriptorSpec {
     pub key: DriverKey,
     /// The name that people call the device.
     pub title: String,
-    /// Where its readings come from.
+    /// Source of its readings: real, simulated or recorded.
     pub source: DriverSource,
-    /// What is known about it.
+    /// Facts about the device.
     pub facts: Facts,
     /// The arguments that it takes when it is opened.
     pub arguments: Vec<ArgSpec>,
@@ -62,7 +62,7 @@ impl DescriptorSpec {
         self
     }
 
-    /// The description, if nothing in it is impossible or contradicts something else.
+    /// Checks the description for impossible or contradictory entries.
     ///
     /// # Errors
     /// [`DescriptorError`], naming the first contradiction.
@@ -238,12 +238,12 @@ impl Descriptor {
         self.spec.facts.kind()
     }
 
-    /// Where its readings come from.
+    /// Source of its readings: real, simulated or recorded.
     pub fn source(&self) -> DriverSource {
         self.spec.source
     }
 
-    /// What is known about it.
+    /// Facts about the device.
     pub fn facts(&self) -> &Facts {
         &self.spec.facts
     }

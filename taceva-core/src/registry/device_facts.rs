@@ -1,4 +1,4 @@
-//! What is known about a device before it is connected.
+//! Facts about a device before it is connected.
 
 mod changer;
 mod force;
@@ -16,7 +16,7 @@ pub use robot::RobotFacts;
 pub use sensor::SensorFacts;
 pub use workspace::Workspace;
 
-/// The facts of a device of each kind. A fact that is `None` is not known, and none is assumed in its place.
+/// Facts of a device, by its kind. A fact of `None` is unknown, and no value is assumed for it.
 ///
 /// ```
 /// use taceva_core::{DriverKind, Facts, RobotFacts};
@@ -25,20 +25,20 @@ pub use workspace::Workspace;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Facts {
-    /// Of a sensor.
+    /// Facts of a sensor.
     Sensor(Box<SensorFacts>),
-    /// Of a robot.
+    /// Facts of a robot.
     Robot(RobotFacts),
-    /// Of a force transducer.
+    /// Facts of a force transducer.
     Force(ForceFacts),
-    /// Of a lighting.
+    /// Facts of a lighting.
     Lighting(LightingFacts),
-    /// Of a changer.
+    /// Facts of a changer.
     Changer(ChangerFacts),
 }
 
 impl Facts {
-    /// The kind they are facts of.
+    /// Kind of the device.
     pub fn kind(&self) -> DriverKind {
         match self {
             Facts::Sensor(_) => DriverKind::Sensor,

@@ -16,16 +16,16 @@ use crate::id::DriverKey;
 pub struct Found {
     /// The driver that would open it.
     pub driver: DriverKey,
-    /// What it calls itself, with control characters written out.
+    /// Name that the device reports, with control characters escaped.
     pub title: String,
     /// The arguments that choose it among several of its kind: `serial=D20042`.
     pub arguments: String,
-    /// Whether it could be opened.
+    /// Access to the device.
     pub access: Access,
 }
 
 impl Found {
-    /// A device that `driver` could open now, and that needs no argument to be told from others.
+    /// A device that `driver` could open now, without arguments to distinguish it from others.
     pub fn new(driver: DriverKey, title: impl Into<String>) -> Found {
         Found {
             driver,
@@ -44,14 +44,14 @@ impl Found {
         }
     }
 
-    /// The same device with whether it could be opened.
+    /// The same device with `access`.
     #[must_use]
     pub fn with_access(self, access: Access) -> Found {
         Found { access, ..self }
     }
 }
 
-/// Whether a device that is seen could be opened.
+/// Access to a device that a driver sees.
 ///
 /// ```
 /// use taceva_core::Access;
@@ -61,14 +61,14 @@ impl Found {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Access {
-    /// It could.
+    /// The device can be opened.
     Ready,
     /// This user may not open it.
     Denied {
-        /// What would change that.
+        /// Action that would permit it.
         remedy: String,
     },
-    /// Somebody else holds it.
+    /// Another program holds the device.
     Busy,
 }
 

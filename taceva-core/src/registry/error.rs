@@ -1,4 +1,4 @@
-//! Why a driver could not be added or found.
+//! Errors of adding and finding drivers.
 
 use crate::printable::shown;
 use std::fmt;
@@ -18,13 +18,13 @@ use crate::id::DriverKey;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RegistryError {
-    /// Nobody registered that name.
+    /// No driver is registered under that name.
     Unknown {
-        /// Of which kind.
+        /// Kind of driver that was requested.
         kind: DriverKind,
         /// The name as the user wrote it.
         key: String,
-        /// The known name that is most like it, if one is.
+        /// Most similar known name, if any.
         nearest: Option<String>,
         /// Every known name.
         known: Vec<DriverKey>,
@@ -33,9 +33,9 @@ pub enum RegistryError {
     Twice {
         /// The name.
         key: DriverKey,
-        /// The title of the one that was there.
+        /// Title of the driver that was registered.
         first: String,
-        /// The title of the one that came.
+        /// Title of the driver that was rejected.
         second: String,
     },
     /// A driver among those of another kind.

@@ -1,10 +1,10 @@
-//! What opens a device.
+//! Factories, which open devices.
 
 use super::{Descriptor, DescriptorError, Found, Rig};
 use crate::args::Args;
 use crate::driver::DriverError;
 
-/// A driver that is not opened yet; `D` is what it opens, such as `dyn Sensor`.
+/// A driver that opens devices of type `D`, such as `dyn Sensor`.
 ///
 /// ```
 /// use taceva_core::{
@@ -36,10 +36,10 @@ use crate::driver::DriverError;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Factory<D: ?Sized>: Send + Sync {
-    /// What is known before anything is opened, whatever the arguments.
+    /// Description of the unopened device, for any arguments.
     fn descriptor(&self) -> &Descriptor;
 
-    /// What is known before anything is opened, with these arguments: the size of the frames that they ask for.
+    /// Description of the unopened device with these arguments, such as the size of the frames that they set.
     ///
     /// # Errors
     /// [`DescriptorError`] if the arguments contradict each other or the device.
@@ -50,7 +50,7 @@ pub trait Factory<D: ?Sized>: Send + Sync {
 
     /// Opens the device. Nothing moves, and no light changes.
     ///
-    /// `args` are those that [`descriptor`](Factory::descriptor) declares; devices of one `rig` may share what they need.
+    /// `args` are declared by [`descriptor`](Factory::descriptor); devices of one `rig` may share resources.
     ///
     /// # Errors
     /// [`DriverError`] of kind `NotFound`, `PermissionDenied`, `Busy`, `InvalidArgument`, `Protocol`, `Timeout` or `Unsupported`.
@@ -64,8 +64,8 @@ pub trait Factory<D: ?Sized>: Send + Sync {
         Ok(Vec::new())
     }
 
-    /// The digest of the library that it is in, `sha256:` and 64 hexadecimal digits; `None` where it is linked into the program. Results
-    /// that were kept of one build are not used for another.
+    /// Digest of its library, `sha256:` and 64 hexadecimal digits; `None` if it is linked into the program. Results of one build are not
+    /// used for another.
     ///
     /// # Errors
     /// [`DriverError`] if the library cannot be read.

@@ -1,4 +1,4 @@
-//! What the devices of one rig share.
+//! Resources that the devices of one rig share.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -30,14 +30,14 @@ impl Rig {
         Rig::default()
     }
 
-    /// The thing called `name`, made by `make` the first time it is asked for.
+    /// Returns the shared object `name`. `make` creates it at the first request.
     ///
-    /// The name contains whatever distinguishes two of one kind: `tcp 192.168.1.10:502`.
+    /// The name contains everything that distinguishes two objects of one kind: `tcp 192.168.1.10:502`.
     ///
     /// # Errors
-    /// What `make` returns; nothing is kept then.
+    /// The error of `make`; nothing is stored then.
     /// # Panics
-    /// If another type is kept under that name: two drivers whose code chose one name.
+    /// If an object of another type has that name: the code of two drivers uses one name.
     pub fn share<T: Any + Send + Sync>(
         &mut self,
         name: &str,
@@ -59,7 +59,8 @@ impl Rig {
 
     /// Makes a simulated bench known; it replaces one of that name.
     ///
-    /// The name is what its drivers' keys have before their last `/`, a space, and what they are opened with as `rig`: `sim bench`.
+    /// The name is the part of its drivers' keys before the last `/`, a space, and the argument `rig` with which they are opened:
+    /// `sim bench`.
     pub fn offer_bench(&mut self, name: &str, bench: Arc<dyn SimulatedBench>) {
         self.benches.insert(name.to_owned(), bench);
     }

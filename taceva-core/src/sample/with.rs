@@ -1,4 +1,4 @@
-//! A sample made field by field, so that code that makes one still compiles when a field is added.
+//! Setters for single fields of a sample, so that callers still compile when a field is added.
 
 use super::{Readings, Sample};
 use crate::frame::Frame;
@@ -10,7 +10,7 @@ use crate::signals::Signals;
 use crate::stamp::Stamp;
 
 impl Sample {
-    /// A sample called `id`, all of whose other fields are empty.
+    /// A sample called `id`, with all other fields empty.
     pub fn new(id: impl Into<String>) -> Sample {
         Sample {
             id: id.into(),
@@ -67,14 +67,14 @@ impl Sample {
         self
     }
 
-    /// The same sample with the limit that kept the tip from where it was sent.
+    /// The same sample with the limit that kept the tip from its target.
     #[must_use]
     pub fn with_limited_by(mut self, limited_by: impl Into<Option<Limit>>) -> Sample {
         self.limited_by = limited_by.into();
         self
     }
 
-    /// The same sample with when it was taken.
+    /// The same sample with its time.
     #[must_use]
     pub fn with_stamp(mut self, stamp: impl Into<Option<Stamp>>) -> Sample {
         self.stamp = stamp.into();

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::SignalInfo;
 
-/// Why numbers are not the signals of a sensor.
+/// Rejection of numbers as signals of a sensor.
 ///
 /// ```
 /// use taceva_core::{SignalError, SignalInfo, Unit};
@@ -22,12 +22,12 @@ pub enum SignalError {
     Count {
         /// The grid.
         info: SignalInfo,
-        /// How many numbers there are.
+        /// Count of numbers found.
         found: usize,
     },
     /// A number that is not finite.
     NotFinite {
-        /// Which one, from 0, place first.
+        /// Index of the number, from 0, place first.
         position: usize,
         /// The number as text.
         found: String,

@@ -1,10 +1,10 @@
-//! A unit that labels may arrive in, and its conversion to the unit they are kept in.
+//! A unit of incoming labels, and its conversion to the stored unit.
 
 use std::fmt;
 
 use super::Unit;
 
-/// A unit that labels may arrive in, with its conversion to the unit they are kept in.
+/// A unit of incoming labels, and its conversion to the stored unit.
 ///
 /// # Units
 /// [`convert`](SourceUnit::convert) rounds once, so `m → mm` multiplies and `um → mm` divides.
@@ -130,7 +130,7 @@ impl SourceUnit {
     /// The unit written as `symbol`; case matters, because `mN` is not `MN`.
     ///
     /// # Errors
-    /// [`UnitError`], listing what would be accepted.
+    /// [`UnitError`], listing the accepted symbols.
     pub fn parse(symbol: &str) -> Result<SourceUnit, UnitError> {
         SOURCE_UNITS
             .iter()
@@ -155,14 +155,13 @@ impl SourceUnit {
         self.symbol
     }
 
-    /// The unit that values are kept in after conversion.
+    /// Unit of the values after conversion.
     pub const fn unit(&self) -> Unit {
         self.unit
     }
 
-    /// By how many places the decimal point moves in the conversion to the unit that values are kept in; `None` where the factor is no
-    /// power of ten. A text whose point was moved before it was read is rounded once, a value that was read and then
-    /// converted twice.
+    /// Shift of the decimal point in the conversion to the stored unit, places; `None` if the factor is no power of ten. Shifting the point
+    /// of a text before parsing rounds once; parsing and then converting rounds twice.
     pub fn decimal_shift(&self) -> Option<i32> {
         let find = |factor: f64| {
             let powers: [(f64, i32); 7] = [
@@ -184,7 +183,7 @@ impl SourceUnit {
         }
     }
 
-    /// `value` in the unit it is kept in, rounded once.
+    /// Converts `value` to the stored unit, rounded once.
     pub fn convert(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Times(factor) => value * factor,

@@ -1,4 +1,4 @@
-//! What reading the columns takes: the bandwidth of the memory, which no kernel can exceed.
+//! Time to read the columns: the memory bandwidth, which no kernel can exceed.
 
 use taceva_core::Isa;
 
@@ -8,8 +8,8 @@ use crate::pair::Paired;
 /// Sums that are in flight at once, so that no addition waits for the one before.
 const IN_FLIGHT: usize = 4;
 
-/// The rounded sum of all values of both columns, with eight vector sums in flight on the widest vectors there are: reading
-/// the columns from memory takes at least this long, whatever is made of them.
+/// Rounded sum of all values of both columns, with eight vector sums in flight on the widest available vectors. Its run time is the lower
+/// bound for reading the columns from memory.
 pub fn stream_sum(pairs: Paired<&[f64]>) -> f64 {
     let widest = Isa::available().into_iter().find_map(Machine::with);
     widest.unwrap_or_else(Machine::detect).run(Reading(pairs))

@@ -1,9 +1,9 @@
-//! Test inputs as cases: a few numbers from which every machine makes the same columns, bit for bit.
+//! Test inputs as cases: few numbers from which every machine makes bit-identical columns.
 
 use super::numbers::Numbers;
 use crate::pair::Paired;
 
-/// How to make two columns. A plain value, which gets no further fields.
+/// Recipe for two columns. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::bench::{Kind, Order, Case};
@@ -13,17 +13,17 @@ use crate::pair::Paired;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
-    /// What the values are like.
+    /// Kind of values.
     pub kind: Kind,
-    /// How many.
+    /// Number of rows.
     pub rows: usize,
-    /// Where the generator starts.
+    /// Seed of the generator.
     pub seed: u64,
-    /// In which order they stand.
+    /// Order of the rows.
     pub order: Order,
 }
 
-/// What the values are like; y is drawn first, then ŷ; `noise` is about the standard deviation of ŷ − y, or of ŷ / y.
+/// Kind of values. y is drawn first, then ŷ; `noise` is about the standard deviation of ŷ − y, or of ŷ / y.
 ///
 /// ```
 /// use taceva_metrics::bench::{Case, Kind, Order};
@@ -44,7 +44,7 @@ pub enum Kind {
     },
     /// The same far from zero, where the textbook's SST cancels.
     Offset {
-        /// How far from zero.
+        /// Distance from zero.
         offset: f64,
         /// The least y before.
         low: f64,
@@ -123,7 +123,7 @@ pub enum Kind {
     },
 }
 
-/// In which order rows stand.
+/// Order of rows.
 ///
 /// ```
 /// use taceva_metrics::bench::Order;

@@ -1,4 +1,4 @@
-//! Running sums that round, and some that make up for it.
+//! Running sums with rounding, some of them compensated.
 
 /// A sum that numbers are added to one by one.
 pub(super) trait RunningSum: Copy + Default {
@@ -87,7 +87,7 @@ impl RunningSum for Neumaier {
     }
 }
 
-/// The sum of `term` of all rows, halves added to halves; up to 128 rows from the first to the last, as numpy does.
+/// The sum of `term` over all rows, recursively in halves; up to 128 rows in order, as numpy does.
 pub(super) fn pairwise<T: Copy>(rows: &[T], term: &impl Fn(T) -> f64) -> f64 {
     if rows.len() <= 128 {
         return rows.iter().fold(0.0, |sum, &row| sum + term(row));

@@ -1,13 +1,12 @@
-//! How many decimal digits of a result are right.
+//! Number of correct decimal digits of a result.
 
-/// What [`digits`] gives where every bit is right.
+/// Result of [`digits`] for a value that is correct to the last bit.
 pub const ALL_DIGITS: f64 = 17.3;
 
 /// The number of decimal digits in which `value` agrees with `truth`: −log₁₀(|value − truth| / |truth|).
 ///
-/// From 0, where nothing is right, to [`ALL_DIGITS`], where everything is. Of a truth of zero the magnitude of `value` counts
-/// instead of the ratio. It is the log relative error by which NIST's Statistical Reference Datasets are judged (McCullough
-/// 1998).
+/// The result is between 0 (no correct digit) and [`ALL_DIGITS`]. For a truth of zero, the magnitude of `value` replaces the ratio. This is
+/// the log relative error of NIST's Statistical Reference Datasets (McCullough 1998).
 ///
 /// ```
 /// use taceva_metrics::bench::{ALL_DIGITS, digits};
@@ -29,7 +28,7 @@ pub fn digits(value: f64, truth: f64) -> f64 {
     if digits > 0.0 {
         digits.min(ALL_DIGITS)
     } else {
-        // Also for what is no number, and never −0.
+        // Also for NaN, and never −0.
         0.0
     }
 }

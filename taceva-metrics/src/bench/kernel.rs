@@ -1,4 +1,4 @@
-//! The ways to sum.
+//! Summation algorithms.
 
 use taceva_core::Isa;
 
@@ -13,9 +13,9 @@ use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
 use crate::families::accuracy::pairs::value_of;
 use crate::pair::Paired;
 
-/// A way to form MAE, R² and sMAPE of two columns.
+/// An algorithm for MAE, R² and sMAPE of two columns.
 ///
-/// All but [`Exact`](Kernel::Exact) round at every step, each as a library that sums so would.
+/// All but [`Exact`](Kernel::Exact) round at every step, as a library with the same sums would.
 ///
 /// ```
 /// use taceva_metrics::bench::Kernel;
@@ -43,7 +43,7 @@ pub enum Kernel {
 }
 
 impl Kernel {
-    /// Those that this machine can run, the exact ones last, of these the widest vectors first.
+    /// Kernels that this machine can run, the exact ones last and of these the widest vectors first.
     pub fn available() -> Vec<Kernel> {
         let rounding = [
             Kernel::Naive,
@@ -72,7 +72,7 @@ impl Kernel {
         }
     }
 
-    /// Whether sums are not rounded before the end.
+    /// True if sums are rounded only at the end.
     pub fn is_exact(self) -> bool {
         matches!(self, Kernel::Exact(_))
     }
@@ -112,12 +112,12 @@ impl Kernel {
         }
     }
 
-    /// Tells kernels that sum so that the order of rows cannot change a bit. A few shuffles that agree show nothing.
+    /// True if the order of rows cannot change a bit of the result. Agreement of a few shuffles would be no evidence.
     pub fn is_order_free(self) -> bool {
         self.is_exact()
     }
 
-    /// The true scores of the definitions: sums in whole numbers by code of their own, so that no kernel is measured by itself.
+    /// True scores of the definitions, from integer sums in separate code, so that no kernel is measured against itself.
     pub fn truth(pairs: Paired<&[f64]>) -> Scores {
         reference::scores(pairs)
     }
@@ -138,7 +138,7 @@ fn spec(streams: Streams) -> PairSpec {
     }
 }
 
-/// The sums of `pairs` on `isa`, or on what there is: that changes the time and not the result.
+/// Sums of `pairs` on `isa`, or on another set if it is missing; the choice changes the time and not the result.
 fn exact(isa: Isa, streams: Streams, pairs: Paired<&[f64]>) -> PairSums {
     let machine = Machine::with(isa).unwrap_or_else(Machine::detect);
     let mut sums = PairSums::with_machine(spec(streams), machine);

@@ -2,8 +2,7 @@
 
 use taceva_core::random::SplitMix64;
 
-/// Numbers of one case. Whole ones are remainders, as in the generator of the golden vectors: some are more likely than others, by less
-/// than 2⁻³².
+/// Numbers of one case. Whole numbers are remainders, as in the generator of the golden vectors, with a bias below 2⁻³².
 #[derive(Debug)]
 pub(super) struct Numbers(SplitMix64);
 
@@ -17,7 +16,7 @@ impl Numbers {
         self.0.next_u64() % bound
     }
 
-    /// Brings `list` into another order.
+    /// Shuffles `list`.
     pub(super) fn shuffle<T>(&mut self, list: &mut [T]) {
         for last in (1..list.len()).rev() {
             let other = self.below(last as u64 + 1);
@@ -28,7 +27,7 @@ impl Numbers {
         }
     }
 
-    /// From 0 up to 1, which is left out: a multiple of 2⁻⁵³.
+    /// A number in 0..1: a multiple of 2⁻⁵³.
     pub(super) fn unit(&mut self) -> f64 {
         self.0.unit()
     }

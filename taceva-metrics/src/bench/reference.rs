@@ -1,4 +1,4 @@
-//! True scores in whole numbers, written apart from the sums that are measured by them.
+//! True scores in integers, in code independent of the measured sums.
 //!
 //! Residuals and terms of sMAPE are those of the definitions, rounded once each. They are whole multiples of the least denormal number, so their sums
 //! and squares are whole numbers too, and nothing is rounded before the end.
@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use super::scores::Scores;
 use crate::pair::Paired;
 
-/// The power of two that the last place of every value is a multiple of.
+/// Exponent of two of which every value is a multiple.
 const LEAST: i32 = -1074;
 
 /// The true scores of `pairs`.
@@ -149,7 +149,7 @@ impl Whole {
     }
 }
 
-/// The binary64 nearest to `above / below` × 2^`unit`; `None` where there is none.
+/// The binary64 nearest to `above / below` × 2^`unit`; `None` if `below` is zero or the result is not finite.
 fn ratio(above: &Whole, below: &Whole, unit: i32) -> Option<f64> {
     if below.digits.is_empty() {
         return None;
@@ -157,7 +157,7 @@ fn ratio(above: &Whole, below: &Whole, unit: i32) -> Option<f64> {
     if above.digits.is_empty() {
         return Some(0.0);
     }
-    // Seventy bits of the quotient, one after the other as by hand, and whether anything is left.
+    // Seventy bits of the quotient by long division, and a flag for a remainder.
     let up = (70 + below.bits()).saturating_sub(above.bits());
     let mut rest = Vec::new();
     let raised = above.raised(up);

@@ -1,6 +1,6 @@
-//! Scores that a kernel found.
+//! Scores that a kernel computed.
 
-/// What a kernel found; `None` where it found no number. A plain value, which gets no further fields.
+/// Scores that a kernel computed; `None` if the result was no finite number. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::{Paired, bench::Kernel};

@@ -1,4 +1,4 @@
-//! The scores as libraries form them: rounded at every step.
+//! Scores as libraries compute them: rounded at every step.
 
 use super::compensation::{RunningSum, pairwise};
 use super::scores::Scores;

@@ -1,4 +1,4 @@
-//! Which values of a metric or of a variant are good, by its name.
+//! Good direction of a metric or of a variant, by its name.
 
 use super::find;
 use crate::score::direction::Better;
@@ -17,7 +17,7 @@ impl Better {
         find(id).map(|metric| metric.better_of(variant))
     }
 
-    /// The name of a metric or variant with its sign; a name that is not in the catalogue as it is.
+    /// Name of a metric or variant with its sign; a name outside the catalogue is returned unchanged.
     #[must_use]
     pub fn named(name: &str) -> String {
         Better::of(name).map_or_else(|| name.to_owned(), |better| better.beside(name))

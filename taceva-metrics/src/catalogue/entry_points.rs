@@ -36,10 +36,10 @@ impl Evaluator {
 }
 
 impl Evaluation {
-    /// The scores of `parts` as one evaluation, in the order of reports; what none of them has is in `skipped`.
+    /// The scores of `parts` as one evaluation, in the order of reports; `skipped` are the metrics of no part.
     ///
-    /// For metrics that are computed on samples of their own each: nothing is merged. Scores of every part have the standing that the skill of
-    /// their channels gives them, whichever part that is in.
+    /// For metrics computed on different samples: nothing is merged. Scores have the standing by the skill of their channels, in whichever
+    /// part that skill is.
     pub fn joined(
         parts: impl IntoIterator<Item = Evaluation>,
         skipped: Vec<Skipped>,

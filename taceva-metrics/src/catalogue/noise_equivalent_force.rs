@@ -1,4 +1,4 @@
-//! The force that noise of the prediction amounts to.
+//! Force equivalent of the noise of predictions.
 
 use taceva_core::Unit;
 
@@ -13,7 +13,7 @@ use crate::score::theme::Theme;
 use crate::score::value::Finished;
 use crate::stats::noncentral::{critical_factor, detection_factor};
 
-/// k_α + k_β of Currie for risks of 5 % each where the deviation is known: 2 × 1.645.
+/// k_α + k_β of Currie for risks of 5 % each and a known deviation: 2 × 1.645.
 const KNOWN_DEVIATION: f64 = 3.29;
 /// The 97.5 % quantile of the normal distribution.
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;

@@ -1,4 +1,4 @@
-//! How far predictions of the same press scatter.
+//! Scatter of the predictions of one press.
 
 use taceva_core::Unit;
 

@@ -1,4 +1,4 @@
-//! A softer gel yields more, which is no merit by itself: the score describes. How far the gel yields per newton.
+//! Compliance of the gel. A softer gel yields more, which is no merit by itself, so the score only describes.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 

@@ -1,4 +1,4 @@
-//! Skill: how much better than a constant.
+//! Skill: improvement over a constant.
 
 use crate::evaluate::family::{Details, Output};
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
@@ -50,7 +50,7 @@ const STREAMS: Streams = Streams::of(&[Stream::Squared, Stream::Truth, Stream::T
 
 /// RN(1 − Σ Sdd / Σ Scc) over the axes, Scc = Syy − 2 c Sy + n c² about the constant c, or Syy − Sy² / n about the mean of truth.
 ///
-/// Each axis brings the pairs that it has; where both have all of them, Sdd and Scc are sums of squared distances in the plane.
+/// Each axis counts its own pairs. If both axes have all pairs, Sdd and Scc are sums of squared distances in the plane.
 fn skill(axes: &[Axis<'_>]) -> Finished {
     let mut total = Parts {
         scale: Dyadic::from(1),
@@ -68,13 +68,13 @@ fn skill(axes: &[Axis<'_>]) -> Finished {
     Ok((&total.spread - &total.unexplained).over(&total.spread))
 }
 
-/// The constant that a channel is measured by, as a number: the given one, or the mean of truth.
+/// Constant that a channel is compared with, as a number: the given one, or the mean of truth.
 fn constant(axis: Axis<'_>) -> Option<f64> {
     let mean = || (axis.sums.n() > 0).then(|| axis.sums.mean(Stream::Truth));
     axis.constant.or_else(mean)
 }
 
-/// The constant of one channel, and whether it is the mean of truth.
+/// The constant of one channel, flagged if it is the mean of truth.
 fn details(axes: &[Axis<'_>], output: &Output) -> Details {
     let is_mean = axes.iter().any(|axis| axis.constant.is_none());
     let variants = match axes[..] {
@@ -123,7 +123,7 @@ impl Parts {
         }
     }
 
-    /// Both together, on a common scale.
+    /// Sum of both, on a common scale.
     fn and(&self, other: &Parts) -> Parts {
         let joined =
             |own: &Dyadic, others: &Dyadic| &(own * &other.scale) + &(others * &self.scale);

@@ -1,4 +1,4 @@
-//! How alike the gel yields everywhere.
+//! Uniformity of the gel's compliance over its surface.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
@@ -49,10 +49,10 @@ pub(crate) static UNIFORMITY: Metric = Metric {
     ..Metric::of(&SURFACE)
 };
 
-/// The variant that verdicts go by.
+/// Variant that decides verdicts.
 const DEBIASED: &str = "debiased";
 
-/// Samples per cell from which on a cell counts for the variant `n_min_5`, beside the paper's least of one.
+/// Least samples of a cell for the variant `n_min_5`; the paper's least is one.
 const WELL_SAMPLED: u64 = 5;
 
 /// U = RN(1 / (1 + σ/|μ|)) over the cells with at least `n_min` samples.
@@ -92,7 +92,7 @@ fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
         )
 }
 
-/// The debiased uniformity and its interval, where it is known which samples belong to one contact point.
+/// The debiased uniformity and its interval, if the samples of each contact point are known.
 fn of_clusters(clusters: &[&SurfaceSums], settings: &Settings) -> Intervals {
     let cells = clusters.iter().map(|sums| {
         let cells = sums.cells.iter();

@@ -1,4 +1,4 @@
-//! A name that no metric has.
+//! Unknown names of metrics.
 
 use std::error::Error;
 use std::fmt;

@@ -1,4 +1,4 @@
-//! The force that is predicted where there is none.
+//! Predicted force without contact.
 
 use taceva_core::Unit;
 

@@ -1,4 +1,4 @@
-//! What takes samples in and gives scores out; metrics that are finished from the same sums share one.
+//! Accumulators take samples in and give scores out. Metrics of one family share an accumulator.
 
 mod any_family;
 mod erased_sums;
@@ -21,11 +21,10 @@ use crate::stats::IntervalMethod;
 use crate::stats::clusters::{Clustering, Clusters};
 use crate::stats::row_groups::Grouped;
 
-/// Keeps what the metrics of one family are finished from, apart by contact point.
+/// Holds the sums of one family of metrics, separately by contact point.
 ///
 /// # Laws
-/// Any order, split and merge of the same samples gives equal states and, bit for bit, equal scores; the state of nothing
-/// changes nothing.
+/// Any order, split and merge of the same samples gives equal states and bit-identical scores. Merging an empty state changes nothing.
 pub(crate) struct Accumulator {
     kind: &'static FamilyKind,
     family: Box<dyn AnyFamily>,
@@ -34,7 +33,7 @@ pub(crate) struct Accumulator {
     clusters: Clusters<ErasedSums>,
     interval_method: IntervalMethod,
     clustered_by: ClusteredBy,
-    /// Parameters of states that say the periods of angles, and about which centre they were unwrapped.
+    /// Parameters of states: the periods of angles, and the centres about which they were unwrapped.
     periods: BTreeMap<String, String>,
 }
 
@@ -72,12 +71,12 @@ impl Accumulator {
         accumulators
     }
 
-    /// Whether it keeps sums for every contact point.
+    /// True if it keeps sums for every contact point.
     pub(crate) fn is_by_point(&self) -> bool {
         self.clustered_by == ClusteredBy::Point && !self.kind.is_whole
     }
 
-    /// Takes in the samples of `batch`, whose clusters are `clusters`.
+    /// Adds the samples of `batch` with their `clusters`.
     pub(crate) fn update(
         &mut self,
         batch: &Batch,
@@ -120,7 +119,7 @@ impl Accumulator {
         Ok(())
     }
 
-    /// What is kept so far.
+    /// State of all samples so far.
     pub(crate) fn state(&self) -> State {
         let Shape {
             schema,
@@ -141,12 +140,12 @@ impl Accumulator {
         }
     }
 
-    /// Whether states of `schema` are its own.
+    /// True if it reads states of `schema`.
     pub(crate) fn reads(&self, schema: &str) -> bool {
         schema == self.kind.schema
     }
 
-    /// Takes over what another one kept.
+    /// Merges the state of another accumulator.
     pub(crate) fn merge(&mut self, state: &State) -> Result<(), MetricError> {
         state.check(&self.shape())?;
         let clusters = state.clusters.try_map(|records| {

@@ -1,4 +1,4 @@
-//! Arrays of `ndarray` as input. One column needs nothing of this: a view of one dimension iterates over its numbers.
+//! Arrays of `ndarray` as input. A single column needs none of this: a view of one dimension iterates over its numbers.
 
 use ndarray::ArrayView2;
 use taceva_core::Channel;
@@ -8,7 +8,8 @@ use crate::evaluate::number::Number;
 use crate::evaluate::rows::Rows;
 
 impl Rows {
-    /// These rows with matrices of truth and prediction, of `f32` or `f64`, whose columns are `channels`, in that order. Values are copied once.
+    /// These rows with matrices of truth and prediction, of `f32` or `f64`, with the columns `channels` in that order. Values are copied
+    /// once.
     ///
     /// # Shapes
     /// `truth`, `prediction`: samples × channels.

@@ -1,4 +1,4 @@
-//! What the rows of a batch are clustered by, found once for all accumulators.
+//! Clusters of the rows of a batch, found once for all accumulators.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -10,10 +10,10 @@ use crate::score::ClusteredBy;
 use crate::stats::NAMED_CLUSTERS;
 use crate::stats::row_groups::{Grouped, Groups};
 
-/// Batches of fewer rows are taken as they are: their clusters have too few rows for the order to matter.
+/// Least rows of a batch that is sorted: clusters of smaller batches have too few rows for the order to matter.
 const LEAST_ROWS: usize = 512;
 
-/// A batch with the samples of each contact point, or of each cluster of them, side by side, so that no family has to look for them.
+/// A batch sorted by contact point, or by cluster of points, so that families need not search for samples.
 pub(crate) struct SideBySide {
     pub(crate) batch: Batch,
     groups: Groups,
@@ -21,7 +21,7 @@ pub(crate) struct SideBySide {
 }
 
 impl SideBySide {
-    /// The samples of `batch` in such an order; none where they stand so already, or name no points.
+    /// Sorts the samples of `batch`; `None` if they are sorted already, too few, or without points.
     pub(crate) fn of(batch: &Batch, seed: u64) -> Option<SideBySide> {
         let points = batch.points().filter(|_| batch.rows() >= LEAST_ROWS)?;
         let grouped = Grouped::new(Cow::Borrowed(points), seed);
@@ -38,7 +38,7 @@ impl SideBySide {
         })
     }
 
-    /// What its rows are clustered by; `seed` is that of the hash.
+    /// Clusters of its rows; `seed` is the seed of the hash.
     pub(crate) fn clusters(&self, seed: u64) -> BatchClusters<'_> {
         let clusters = BatchClusters::new(&self.batch, seed);
         if let Some(points) = clusters.by(ClusteredBy::Point) {
@@ -48,7 +48,7 @@ impl SideBySide {
     }
 }
 
-/// What the rows of one batch are clustered by.
+/// Clusters of the rows of one batch.
 pub(crate) struct BatchClusters<'a> {
     batch: &'a Batch,
     seed: u64,
@@ -58,7 +58,7 @@ pub(crate) struct BatchClusters<'a> {
 }
 
 impl<'a> BatchClusters<'a> {
-    /// Those of `batch`; `seed` is that of the hash.
+    /// Clusters of `batch`, found when first used; `seed` is the seed of the hash.
     pub(crate) fn new(batch: &'a Batch, seed: u64) -> BatchClusters<'a> {
         BatchClusters {
             batch,
@@ -79,7 +79,7 @@ impl<'a> BatchClusters<'a> {
                 let find = || borrowed(self.batch.points());
                 self.points.get_or_init(find).as_ref()
             }
-            // The caller says of one batch either recordings or groups.
+            // A batch names either recordings or groups.
             ClusteredBy::Recording | ClusteredBy::Group => {
                 let find = || borrowed(self.batch.recordings());
                 self.recordings.get_or_init(find).as_ref()
@@ -91,7 +91,7 @@ impl<'a> BatchClusters<'a> {
         }
     }
 
-    /// Whether `labels` are those of the contact points of the batch.
+    /// True if `labels` are the contact points of the batch itself.
     pub(crate) fn are_points(&self, labels: &Labels) -> bool {
         let points = self.batch.points();
         points.is_some_and(|points| std::ptr::eq(points, labels))

@@ -1,9 +1,9 @@
-//! One finished score with the metric and the channel that it is of.
+//! One finished score with its metric and channel.
 
 use crate::evaluate::metric::Metric;
 use crate::score::Score;
 
-/// One score, with what it is of.
+/// One score with its metric and channel.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
     pub(crate) metric: &'static Metric,

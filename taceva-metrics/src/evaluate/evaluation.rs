@@ -15,7 +15,7 @@ use crate::evaluate::verdicts;
 use crate::score::Score;
 use crate::score::standing::Standing;
 
-/// Every score of an evaluation, in the order of reports, and what was left out.
+/// Scores of an evaluation, in the order of reports, and the skipped metrics.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};
@@ -52,8 +52,8 @@ impl Evaluation {
         Evaluation::new(entries, skipped)
     }
 
-    /// The same scores with the share of the predictions of each channel that lies beyond the bounds of the model: each score that is formed
-    /// from predictions carries the share of its worst channel.
+    /// The same scores with the share of each channel's predictions beyond the bounds of the model. Each score of predictions carries the
+    /// share of its worst channel.
     #[must_use]
     pub fn with_bounded_shares(mut self, shares: &BTreeMap<String, f64>) -> Evaluation {
         for entry in &mut self.entries {
@@ -66,7 +66,7 @@ impl Evaluation {
         Evaluation::new(self.entries, self.skipped)
     }
 
-    /// The same scores, of samples on which the model was fitted: they show no skill on others, which stays unknown.
+    /// The same scores for samples on which the model was fitted. They show no skill on other samples, so the skill stays unknown.
     #[must_use]
     pub fn of_seen_samples(mut self) -> Evaluation {
         for entry in &mut self.entries {
@@ -77,7 +77,7 @@ impl Evaluation {
         self
     }
 
-    /// The same scores, of samples whose neighbours, which resemble them, the model was fitted on: they take part in no verdict.
+    /// The same scores for samples whose similar neighbours were in the training part; they take part in no verdict.
     #[must_use]
     pub fn of_neighbours_in_training(mut self) -> Evaluation {
         for entry in &mut self.entries {
@@ -101,7 +101,7 @@ impl Evaluation {
         found.map(|(_, _, score)| score)
     }
 
-    /// What was left out, and why.
+    /// Skipped metrics with their reasons.
     pub fn skipped(&self) -> &[Skipped] {
         &self.skipped
     }

@@ -14,17 +14,17 @@ use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::rows::Rows;
 use crate::evaluate::state::State;
 
-/// Samples that are collected before they are summed: small enough for the columns to stay in the fastest cache.
+/// Rows that are buffered before they are summed, so that the columns stay in the L1 cache.
 const BATCH_ROWS: usize = 1024;
-/// Pairs of one channel that are summed at once: two columns of 32 KiB. Measured from 1,024 to all of a million: fewer cost more in allocations,
-/// more in memory that is touched for the first time.
+/// Pairs of one channel that are summed at once: two columns of 32 KiB. Measured from 1,024 to a million: fewer cost more allocations, more
+/// cost page faults.
 const PAIR_ROWS: usize = 4096;
-/// Accumulators by contact point from which on it pays to bring the samples of each point together: fewer gather theirs sooner.
+/// Least accumulators by contact point for which sorting a batch by point pays; fewer gather their rows faster.
 const LEAST_TO_SORT: usize = 3;
 
 /// Takes samples, one by one or in batches, and finishes a plan's scores.
 ///
-/// Threads and labs may each have one of the same plan; merging them gives what one alone would have given, bit for bit.
+/// Threads and labs may each have an evaluator of the same plan. Merging them gives the scores of a single evaluator, bit for bit.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};
@@ -53,8 +53,8 @@ impl Evaluator {
         }
     }
 
-    /// This evaluator with every sample a cluster of its own, as [`MetricPlan::independent_samples`] says; samples taken in before
-    /// are dropped, so call it before the first update.
+    /// This evaluator with every sample a cluster of its own, as for [`MetricPlan::independent_samples`]. Earlier samples are dropped, so
+    /// call it before the first update.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -72,15 +72,15 @@ impl Evaluator {
         Evaluator::new(&self.plan.independent_samples())
     }
 
-    /// What is computed.
+    /// Plan of the evaluation.
     pub fn plan(&self) -> &MetricPlan {
         &self.plan
     }
 
-    /// Takes in the samples of `batch`.
+    /// Adds the samples of `batch`.
     ///
     /// # Errors
-    /// [`MetricError::Channels`] if they are of other channels than the plan's; nothing is taken in then.
+    /// [`MetricError::Channels`] if its channels differ from the plan's; nothing is added then.
     pub fn update(&mut self, batch: &Batch) -> Result<(), MetricError> {
         let moved = batch.unwrapped(self.plan.constants());
         let batch = moved.as_ref().unwrap_or(batch);
@@ -102,12 +102,13 @@ impl Evaluator {
         Ok(())
     }
 
-    /// Takes in `truth` and `prediction` of one channel, one number per sample, in the unit of the channel: slices, vectors, arrays, iterators or
-    /// views of `f32` or `f64`. Other channels have no value in these samples. Several channels, and contact points: [`Rows`].
+    /// Adds `truth` and `prediction` of one channel, one number per sample, in the unit of the channel. Both may be slices, vectors,
+    /// arrays, iterators or views of `f32` or `f64`. Other channels have no value in these samples. For several channels and contact points
+    /// use [`Rows`].
     ///
     /// # Errors
-    /// [`MetricError::Lengths`] if there are not as many of both, [`MetricError::Channels`] if the plan has no such channel; nothing is taken in
-    /// then, unless an iterator ends before the number of items that it stated.
+    /// [`MetricError::Lengths`] if the lengths differ, [`MetricError::Channels`] if the plan lacks the channel. Nothing is added then,
+    /// unless an iterator ends before the length that it stated.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -124,7 +125,7 @@ impl Evaluator {
         prediction: impl IntoIterator<Item = P>,
     ) -> Result<(), MetricError> {
         let (mut truth, mut prediction) = (truth.into_iter(), prediction.into_iter());
-        // Of equal lengths, a block after the other: its columns stay in the fastest cache, and no copy of all is made.
+        // Columns of equal length are added block by block: blocks stay in the L1 cache, and no full copy is made.
         if let Some(mut rows) = certain(&truth).filter(|rows| certain(&prediction) == Some(*rows)) {
             while rows > PAIR_ROWS {
                 let truth = truth.by_ref().take(PAIR_ROWS);
@@ -136,10 +137,10 @@ impl Evaluator {
         self.update_rows(Rows::new().pairs(channel, truth, prediction))
     }
 
-    /// Takes in samples given channel by channel.
+    /// Adds samples given channel by channel.
     ///
     /// # Errors
-    /// As [`Rows::into_batch`]; nothing is taken in then.
+    /// As [`Rows::into_batch`]; nothing is added then.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator, Rows};
@@ -155,7 +156,7 @@ impl Evaluator {
         self.update(&batch)
     }
 
-    /// Takes over what another evaluator of the same plan has seen.
+    /// Merges another evaluator of the same plan.
     ///
     /// # Errors
     /// [`MetricError`] if its plan was another.
@@ -163,11 +164,10 @@ impl Evaluator {
         self.merge_states(&other.into_states()?)
     }
 
-    /// Takes over what was kept elsewhere.
+    /// Merges states that were saved elsewhere.
     ///
     /// # Errors
-    /// [`MetricError`] if a state is of another schema, other channels or other parameters, or broken; those before it are
-    /// taken over.
+    /// [`MetricError`] if a state is malformed, or differs in schema, channels or parameters. States before it stay merged.
     pub fn merge_states(&mut self, states: &[State]) -> Result<(), MetricError> {
         for state in states {
             let mut accumulators = self.accumulators.iter_mut();
@@ -190,10 +190,10 @@ impl Evaluator {
         Ok(())
     }
 
-    /// All that was seen, as data that merges.
+    /// States of all samples so far, which can be merged.
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update), for samples still collected.
+    /// As [`update`](Evaluator::update), for samples still buffered.
     pub fn states(&mut self) -> Result<Vec<State>, MetricError> {
         self.flush()?;
         let accumulators = self.accumulators.iter();
@@ -205,7 +205,7 @@ impl Evaluator {
     /// The scores of all samples so far; more may follow.
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update), for samples still collected.
+    /// As [`update`](Evaluator::update), for samples still buffered.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -235,13 +235,13 @@ impl Evaluator {
     /// The scores.
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update), for samples still collected.
+    /// As [`update`](Evaluator::update), for samples still buffered.
     pub fn finish(mut self) -> Result<Evaluation, MetricError> {
         self.flush()?;
         Ok(self.scored())
     }
 
-    /// The scores of what was summed.
+    /// Scores of the summed samples, without buffered ones.
     fn scored(&self) -> Evaluation {
         let accumulators = self.accumulators.iter();
         let entries = accumulators.flat_map(|accumulator| accumulator.scores(self.plan.kept()));
@@ -268,7 +268,7 @@ impl Evaluator {
     }
 }
 
-/// How many items come, where that is known before they do.
+/// Exact number of items of an iterator, if its size hint is exact.
 fn certain(items: &impl Iterator) -> Option<usize> {
     let (least, most) = items.size_hint();
     most.filter(|most| *most == least)

@@ -1,4 +1,4 @@
-//! What a family of metrics defines; [`Accumulator`](crate::evaluate::accumulator::Accumulator) does the rest.
+//! Definition of a family of metrics; [`Accumulator`](crate::evaluate::accumulator::Accumulator) does the rest.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -15,25 +15,25 @@ use crate::score::range::Range;
 use crate::score::value::{Finished, InapplicableReason, UndefinedReason};
 use crate::score::{Count, Interval, Parameter, Variant};
 
-/// Description of a family as data: what its states are called, and how it is made for a plan.
+/// Description of a family as data: the schema of its states, and its constructor for a plan.
 #[derive(Debug)]
 pub(crate) struct FamilyKind {
     /// The name and version of its states.
     pub(crate) schema: &'static str,
-    /// Whether one summary of all samples is kept, and none a cluster: where no score has an interval, nobody would read those.
+    /// True if one summary of all samples is kept, without clusters, because no score of the family has an interval.
     pub(crate) is_whole: bool,
-    /// Whether the plan says what a cluster is; contact points otherwise.
+    /// True if the plan chooses the clusters; else they are contact points.
     pub(crate) clusters_of_plan: bool,
-    /// Fields that are read where samples carry them.
+    /// Fields that are read if samples carry them.
     pub(crate) optional: FieldSet,
-    /// What keeps its metrics from having a value, beside what they need.
+    /// Obstacle to a value of its metrics, beside missing needs.
     pub(crate) obstacle: fn(&MetricPlan) -> Option<SkipReason>,
     /// The family for a plan that keeps one of its metrics.
     pub(crate) build: fn(&MetricPlan) -> Option<Box<dyn AnyFamily>>,
 }
 
 impl FamilyKind {
-    /// Family whose clusters are contact points and which reads no more than its metrics need.
+    /// Family whose clusters are contact points and which reads only the needs of its metrics.
     pub(crate) const fn new(
         schema: &'static str,
         build: fn(&MetricPlan) -> Option<Box<dyn AnyFamily>>,
@@ -49,60 +49,59 @@ impl FamilyKind {
     }
 }
 
-/// What is kept of a batch, and which scores come of it.
+/// Sums of a family of metrics, and the scores finished from them.
 ///
 /// # Laws
-/// [`deposit`](Family::deposit) must keep a function of the set of rows: it may not look at their order, nor at which rows come
-/// together.
+/// The sums of [`deposit`](Family::deposit) must be a function of the set of rows: neither their order nor their grouping may matter.
 pub(crate) trait Family: Send + 'static {
-    /// What is kept of one part: a channel, a plane, a kind of grating, or everything at once.
+    /// Sums of one part: a channel, a plane, a kind of grating, or everything at once.
     type Sums: Merge + Clone + Send + 'static;
 
-    /// What must agree before states merge.
+    /// Parameters that must be equal in states that merge.
     fn parameters(&self) -> BTreeMap<String, String>;
-    /// Nothing kept, for each part.
+    /// Empty sums of each part.
     fn empty(&self) -> Vec<Self::Sums>;
-    /// Adds `rows` of `batch`, which ascend, all of them for `None`.
+    /// Adds the ascending `rows` of `batch`; all rows for `None`.
     fn deposit(&mut self, sums: &mut [Self::Sums], batch: &Batch, rows: Option<&[u32]>);
-    /// What the rows of `batch` are clustered by; the contact point unless the family knows better.
+    /// Clusters of the rows of `batch`; the contact points unless the family overrides it.
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         batch.points().map(Cow::Borrowed)
     }
-    /// Why a score has no interval where samples are not clustered.
+    /// Reason for a missing interval if samples are not clustered.
     fn unclustered(&self) -> UndefinedReason {
         UndefinedReason::NoClusters
     }
-    /// As a state holds it.
+    /// Converts sums to the record of a state.
     fn to_record(&self, sums: &Self::Sums) -> Record;
-    /// Back from a state, for the part at `position`.
+    /// Reads the record of a state, for the part at `position`.
     fn read_record(&self, position: usize, record: &Record) -> Result<Self::Sums, String>;
 
-    /// The scores to give of `metric`, which is of this family.
+    /// Scores of `metric`, which belongs to this family.
     fn outputs(&self, metric: &Metric) -> Vec<Output>;
-    /// Samples of a part that take part in `metric`: what weighs its clusters.
+    /// Samples of a part that `metric` counts; the weight of its clusters.
     fn count(&self, metric: &Metric, sums: &Self::Sums) -> u64;
-    /// Samples of a part that were left out, because a value is no usable number.
+    /// Samples of a part that were skipped for an unusable value.
     fn invalid(&self, sums: &Self::Sums) -> u64;
-    /// The numbers of `metric` that one part gives; an output of two parts is the mean of theirs.
+    /// Numbers of `metric` for one part; an output of two parts is the mean of theirs.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
-    /// The numbers of `metric` that have intervals, for other choices of clusters; those that have none may be left out.
+    /// Numbers of `metric` for other choices of clusters; those without intervals may be missing.
     fn resampled(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers {
         self.numbers(metric, output, sums)
     }
-    /// The numbers of `metric` where they are no mean of those of its parts; `sums` are those of every part.
+    /// Numbers of `metric` from the `sums` of all parts, if they are not the mean of the parts' numbers.
     fn joint(&self, _metric: &Metric, _output: &Output, _sums: &[Self::Sums]) -> Option<Numbers> {
         None
     }
-    /// Why `metric` has no value there, if so.
+    /// Reason why `metric` does not apply to the output, if any.
     fn inapplicable(&self, _metric: &Metric, _output: &Output) -> Option<InapplicableReason> {
         None
     }
-    /// What the score says beside its numbers, from the sums of all its parts together.
+    /// Details beside the numbers of a score, from the sums of all its parts together.
     fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
         Details::default()
     }
-    /// The intervals of the value and of the variants, by name, where the family has a better way than the jackknife of the
-    /// score itself; `clusters` hold the sums of each part.
+    /// Intervals of the value and of the variants by name, if the family has a better method than the jackknife of the score. `clusters`
+    /// hold the sums of each part.
     fn intervals(
         &self,
         _metric: &Metric,
@@ -113,7 +112,7 @@ pub(crate) trait Family: Send + 'static {
     }
 }
 
-/// The rows that [`Family::deposit`] gets, as positions in the batch.
+/// Visits the rows given to [`Family::deposit`], as positions in the batch.
 pub(crate) fn each_row(batch: &Batch, rows: Option<&[u32]>, mut add: impl FnMut(usize)) {
     match rows {
         Some(rows) => rows.iter().for_each(|&row| add(row as usize)),
@@ -124,17 +123,17 @@ pub(crate) fn each_row(batch: &Batch, rows: Option<&[u32]>, mut add: impl FnMut(
 /// One score of a metric: of a part, or the mean of two.
 #[derive(Clone, Debug)]
 pub(crate) struct Output {
-    /// What it is called in reports.
+    /// Name in reports.
     pub(crate) label: String,
     /// The unit of its channels.
     pub(crate) unit: Unit,
-    /// Its channels, if it is not one channel's own.
+    /// Channels of the output, unless it belongs to a single channel.
     pub(crate) of: Vec<String>,
-    /// Which sums it is finished from; one or two.
+    /// Indices of the parts it is finished from; one or two.
     pub(crate) parts: Vec<usize>,
 }
 
-/// The value of a score and its variants: all that has an interval.
+/// Value and variants of a score: the numbers that have intervals.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Numbers {
     pub(crate) value: Finished,
@@ -182,7 +181,7 @@ impl Numbers {
         found.map_or(Err(UndefinedReason::Empty), |variant| variant.value)
     }
 
-    /// RN of the exact mean of both, number by number; where either has none there is none.
+    /// RN of the exact mean of both, number by number; an error in either gives an error.
     pub(crate) fn mean(self, other: &Numbers) -> Numbers {
         let mean = |left: Finished, right: Finished| Ok(midpoint(left?, right?));
         let variants = self.variants.into_iter().map(|variant| Number {
@@ -204,7 +203,7 @@ fn finite(value: f64) -> Finished {
     }
 }
 
-/// RN((a + b) / 2): halving is exact unless the sum is tiny, and then the sum is; where the sum overflows, halves are exact.
+/// RN((a + b) / 2). Halving is exact unless the sum is tiny, and then the sum is exact. If the sum overflows, the halves are exact.
 pub(crate) fn midpoint(left: f64, right: f64) -> f64 {
     let sum = left + right;
     if sum.is_finite() {
@@ -214,7 +213,7 @@ pub(crate) fn midpoint(left: f64, right: f64) -> f64 {
     }
 }
 
-/// What a score says beside its numbers: maps and curves, counts, constants and flags.
+/// Details beside the numbers of a score: maps and curves, counts, constants and flags.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Details {
     pub(crate) variants: Vec<Variant>,
@@ -223,13 +222,13 @@ pub(crate) struct Details {
     pub(crate) flags: Vec<Flag>,
 }
 
-/// The intervals of a value and of variants by name, and variants that clusters give another value.
+/// Intervals of a value and of variants by name, and values of variants that depend on clusters.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Intervals {
-    /// Interval of the value; `None` where the jackknife of the score serves.
+    /// Interval of the value; `None` to use the jackknife of the score.
     pub(crate) value: Option<Interval>,
     pub(crate) variants: Vec<(String, Interval)>,
-    /// Values of variants that are known better where it is known which samples belong together.
+    /// Values of variants that are more accurate with known clusters.
     pub(crate) values: Vec<(String, Finished)>,
 }
 

@@ -30,46 +30,46 @@ pub struct Metric {
     pub title: &'static str,
     /// The symbol in papers, as LaTeX.
     pub symbol: Option<&'static str>,
-    /// The section of reports that it stands in.
+    /// Section of reports.
     pub theme: Theme,
-    /// Which values are good.
+    /// Direction of good values.
     pub better: Better,
     /// Variants whose direction is not that of the metric.
     pub variants: &'static [(&'static str, Better)],
     /// The unit of its values.
     pub unit: ScoreUnit,
-    /// Which values there can be: what no interval leaves.
+    /// Range of possible values, which also bounds intervals.
     pub range: Range,
-    /// The definition and its version; another number means another meaning.
+    /// Definition with its version; another version has another meaning.
     pub definition: &'static str,
-    /// Where it is defined.
+    /// Source of the definition.
     pub reference: &'static str,
-    /// What it says, in a few sentences.
+    /// Description in a few sentences.
     pub documentation: &'static str,
-    /// Without what there is no value.
+    /// Fields, channels and samples that a value requires.
     pub needs: Needs,
-    /// Which facts about the sensor there is no value without.
+    /// Facts about the sensor that a value requires.
     pub facts: &'static [Fact],
     /// Constants that are reported with a score.
     pub(crate) constants: fn(Unit) -> Vec<Parameter>,
-    /// Whether predictions enter as the model gives them, beyond its bounds too.
+    /// True if predictions enter unclipped, beyond the bounds of the model too.
     pub(crate) reads_unbounded: bool,
-    /// Whether its values are of forces alone.
+    /// True if its values are of forces alone.
     pub(crate) forces_only: bool,
-    /// The variant by which verdicts go, where the value itself depends on noise or on how often presses were repeated.
+    /// Variant that decides verdicts, if the value itself depends on noise or on the number of repeats.
     pub decided_by: Option<&'static str>,
-    /// What decides whether its scores take part in verdicts.
+    /// Rule for the standing of its scores in verdicts.
     pub(crate) verdict: VerdictRule,
-    /// The number of the deciding variant that chance alone would give: its interval must not hold it.
+    /// Value of the deciding variant under chance alone, which its interval must exclude.
     pub(crate) chance: Option<f64>,
     /// The family whose sums it is finished from.
     pub(crate) family: &'static FamilyKind,
-    /// How it is finished, if its family has several metrics.
+    /// Formula, if its family has several metrics.
     pub(crate) formula: Formula,
 }
 
 impl Metric {
-    /// Metric of `family` without a name: what stays where a metric says nothing else.
+    /// Metric of `family` without a name: the defaults of every field.
     pub(crate) const fn of(family: &'static FamilyKind) -> Metric {
         Metric {
             id: "",
@@ -96,18 +96,17 @@ impl Metric {
         }
     }
 
-    /// Whether predictions of channels enter it.
+    /// True if it uses predictions of channels.
     pub fn reads_predictions(&self) -> bool {
         self.needs.fields.contains(Field::Prediction)
     }
 
-    /// Whether its values are of forces alone, so that places need no prediction for it.
+    /// True if its values are of forces alone, so that it needs no predicted positions.
     pub fn is_of_forces(&self) -> bool {
         self.forces_only
     }
 
-    /// Whether it reads predictions as the model gives them, and not brought back to the bounds of the model: robustness would be that of
-    /// the bounds otherwise.
+    /// True if it reads predictions unclipped. Otherwise robustness would describe the bounds of the model.
     pub fn reads_unbounded_predictions(&self) -> bool {
         self.reads_unbounded
     }
@@ -146,9 +145,9 @@ impl fmt::Debug for Formula {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ScoreUnit {
-    /// That of the channel.
+    /// Unit of the channel.
     OfChannel,
-    /// That of the channel per hour; mm and N only.
+    /// Unit of the channel per hour; mm and N only.
     PerHour,
     /// Always this one.
     Fixed(Unit),

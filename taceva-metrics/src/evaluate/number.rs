@@ -2,8 +2,7 @@
 
 /// A number of a row: `f64`, `f32`, a reference to one of them, or an `Option` of any, `None` where the sample has no value.
 ///
-/// Whatever iterates over such numbers is a column: a slice, a vector, an array, an iterator, a view of `ndarray`. An `f32` is widened, which
-/// loses nothing.
+/// Any iterator over such numbers is a column: a slice, a vector, an array, a view of `ndarray`. An `f32` is widened without loss.
 ///
 /// ```
 /// use taceva_metrics::Number;
@@ -18,7 +17,7 @@ pub trait Number: Copy {
     /// ```
     fn number(self) -> Option<f64>;
 
-    /// `values` as they lie, if they are binary64 already.
+    /// `values` without a copy, if they are binary64 already.
     #[doc(hidden)]
     fn doubles(_values: &[Self]) -> Option<&[f64]> {
         None

@@ -8,7 +8,7 @@ use crate::evaluate::evaluator::Evaluator;
 use crate::evaluate::plan::MetricPlan;
 
 impl Evaluator {
-    /// An evaluator that has taken in `batches`, shared among the threads of the current rayon pool.
+    /// An evaluator of `batches`, which the threads of the current rayon pool share.
     ///
     /// Sums are exact, so the result is the same on any number of threads, bit for bit.
     ///

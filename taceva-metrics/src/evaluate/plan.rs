@@ -1,4 +1,4 @@
-//! Which metrics are computed, which are not and why, and what that takes.
+//! Plan of an evaluation: computed metrics, skipped metrics with reasons, and the fields to read.
 
 mod selection;
 
@@ -15,7 +15,7 @@ use crate::score::ClusteredBy;
 use crate::score::sensor_facts::SensorFacts;
 use crate::stats::IntervalMethod;
 
-/// What an evaluation of given channels and fields will compute.
+/// Plan of an evaluation of given channels and fields.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, FieldSet};
@@ -43,10 +43,10 @@ pub struct MetricPlan {
 }
 
 impl MetricPlan {
-    /// The same plan with other constants where a definition leaves one open.
+    /// The same plan with other constants of definitions.
     ///
     /// # Errors
-    /// [`MetricError::Setting`] for a value that no definition allows.
+    /// [`MetricError::Setting`] for a value outside the allowed range.
     pub fn with_settings(self, settings: Settings) -> Result<MetricPlan, MetricError> {
         settings.check()?;
         Ok(MetricPlan { settings, ..self })
@@ -58,7 +58,7 @@ impl MetricPlan {
         MetricPlan { seed, ..self }
     }
 
-    /// The same plan with intervals found another way.
+    /// The same plan with another method for intervals.
     ///
     /// ```
     /// use taceva_core::{Channel, Channels, FieldSet};
@@ -77,13 +77,13 @@ impl MetricPlan {
         }
     }
 
-    /// The same plan for samples that do not depend on each other: every sample is a cluster of its own in the intervals of errors, R², skill,
-    /// planes, linearity, cross-talk, bias by level and tolerance, and each of these intervals says `samples taken as independent`. Metrics that
-    /// ask which samples belong together keep their contact points.
+    /// The same plan for independent samples: every sample is its own cluster in intervals of errors, R², skill, planes, linearity,
+    /// cross-talk, bias by level and tolerance. Each of these intervals says `samples taken as independent`. Metrics that need to know
+    /// which samples belong together keep contact points.
     ///
-    /// Presses at one location are not independent: such intervals would hold the truth too seldom (`docs/coverage.md`). Samples that are equal
-    /// in every channel share a cluster, and more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are assigned by hash to
-    /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS), so that scores depend on the set of samples alone.
+    /// Presses at one location are not independent: such intervals would contain the truth too seldom (`docs/coverage.md`). Samples that
+    /// are equal in every channel share a cluster. More than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) clusters are assigned by hash to
+    /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS). Scores therefore depend on the set of samples alone.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Channels, ClusteredBy, FieldSet, MetricPlan, catalogue};
@@ -100,10 +100,10 @@ impl MetricPlan {
         }
     }
 
-    /// The same plan for samples of several recordings, each of which is a cluster: intervals of errors, R², skill, planes, linearity, cross-talk,
-    /// bias by level and tolerance say how these vary from recording to recording, and name the method `by recording`. Batches say which
-    /// recording each sample is of ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without it there are no such intervals.
-    /// Metrics that ask which samples belong together keep their contact points.
+    /// The same plan for samples of several recordings, each of which is a cluster. Intervals of errors, R², skill, planes, linearity,
+    /// cross-talk, bias by level and tolerance then show the variation between recordings. Their method is named `by recording`. Batches
+    /// name the recording of each sample ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without it these intervals are
+    /// undefined. Metrics that need to know which samples belong together keep contact points.
     ///
     /// ```
     /// use taceva_metrics::{Batch, Channel, Channels, Column, Evaluator, FieldSet, Labels, MetricPlan, catalogue};
@@ -128,9 +128,8 @@ impl MetricPlan {
         }
     }
 
-    /// The same plan for samples in groups that depend on each other, such as blocks of time or clips, each of which is a cluster: as
-    /// [`by_recording`](MetricPlan::by_recording), with the name of the group of each sample in the place of its recording, and the method
-    /// `by group`.
+    /// The same plan for samples in dependent groups, such as blocks of time or clips, each of which is a cluster. As
+    /// [`by_recording`](MetricPlan::by_recording), with the group name of each sample in place of its recording, and the method `by group`.
     #[must_use]
     pub fn by_group(self) -> MetricPlan {
         MetricPlan {
@@ -139,16 +138,16 @@ impl MetricPlan {
         }
     }
 
-    /// What the clusters of intervals are, of metrics that do not ask which samples belong together.
+    /// Clusters of the intervals, for metrics that do not require contact points.
     pub fn clustered_by(&self) -> ClusteredBy {
         self.clustered_by
     }
 
-    /// The same plan for a model whose best constant predictions are known: by channel the mean of the labels it was fitted on, in the unit of
-    /// the channel. Skill is measured by them; of channels that are not named, by the mean of the evaluated truth.
+    /// The same plan for a model with known best constant predictions: by channel the mean of the training labels, in the unit of the
+    /// channel. Skill is measured against them, and for other channels against the mean of the evaluated truth.
     ///
     /// # Errors
-    /// [`MetricError::Setting`] for a constant that is no usable number.
+    /// [`MetricError::Setting`] for an unusable constant.
     pub fn with_constants(
         self,
         constants: BTreeMap<String, f64>,
@@ -180,22 +179,22 @@ impl MetricPlan {
         families
     }
 
-    /// The metrics that were asked for.
+    /// Requested metrics.
     pub fn wanted(&self) -> &[&'static Metric] {
         &self.wanted
     }
 
-    /// What samples may carry.
+    /// Fields that samples may carry.
     pub fn available(&self) -> FieldSet {
         self.available
     }
 
-    /// The metrics that are computed.
+    /// Computed metrics.
     pub fn kept(&self) -> &[&'static Metric] {
         &self.kept
     }
 
-    /// The metrics that are not, and why.
+    /// Skipped metrics with their reasons.
     pub fn skipped(&self) -> &[Skipped] {
         &self.skipped
     }
@@ -205,7 +204,7 @@ impl MetricPlan {
         &self.channels
     }
 
-    /// What is read of a sample.
+    /// Fields that are read of a sample.
     pub fn fields(&self) -> FieldSet {
         self.fields
     }
@@ -215,22 +214,22 @@ impl MetricPlan {
         self.seed
     }
 
-    /// How intervals are found.
+    /// Method for intervals.
     pub fn interval_method(&self) -> IntervalMethod {
         self.interval_method
     }
 
-    /// What is known of the sensor.
+    /// Facts about the sensor.
     pub fn facts(&self) -> &SensorFacts {
         &self.facts
     }
 
-    /// The constants where a definition leaves one open.
+    /// Constants of definitions.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The best constant predictions for the model, by channel, as far as they are known.
+    /// Best constant predictions for the model, by channel, as far as known.
     pub fn constants(&self) -> &BTreeMap<String, f64> {
         &self.constants
     }
@@ -240,7 +239,7 @@ impl MetricPlan {
         self.constants.get(channel).copied()
     }
 
-    /// Whether samples may carry `field`.
+    /// True if samples may carry `field`.
     pub(crate) fn carries(&self, field: Field) -> bool {
         self.available.contains(field)
     }

@@ -9,7 +9,7 @@ use crate::evaluate::state::{describe, written};
 /// Some samples, given channel by channel: truth, prediction, and perhaps the contact point of each.
 ///
 /// # Shapes
-/// Every column and the locations have one length, the number of samples. It is checked when the rows are taken in.
+/// Every column and the locations have one length, the number of samples. It is checked when the rows are added.
 /// # Units
 /// Values are in the unit of their channel: mm for `Px Py Pz`, N for `Fx Fy Fz`.
 ///
@@ -83,8 +83,8 @@ impl Rows {
     /// The rows as a batch of `channels`; a channel without columns has no value in any row.
     ///
     /// # Errors
-    /// [`MetricError::Lengths`] if a prediction is longer or shorter than its truth, [`MetricError::Rows`] if a channel or the locations have
-    /// another length than the first channel, [`MetricError::Channels`] for a channel that is not one of `channels` or is given twice.
+    /// [`MetricError::Lengths`] if the lengths of a prediction and its truth differ. [`MetricError::Rows`] if a channel or the locations
+    /// differ in length from the first channel. [`MetricError::Channels`] for a channel outside `channels`, or one given twice.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Channels, Rows};

@@ -4,8 +4,8 @@ use taceva_core::{Batch, Column, Labels};
 
 use taceva_core::random::{FNV_OFFSET, fnv_1a_after};
 
-/// Names the rows of `batch` by their values of every channel. Rows of equal values have one name, so that names, and all that is made of
-/// them, depend on the set of rows alone.
+/// Names the rows of `batch` by their values of every channel. Rows of equal values share a name, so that all results depend on the set of
+/// rows alone.
 pub(crate) fn rows_as_clusters(batch: &Batch) -> Labels {
     let channels = 0..batch.channels().len();
     let mut labels = Labels::default();

@@ -1,12 +1,12 @@
-//! What a user may choose about how scores are computed.
+//! Settings of the computation of scores.
 
 use taceva_core::{Nanometre, Newton};
 
 use crate::error::MetricError;
 
-/// The constants of definitions that leave one open; the default is what the paper or its project page says.
+/// Open constants of definitions; the defaults are those of the paper or its project page.
 ///
-/// Each is reported with the scores it enters, and states made with other ones do not merge.
+/// Each constant is reported with its scores. States with different constants do not merge.
 ///
 /// ```
 /// use taceva_metrics::Settings;
@@ -20,7 +20,7 @@ pub struct Settings {
     pub bins: u32,
     /// Samples that a bin needs to count: 1.
     pub n_min: u64,
-    /// What is subtracted from the number of bins in the divisor of their variance: 0, as the bins are the whole population, or 1.
+    /// Number subtracted from the bin count in the divisor of the variance: 0, as the bins are the whole population, or 1.
     pub ddof: u32,
     /// Normal force from which on there is contact: 0.02 N.
     pub gate: Newton,
@@ -44,7 +44,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Cells along each side of a map beyond which it would be larger than what it shows.
+    /// Most cells along each side of a map; a larger map would exceed its data.
     pub const BINS_MAX: u32 = 1000;
 
     /// The same settings with another [`bins`](Settings::bins).
@@ -89,7 +89,7 @@ impl Settings {
         }
     }
 
-    /// Refuses values that no definition allows.
+    /// Rejects values outside the allowed ranges.
     pub(crate) fn check(&self) -> Result<(), MetricError> {
         let refuse = |name, found: String, expected: &str| MetricError::Setting {
             name,

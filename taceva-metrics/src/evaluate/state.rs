@@ -1,4 +1,4 @@
-//! What an accumulator holds, as data: written to a file, sent to another lab, merged there.
+//! State of an accumulator, as data: written to a file, sent to another lab, merged there.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::stats::row_groups::HASHED_CLUSTERS;
 
 /// The mergeable summary of some samples.
 ///
-/// States of the same samples are equal, whatever order, split or merges led to them.
+/// States of the same samples are equal, for any order, split or merges.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};
@@ -32,7 +32,7 @@ pub struct State {
 }
 
 impl State {
-    /// What the state is of, with its version: `taceva.pairs/1`.
+    /// Schema with its version: `taceva.pairs/1`.
     pub fn schema(&self) -> &str {
         &self.schema
     }
@@ -47,12 +47,12 @@ impl State {
         &self.channels
     }
 
-    /// What is kept, apart by contact point: one record per channel or plane.
+    /// Sums by contact point: one record per channel or plane.
     pub fn clusters(&self) -> &Clusters<Vec<Record>> {
         &self.clusters
     }
 
-    /// Refuses a state that was made of something else or otherwise than `own`, or is not whole.
+    /// Rejects a state that differs from `own` in schema, channels or parameters, or is incomplete.
     pub(crate) fn check(&self, own: &Shape) -> Result<(), MetricError> {
         if self.schema != own.schema {
             return Err(MetricError::Schema {
@@ -85,7 +85,7 @@ impl State {
     }
 }
 
-/// What a state must look like to be merged.
+/// Schema, parameters and channels that a state needs to be merged.
 pub(crate) struct Shape {
     pub(crate) schema: &'static str,
     pub(crate) parameters: BTreeMap<String, String>,

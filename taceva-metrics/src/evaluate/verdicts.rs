@@ -1,4 +1,4 @@
-//! Whether a score takes part in verdicts: the one rule that every output uses.
+//! Standing of scores in verdicts: the one rule that every output uses.
 //!
 //! A verdict is a claim: a bold face, a rank, a place on a radar, an answer of a comparison, a choice or an acceptance. A model that
 //! predicts the same for every input has perfect repeatability, linearity and robustness to light: such scores are numbers, but no
@@ -15,7 +15,7 @@ use crate::score::verdict_rule::{OF_CONSTANT, VerdictRule};
 use crate::score::{Interval, Score};
 
 impl Standing {
-    /// The standing of a score of `metric` that is made of `channels`, whose skill is what `skill_of` says of each.
+    /// Standing of a score of `metric` made of `channels`, with the skill of each channel from `skill_of`.
     ///
     /// Metrics of the truth alone always count; a score of several channels has the worst of their standings.
     pub fn of_channels<'a>(
@@ -52,10 +52,10 @@ fn of_skill_score(skill: &Score) -> Standing {
     Standing::of_value(low_end(skill), skill.value.scalar())
 }
 
-/// Where the interval of a score begins.
+/// Lower end of the interval of a score.
 fn low_end(score: &Score) -> Option<f64> {
     match score.interval {
-        // At the end of the range in every cluster, as for a model without errors: the value itself is the end.
+        // The value is at the end of its range in every cluster, as for a model without errors, so it is the end itself.
         Interval::Undefined(UndefinedReason::AtEnd) => score.value.scalar(),
         interval => interval.ends().map(|[low, _]| low),
     }
@@ -101,7 +101,7 @@ fn of_score(
         .max(beside_chance(metric, score))
 }
 
-/// A spread takes part where the interval of its deciding variant leaves out what chance alone would give.
+/// Standing of a spread: it counts if the interval of its deciding variant excludes the value of chance alone.
 fn beside_chance(metric: &Metric, score: &Score) -> Standing {
     let (Some(chance), Some(name)) = (metric.chance, metric.decided_by) else {
         return Standing::Counts;
@@ -115,7 +115,8 @@ fn beside_chance(metric: &Metric, score: &Score) -> Standing {
     }
 }
 
-/// A share within a tolerance takes no part where the constant of the skill reaches as much; where that is not known, skill alone decides.
+/// Standing of a share within a tolerance: it does not count if the constant of the skill reaches as much. Without a known constant, skill
+/// alone decides.
 fn beside_constant(metric: &Metric, score: &Score) -> Standing {
     match (metric.verdict, of_share(score)) {
         (VerdictRule::ShareBesideConstant, Standing::NoSkill) => Standing::NotAboveConstant,
@@ -124,7 +125,7 @@ fn beside_constant(metric: &Metric, score: &Score) -> Standing {
     }
 }
 
-/// A share of right predictions shows skill where its interval lies above what a constant prediction would reach.
+/// Standing of a share of correct predictions: it shows skill if its interval is above the share of a constant prediction.
 fn of_share(score: &Score) -> Standing {
     let of_constant = score
         .variant(OF_CONSTANT)

@@ -1,9 +1,8 @@
 //! Exact sums of the streams of pairs, formed a block at a time.
 //!
-//! Blocks are added up in whole units of grids that fit the pairs seen last; the units stay whole numbers over many blocks and
-//! are handed to the superaccumulators only when the grids move, before they could overflow, and when a sum is read. A pair
-//! that does not fit is taken out of its block and added on its own. Which pairs those are depends on what came before; the
-//! sums do not, because every way is exact.
+//! Blocks are summed in whole units of grids that fit the latest pairs. The units stay integers over many blocks. They move to the
+//! superaccumulators only when the grids change, before they could overflow, and when a sum is read. A pair that does not fit is removed
+//! from its block and added alone. Which pairs those are depends on the history; the sums do not, because every path is exact.
 
 use super::bounds::{Grids, TERMS};
 use super::kernel::{BLOCK_ROWS, Block};
@@ -15,12 +14,12 @@ use crate::exact::merge::Merge;
 use crate::exact::streams::{Stream, Streams};
 use crate::pair::Paired;
 
-/// Fewer rows than this are added one by one: that is sooner done than a block.
+/// Least rows of a block; fewer are added one by one, which is faster.
 const FEW_ROWS: usize = 4;
-/// Each row adds less than 2⁴⁴ units, so that this many stay within an `i64`.
+/// Most rows between deposits: each adds less than 2⁴⁴ units, so their sum stays within an `i64`.
 const MOST_ROWS: usize = 1 << 19;
 
-/// Exact sums of the wanted streams, and how many pairs they are of.
+/// Exact sums of the wanted streams, with counts of their pairs.
 #[derive(Clone, Debug)]
 pub(crate) struct BlockSums {
     machine: Machine,
@@ -31,14 +30,14 @@ pub(crate) struct BlockSums {
     pending: Option<Pending>,
 }
 
-/// How many pairs there were.
+/// Counts of pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Counts {
-    /// Those that were summed.
+    /// Summed pairs.
     pub(crate) valid: u64,
-    /// Those left out because a value was no usable number.
+    /// Pairs skipped for an unusable value.
     pub(crate) invalid: u64,
-    /// Those whose truth reaches the gate.
+    /// Summed pairs whose truth reaches the gate.
     pub(crate) gated: u64,
 }
 
@@ -62,12 +61,12 @@ impl BlockSums {
         }
     }
 
-    /// What was kept elsewhere of the same streams.
+    /// Replaces counts and sums by saved ones of the same streams.
     pub(crate) fn set(&mut self, counts: Counts, sums: Sums) {
         (self.counts, self.settled, self.pending) = (counts, sums, None);
     }
 
-    /// Adds pairs; those with a value that is no usable number are counted and left out.
+    /// Adds pairs; those with an unusable value are counted and skipped.
     pub(crate) fn update(&mut self, pairs: Paired<&[f64]>) {
         if pairs.estimate.len() < FEW_ROWS {
             return pairs.iter().for_each(|pair| self.add_pair(pair));
@@ -103,7 +102,7 @@ impl BlockSums {
         sum
     }
 
-    /// Adds a block whose pairs all fit the grids in use; false, and nothing added, if one does not.
+    /// Adds a block whose pairs all fit the grids in use. Returns false and adds nothing if a pair does not fit.
     fn add_block(&mut self, pairs: Paired<&[f64]>, next: Paired<&[f64]>) -> bool {
         let Some(pending) = &mut self.pending else {
             return false;
@@ -126,7 +125,7 @@ impl BlockSums {
         pending.rows_on_grids += pairs.estimate.len();
         let rows = count(pairs.estimate.len());
         self.counts.valid += rows;
-        // A block is filled up with zeros, which such a gate would let through.
+        // Blocks are padded with zeros, which such a gate would count.
         let all = self.gate.is_some_and(|gate| gate <= 0.0);
         self.counts.gated += if all { rows } else { u64::from(values.n_gated) };
         if pending.rows > MOST_ROWS - BLOCK_ROWS {
@@ -135,7 +134,7 @@ impl BlockSums {
         true
     }
 
-    /// Adds a block of which not all pairs fit: those that do not one by one, and the others as a block.
+    /// Adds a block with pairs that do not fit: those one by one, and the others as a block.
     #[cold]
     #[inline(never)]
     fn add_strays_apart(&mut self, pairs: Paired<&[f64]>) {
@@ -181,7 +180,7 @@ impl BlockSums {
         }
     }
 
-    /// Hands the units to the superaccumulators.
+    /// Moves the units to the superaccumulators.
     fn settle(&mut self) {
         let Some(pending) = &mut self.pending else {
             return;
@@ -207,7 +206,7 @@ impl Merge for BlockSums {
     }
 }
 
-/// By value: what is pending in one may be settled in the other.
+/// Equality by value: sums pending in one may be settled in the other.
 impl PartialEq for BlockSums {
     fn eq(&self, other: &BlockSums) -> bool {
         self.streams == other.streams

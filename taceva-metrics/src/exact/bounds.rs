@@ -1,4 +1,4 @@
-//! Which pairs a block may hold so that its vector sums lose nothing.
+//! Bounds on the pairs of a block within which its vector sums are exact.
 
 use super::grid::{Grid, power_of_two};
 use super::vector::Vector;
@@ -13,9 +13,9 @@ pub(super) const TERMS: Grid = Grid { top: 1 };
 /// Grids that fit the magnitudes of some pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Grids {
-    /// Of y − ŷ.
+    /// Grid of y − ŷ.
     pub(super) residual: Grid,
-    /// Of y.
+    /// Grid of y.
     pub(super) truth: Grid,
 }
 
@@ -57,16 +57,16 @@ impl Range {
 }
 
 impl<V: Vector> RangeInLanes<V> {
-    /// Whether it holds magnitudes of which the least but zero, less one unit, and the greatest are given.
+    /// True if all magnitudes are within the range. `greatest` is the greatest, `below_least` the predecessor of the least nonzero one.
     #[inline(always)]
     pub(super) fn hold(self, below_least: V, greatest: V) -> bool {
         greatest.all_at_most(self.greatest) && self.below_least.all_at_most(below_least)
     }
 }
 
-/// The magnitudes of y − ŷ and y for which the sums of the wanted streams lose nothing.
+/// Magnitudes of y − ŷ and y for which the sums of the wanted streams are exact.
 ///
-/// Within them ŷ is no greater than a sum of two such magnitudes, so that it needs no bounds of its own.
+/// Within these bounds ŷ is at most the sum of two such magnitudes and needs no bounds of its own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     pub(super) residual: Range,
@@ -93,7 +93,7 @@ impl Bounds {
             truth: if streams.intersects(values) {
                 Range::new(truth, reach(Stream::TruthSquared))
             } else {
-                // Nothing of y is summed: it only has to be a number that the terms of sMAPE do not overflow with.
+                // No stream sums y: it only has to be a number with which the terms of sMAPE do not overflow.
                 Range {
                     least: f64::from_bits(1),
                     ..Range::new(truth, 0)
@@ -102,7 +102,7 @@ impl Bounds {
         }
     }
 
-    /// Whether the vector sums hold `pair`.
+    /// True if `pair` is within the bounds.
     pub(super) fn hold(&self, pair: Paired<f64>) -> bool {
         self.residual.holds(pair.residual().abs()) & self.truth.holds(pair.reference.abs())
     }
@@ -110,15 +110,15 @@ impl Bounds {
 
 /// The least exponent of a residual whose term of sMAPE is within reach on its grid.
 ///
-/// The divisor (|y| + |ŷ|) / 2 + ε is below |y| + |d| + ε up to rounding, and with m the greatest exponent of these three
-/// below 2^(m+3); ε is below 2⁻²⁶.
+/// The divisor (|y| + |ŷ|) / 2 + ε is below |y| + |d| + ε up to rounding. With m the greatest exponent of these three it is below 2^(m+3);
+/// ε is below 2⁻²⁶.
 fn least_residual_of_terms(residual: i32, truth: i32) -> i32 {
     let divisor = residual.max(truth).max(-27) + 3;
     TERMS.top - Grid::REACH + divisor
 }
 
 impl Grids {
-    /// Grids that leave out as few of `pairs` as possible.
+    /// Grids that exclude as few of `pairs` as possible.
     pub(super) fn fitting(pairs: Paired<&[f64]>, streams: Streams) -> Grids {
         let residuals = pairs.iter().map(|pair| pair.residual());
         let values = Streams::of(&[Stream::Truth, Stream::TruthSquared]);
@@ -138,8 +138,8 @@ impl Grids {
     }
 }
 
-/// The top of the `reach` + 1 neighbouring exponents that most values have; of several such, the one above the lowest, so that a
-/// value somewhat greater than those seen here fits too.
+/// Top of the window of `reach` + 1 exponents that holds most values. With headroom in the window the top is one higher, so that a slightly
+/// greater value fits too.
 pub(super) fn best_top(values: impl Iterator<Item = f64>, reach: i32) -> i32 {
     let usable = -GREATEST_TOP..=GREATEST_TOP;
     let mut exponents: Vec<i32> = values

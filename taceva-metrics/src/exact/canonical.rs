@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::digits::DIGITS;
 
-/// Digits that a sum read from outside may reach: so far below the end that no number of merges overflows it.
+/// Most digits of an external sum: far enough below the end that no number of merges overflows.
 const READABLE_DIGITS: usize = DIGITS - 4;
 
 /// An exact sum as sign, magnitude and place: equal sums have equal forms.
@@ -33,7 +33,7 @@ impl Canonical {
     /// The form with the given parts.
     ///
     /// # Errors
-    /// [`CanonicalError`] if they are not the one form of a number, or one beyond what sums hold.
+    /// [`CanonicalError`] if they are not the canonical form of a number, or exceed the range of sums.
     pub fn try_new(
         negative: bool,
         first: usize,
@@ -56,12 +56,12 @@ impl Canonical {
         })
     }
 
-    /// Whether the sum is below zero.
+    /// True if the sum is below zero.
     pub fn is_negative(&self) -> bool {
         self.negative
     }
 
-    /// Which digit the lowest of [`digits`](Canonical::digits) is.
+    /// Place of the lowest of [`digits`](Canonical::digits).
     pub fn first(&self) -> usize {
         self.first
     }
@@ -71,7 +71,7 @@ impl Canonical {
         &self.digits
     }
 
-    /// The form of a magnitude whose digits still hold carries.
+    /// Form of a magnitude with unpropagated carries.
     pub(super) fn from_digits(negative: bool, digits: &[i64]) -> Canonical {
         let mut carried = 0;
         let mut magnitude = Vec::with_capacity(digits.len() + 2);
@@ -100,7 +100,7 @@ impl Canonical {
     }
 }
 
-/// Why parts are not the form of a sum.
+/// Rejection of parts that are not the form of a sum.
 ///
 /// ```
 /// use taceva_metrics::{Canonical, CanonicalError};
@@ -139,7 +139,7 @@ impl fmt::Display for CanonicalError {
 
 impl std::error::Error for CanonicalError {}
 
-/// What is written: `["-", 67, [1, 2]]`.
+/// Serialized form: `["-", 67, [1, 2]]`.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Form(Sign, usize, Vec<u32>);

@@ -6,12 +6,12 @@ use super::kernel::{Visit, visit_all};
 use super::vector::{Job, Vector};
 use crate::pair::Paired;
 
-/// The values that `grid` holds together with their products.
+/// Range of values whose products are exact on `grid` too.
 pub(super) fn range_of(grid: Grid) -> Range {
     Range::new(grid.top, Grid::REACH_OF_SQUARES)
 }
 
-/// The sum of a column; none if a value is out of range.
+/// Sum of a column; `None` if a value is out of range.
 pub(super) struct OfColumn<'a> {
     pub(super) values: &'a [f64],
     pub(super) grid: Grid,
@@ -20,7 +20,7 @@ pub(super) struct OfColumn<'a> {
 struct ColumnVisit<V> {
     one: V,
     greatest: V,
-    /// The predecessor of the least magnitude that is not zero.
+    /// Predecessor of the least nonzero magnitude.
     least: V,
     sum: GridSum<V>,
 }
@@ -50,12 +50,12 @@ impl Job for OfColumn<'_> {
         visit_all(proof, both(values, values), Paired::default(), &mut visitor);
         let range = range_of(grid).in_lanes::<V>(proof);
         let within = range.hold(visitor.least, visitor.greatest);
-        // A NaN is neither greatest nor least, but it stays in the sum.
+        // A NaN is neither greatest nor least, but stays in the sum.
         (within && visitor.sum.is_sound()).then(|| visitor.sum.units())
     }
 }
 
-/// The sum of the products of two columns whose values are in range.
+/// Sum of the products of two columns with values in range.
 pub(super) struct OfProducts<'a> {
     pub(super) columns: [&'a [f64]; 2],
     pub(super) grids: [Grid; 2],

@@ -1,7 +1,7 @@
 //! Exact sums of columns of one length and of products of two of them, formed a block at a time.
 //!
-//! As in `block_sums.rs`, blocks are added up in whole units of grids that fit the values seen last, and a row that does not fit is added
-//! on its own: which rows those are depends on what came before, the sums do not.
+//! As in `block_sums.rs`, blocks are summed in whole units of grids that fit the latest values, and a row that does not fit is added alone.
+//! Which rows those are depends on the history; the sums do not.
 
 use super::bounds::best_top;
 use super::column_kernel::{OfColumn, OfProducts, range_of};
@@ -12,20 +12,20 @@ use super::sum::ExactSum;
 use super::unit_sums::{deposit, deposit_products};
 use crate::pair::is_valid;
 
-/// Fewer rows than this are added one by one: that is sooner done than a block.
+/// Least rows of a block; fewer are added one by one, which is faster.
 const FEW_ROWS: usize = 8;
-/// Each row adds less than 2⁴⁴ units, so that this many and a block stay within an `i64`.
+/// Most rows between deposits: each adds less than 2⁴⁴ units, so these and one block stay within an `i64`.
 const MOST_ROWS: usize = 1 << 18;
-/// Grids are chosen anew for a block of which more than one row in so many does not fit.
+/// New grids are chosen for a block in which more than one row in this many does not fit.
 const ROWS_PER_STRAY: usize = 8;
 
-/// What the rows of columns are added to.
+/// Sums that rows of columns are added to.
 pub(crate) trait ColumnSums {
-    /// One sum a column, and one a product.
+    /// One sum per column, and one per product.
     fn sums(&mut self) -> [&mut [ExactSum]; 2];
-    /// Takes note of rows that are added; all their values are usable numbers.
+    /// Records added rows; all their values are usable numbers.
     fn take(&mut self, columns: &[&[f64]]);
-    /// Takes note of a row that is left out, because a value is no usable number.
+    /// Records a row that is skipped for an unusable value.
     fn leave_out(&mut self);
 }
 
@@ -33,14 +33,14 @@ pub(crate) trait ColumnSums {
 #[derive(Clone, Debug)]
 pub(crate) struct ColumnAdder {
     machine: Machine,
-    /// The columns that are multiplied.
+    /// Pairs of columns that are multiplied.
     products: Vec<[usize; 2]>,
-    /// The grids that fitted last, one a column; none before the first block.
+    /// Grids in use, one per column; none before the first block.
     grids: Vec<Grid>,
     units: Units,
 }
 
-/// Units that no sum has yet.
+/// Units that are not yet added to a sum.
 #[derive(Clone, Debug, Default)]
 struct Units {
     columns: Vec<[i64; 2]>,
@@ -49,7 +49,7 @@ struct Units {
 }
 
 impl ColumnAdder {
-    /// Adds columns, and the products of these, each by the positions of its columns.
+    /// Makes an adder of columns and of `products`, each given by the positions of its two columns.
     pub(crate) fn new(products: Vec<[usize; 2]>) -> ColumnAdder {
         ColumnAdder::with_machine(products, Machine::detect())
     }
@@ -63,7 +63,7 @@ impl ColumnAdder {
         }
     }
 
-    /// Adds the rows of `columns`; those with a value that is no usable number are left out.
+    /// Adds the rows of `columns`; rows with an unusable value are skipped.
     pub(crate) fn add(&mut self, columns: &[&[f64]], into: &mut impl ColumnSums) {
         let rows = columns.first().map_or(0, |column| column.len());
         if rows < FEW_ROWS {
@@ -86,7 +86,7 @@ impl ColumnAdder {
         self.settle(into);
     }
 
-    /// Adds a block whose rows all fit the grids; false, and nothing added, if one does not.
+    /// Adds a block whose rows all fit the grids. Returns false and adds nothing if a row does not fit.
     fn add_block(&mut self, block: &[&[f64]]) -> bool {
         if self.grids.is_empty() {
             return false;
@@ -113,7 +113,7 @@ impl ColumnAdder {
         true
     }
 
-    /// Adds a block of which not all rows fit: those that do not one by one, and the others as a block.
+    /// Adds a block with rows that do not fit: those one by one, and the others as a block.
     #[cold]
     #[inline(never)]
     fn add_strays_apart(&mut self, block: &[&[f64]], into: &mut impl ColumnSums) {
@@ -138,7 +138,7 @@ impl ColumnAdder {
             .for_each(|row| self.add_row(block, row, into));
     }
 
-    /// The columns of the rows that fit the grids, and which rows do not.
+    /// Columns of the rows that fit the grids, and indices of the other rows.
     fn divide(&self, block: &[&[f64]]) -> (Vec<Vec<f64>>, Vec<usize>) {
         let ranges: Vec<_> = self.grids.iter().map(|grid| range_of(*grid)).collect();
         let fits = |row: &usize| {
@@ -165,7 +165,7 @@ impl ColumnAdder {
         into.take(&row);
     }
 
-    /// Hands the units to the sums.
+    /// Moves the units to the sums.
     fn settle(&mut self, into: &mut impl ColumnSums) {
         if self.units.rows == 0 {
             return;

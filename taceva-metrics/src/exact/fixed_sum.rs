@@ -1,11 +1,11 @@
-//! An exact sum of not too many numbers of ordinary size, in sixteen bytes.
+//! Exact sum of a limited number of ordinary values, in sixteen bytes.
 
 use super::digits::Binary;
 use super::sum::ExactSum;
 
-/// The unit is 2 to this power: the last place of numbers from 2⁻⁴⁴ on.
+/// Exponent of the unit, a power of two: the last place of numbers from 2⁻⁴⁴ on.
 const UNIT: i32 = -96;
-/// Where the mantissa of a number begins that has this unit as its last place, counted from that of the least denormal.
+/// Position of a mantissa whose last place is this unit, counted from that of the least denormal.
 const LEAST_POSITION: usize = 1074 - 96;
 /// Places from there on, so that numbers are below 2¹⁴.
 const POSITIONS: usize = 58;
@@ -17,10 +17,10 @@ pub(crate) struct FixedSum {
 }
 
 impl FixedSum {
-    /// Numbers that can be added before the units must be taken over: each is below 2¹¹⁰ of them.
+    /// Most numbers between settlements: each is below 2¹¹⁰ units.
     pub(crate) const MOST: usize = 1 << 16;
 
-    /// Adds `value`; false, and nothing added, if its magnitude is 2¹⁴ or more, or so small that its last place is below a unit.
+    /// Adds `value`. Returns false and adds nothing if its magnitude is 2¹⁴ or more, or if its last place is below a unit.
     #[inline]
     pub(crate) fn try_add(&mut self, value: f64) -> bool {
         let Binary {
@@ -37,7 +37,7 @@ impl FixedSum {
         true
     }
 
-    /// Adds the units to `sum`, after which there are none.
+    /// Moves the units to `sum`.
     pub(crate) fn settle_into(&mut self, sum: &mut ExactSum) {
         let units = std::mem::take(&mut self.units);
         let low = |places: u32| i64::try_from((units >> places) & 0xffff_ffff).expect("32 bits");
@@ -52,7 +52,7 @@ impl FixedSum {
 mod tests {
     use super::*;
 
-    /// What is summed of `values`, those that are not held being added one by one.
+    /// Sum of `values`; those outside the range of [`FixedSum`] are added one by one.
     fn summed(values: &[f64]) -> (ExactSum, usize) {
         let (mut fixed, mut sum, mut strays) = (FixedSum::default(), ExactSum::default(), 0);
         for &value in values {

@@ -1,22 +1,23 @@
-//! Sums of vectors without rounding, as long as the values lie in a known range of magnitudes.
+//! Sums of vectors without rounding, for values in a known range of magnitudes.
 //!
-//! A large number that is added first decides where the sum rounds: 1.5 × 2ᵏ and small values add up to a multiple of
-//! 2^(k−52), and what each addition cuts off is found exactly by two subtractions. A second such sum takes what the first cut
-//! off. Both stay within one binade, so that their patterns of bits, as integers, give the number of units that they hold (after
-//! Demmel and Nguyen, "Parallel Reproducible Summation", 2015; they round the rest, here there is none).
+//! A large first summand decides where the sum rounds: 1.5 × 2ᵏ plus small values is a multiple of 2^(k−52), and two subtractions find the
+//! cut-off part exactly. A second such sum takes that part. Both stay within one binade, so their bit patterns, as integers, give the
+//! number of units that they hold. After Demmel and Nguyen, "Parallel Reproducible Summation", 2015; they round the rest, here there is
+//! none.
 
 use super::vector::Vector;
 
 /// Values added to a lane before its units must be read.
 pub(super) const DEPTH: usize = 128;
-/// A coarse sum keeps clear of its binade's ends: 2⁷ values below 2^(e+1), a factor of 2 for 1.5 × 2ᵏ, and 2 to spare.
+/// Exponent offset of the coarse sum, which keeps clear of its binade's ends: 2⁷ values below 2^(e+1), a factor of 2 for 1.5 × 2ᵏ, and 2 to
+/// spare.
 const COARSE: i32 = 10;
-/// What is cut off is below 2^(e−42), and 2⁷ of them stay clear of the ends of this binade.
+/// Exponent offset of the fine sum. Cut-off parts are below 2^(e−42), and 2⁷ of them stay clear of the ends of this binade.
 const FINE: i32 = -34;
 /// Bits of a mantissa behind its leading one.
 const FRACTION: i32 = 52;
 
-/// Where values below 2^(top + 1) in magnitude are added up.
+/// Grid for sums of values below 2^(top + 1) in magnitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Grid {
     /// The exponent of the greatest value.
@@ -31,23 +32,22 @@ impl Grid {
         }
     }
 
-    /// The grid of what those products lost in rounding.
+    /// Grid of the rounding errors of those products.
     pub(super) fn of_errors_of_products(self, other: Grid) -> Grid {
         Grid {
             top: self.top + other.top - FRACTION - 1,
         }
     }
 
-    /// How far below the top a value's exponent may lie so that its last place is still a unit of the fine sum.
+    /// Greatest distance of a value's exponent below the top at which its last place is still a unit of the fine sum.
     pub(super) const REACH: i32 = -FINE;
-    /// The same of a value whose square, or whose product with such a value of another grid, is added.
+    /// The same for a value that is squared, or multiplied by such a value of another grid.
     ///
-    /// A square's last place is at twice the exponent less 52, on a grid of twice the top plus 1: half the reach. What the
-    /// square lost ends 104 below twice the exponent, on a grid of twice the top less 53: one more. Of a product both exponents and both
-    /// tops are added up.
+    /// A square's last place is at twice the exponent less 52, on a grid of twice the top plus 1: half the reach. Its rounding error ends
+    /// 104 below twice the exponent, on a grid of twice the top less 53: one more. For a product, both exponents and both tops add up.
     pub(super) const REACH_OF_SQUARES: i32 = (Grid::REACH - 1) / 2;
 
-    /// The powers of two that the units of both sums stand for, the coarse one first.
+    /// Exponents of the units of both sums, coarse first.
     pub(super) fn units(self) -> [i32; 2] {
         [COARSE, FINE].map(|height| self.top + height - FRACTION)
     }
@@ -57,7 +57,7 @@ impl Grid {
     }
 }
 
-/// Two sums per lane; the second takes what the first cuts off.
+/// Two sums per lane; the second takes the part that the first cuts off.
 #[derive(Clone, Copy)]
 pub(super) struct GridSum<V> {
     start: [V; 2],
@@ -87,13 +87,13 @@ impl<V: Vector> GridSum<V> {
         self.fine = self.fine.plus_aside(value.minus(taken), one);
     }
 
-    /// Whether no NaN was added.
+    /// True if no NaN was added.
     #[inline(always)]
     pub(super) fn is_sound(self) -> bool {
         self.coarse.all_at_most(self.start[0].plus(self.start[0]))
     }
 
-    /// How many units of [`Grid::units`] both sums hold.
+    /// Numbers of units of both sums, of the size that [`Grid::units`] gives.
     #[inline(always)]
     pub(super) fn units(self) -> [i64; 2] {
         [
@@ -103,7 +103,7 @@ impl<V: Vector> GridSum<V> {
     }
 }
 
-/// The sum of products: rounded ones and what they lost apart.
+/// Sum of products: the rounded products and, separately, their rounding errors.
 #[derive(Clone, Copy)]
 pub(super) struct ProductSum<V> {
     rounded: GridSum<V>,
@@ -128,7 +128,7 @@ impl<V: Vector> ProductSum<V> {
         self.lost.add(lost, one);
     }
 
-    /// Whether no NaN was added.
+    /// True if no NaN was added.
     #[inline(always)]
     pub(super) fn is_sound(self) -> bool {
         self.rounded.is_sound()
@@ -141,7 +141,7 @@ impl<V: Vector> ProductSum<V> {
     }
 }
 
-/// Units of the rounded products, and of what they lost.
+/// Units of the rounded products, and of their rounding errors.
 pub(super) type ProductUnits = [[i64; 2]; 2];
 
 /// 2^exponent, of a normal number.

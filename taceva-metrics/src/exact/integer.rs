@@ -78,7 +78,7 @@ impl Natural {
         Natural::from_limbs(limbs)
     }
 
-    /// `self` without its lowest `places` bits, and whether one of them was set.
+    /// `self` without its lowest `places` bits, and true if one of them was set.
     fn shifted_down(&self, places: usize) -> (Natural, bool) {
         let (whole, rest) = (places / 64, places % 64);
         let mut limbs: Vec<u64> = self.limbs.iter().skip(whole).copied().collect();
@@ -93,7 +93,7 @@ impl Natural {
         (Natural::from_limbs(limbs), lost)
     }
 
-    /// The whole part of `self / divisor`, and whether nothing is left; one bit after the other, for numbers of a few thousand bits.
+    /// The integer part of `self / divisor`, and true if it is exact; bit by bit, for numbers of a few thousand bits.
     pub(super) fn divided_by(&self, divisor: &Natural) -> (Natural, bool) {
         let Some(most) = self.bits().checked_sub(divisor.bits()) else {
             return (Natural::default(), self.is_zero());
@@ -110,7 +110,7 @@ impl Natural {
         (Natural::from_limbs(limbs), rest.is_zero())
     }
 
-    /// The whole part of √self, and whether nothing is left: the digits of the root one after the other, as by hand.
+    /// The integer part of √self, digit by digit, and true if it is exact.
     pub(super) fn root(&self) -> (Natural, bool) {
         let mut root = Natural::default();
         for place in (0..self.bits().div_ceil(2)).rev() {
@@ -123,7 +123,7 @@ impl Natural {
         (root, is_square)
     }
 
-    /// The leading 64 bits at most, whether one below is set, and the power of two of the last.
+    /// At most 64 leading bits, true if a lower bit is set, and the power of two of the last bit.
     pub(super) fn leading_bits(&self) -> (u64, bool, i32) {
         let places = self.bits().saturating_sub(64);
         let (leading, lost) = self.shifted_down(places);
@@ -135,11 +135,11 @@ impl Natural {
         )
     }
 
-    /// The leading 63 or 64 bits of `self / divisor`, whether that is less than all of it, and the power of two of the last.
+    /// The leading 63 or 64 bits of `self / divisor`, true if these are inexact, and the power of two of the last bit.
     ///
-    /// Neither may be zero. This is one step of long division in base 2⁶⁴: the divisor's highest bit is brought to the top
-    /// of its limb and the dividend to one limb more, so that the guess from the leading limbs is at most two too high
-    /// (Knuth, The Art of Computer Programming 2, 4.3.1, theorem B).
+    /// Neither may be zero. This is one step of long division in base 2⁶⁴. The divisor's highest bit is shifted to the top of its limb and
+    /// the dividend to one limb more. The guess from the leading limbs is then at most two too high (Knuth, The Art of Computer Programming
+    /// 2, 4.3.1, theorem B).
     pub(super) fn leading_quotient(&self, divisor: &Natural) -> (u64, bool, i64) {
         let length = divisor.limbs.len();
         let raised = 64 * length - divisor.bits();
@@ -182,7 +182,7 @@ impl Ord for Natural {
     }
 }
 
-/// Adds `other` in place; whether there is a carry out of the top.
+/// Adds `other` in place; returns true if there is a carry out of the top.
 fn add_to(limbs: &mut [u64], other: &[u64]) -> bool {
     let mut carried = false;
     let padded = other.iter().copied().chain(std::iter::repeat(0));
@@ -194,7 +194,7 @@ fn add_to(limbs: &mut [u64], other: &[u64]) -> bool {
     carried
 }
 
-/// Takes `factor × other` away in place; whether the top had to borrow.
+/// Subtracts `factor × other` in place; returns true if the top had to borrow.
 fn subtract_multiple(limbs: &mut [u64], other: &[u64], factor: u64) -> bool {
     let mut carried = 0;
     let padded = other.iter().copied().chain(std::iter::repeat(0));

@@ -1,8 +1,8 @@
 //! The inner loops: a block of pairs into units of its streams' grids.
 //!
-//! A block is visited twice, once for what is made of y − ŷ and once for the rest, so that the sums of one visit fit into the
-//! registers of any machine; it stays in the fastest cache meanwhile. The first visit also finds out whether all pairs are
-//! within [`Bounds`]; if not, what it summed is dropped.
+//! A block is visited twice: once for the sums of y − ŷ and once for the rest, so that the sums of one visit fit into the registers of any
+//! machine. The block stays in the L1 cache meanwhile. The first visit also checks that all pairs are within [`Bounds`]; if not, its sums
+//! are dropped.
 
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{DEPTH, GridSum, ProductSum, ProductUnits};
@@ -14,11 +14,11 @@ use crate::pair::{EPSILON, Paired};
 /// Rows of the longest block.
 pub(super) const BLOCK_ROWS: usize = 512;
 
-/// What is to be summed of a block, and where.
+/// A block of pairs with its streams, gate, grids and bounds.
 #[derive(Clone, Copy)]
 pub(super) struct Block<'a> {
     pub(super) pairs: Paired<&'a [f64]>,
-    /// The pairs of the block after it, which are sent for meanwhile.
+    /// Pairs of the next block, which are prefetched meanwhile.
     pub(super) next: Paired<&'a [f64]>,
     pub(super) streams: Streams,
     /// The least |y| of a pair of the gated sum, if there is one.
@@ -27,7 +27,7 @@ pub(super) struct Block<'a> {
     pub(super) bounds: Bounds,
 }
 
-/// Units of what is made of y − ŷ.
+/// Units of the sums of y − ŷ.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ErrorUnits {
     pub(super) absolute: [i64; 2],
@@ -45,7 +45,7 @@ impl ErrorUnits {
     }
 }
 
-/// Units of what is made of y, and of y and ŷ.
+/// Units of the sums of y, and of y and ŷ.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ValueUnits {
     pub(super) truth: [i64; 2],
@@ -77,9 +77,9 @@ pub(super) fn add_products(units: &mut ProductUnits, [rounded, lost]: ProductUni
 }
 
 impl Block<'_> {
-    /// Rows of a block on `machine`: as many as leave room in the lanes.
+    /// Rows of a block on `machine`: as many as the lanes can take.
     pub(super) fn rows_on(machine: Machine) -> usize {
-        /// Asks a machine for the width of its vectors.
+        /// Returns the vector width of a machine.
         struct Lanes;
         impl Job for Lanes {
             type Output = usize;
@@ -91,7 +91,7 @@ impl Block<'_> {
         (DEPTH * machine.run(Lanes)).min(BLOCK_ROWS)
     }
 
-    /// The sums of the streams that are made of y − ŷ; `None` if a pair is out of bounds.
+    /// Sums of the streams of y − ŷ; `None` if a pair is out of bounds.
     pub(super) fn errors(self, machine: Machine) -> Option<ErrorUnits> {
         const A: u8 = Streams::of(&[Stream::Absolute]).bits();
         const R: u8 = Streams::of(&[Stream::Residual]).bits();
@@ -101,12 +101,12 @@ impl Block<'_> {
             0 | A => machine.run(Errors::<A>(self)),
             S => machine.run(Errors::<S>(self)),
             bits if bits == A | S => machine.run(Errors::<{ A | S }>(self)),
-            // Sums that nobody reads cost less than kernels for every combination.
+            // Unread sums cost less than kernels for every combination.
             _ => machine.run(Errors::<{ A | R | S }>(self)),
         }
     }
 
-    /// The sums of the other streams, of a block whose pairs are within bounds.
+    /// Sums of the other streams, for a block whose pairs are within bounds.
     pub(super) fn values(self, machine: Machine) -> ValueUnits {
         const Y: u8 = Streams::of(&[Stream::Truth]).bits();
         const S: u8 = Streams::of(&[Stream::TruthSquared]).bits();
@@ -126,15 +126,15 @@ const fn has(streams: u8, stream: Stream) -> bool {
     streams & Streams::of(&[stream]).bits() != 0
 }
 
-/// Something that vectors of pairs are added to.
+/// Visitor of vectors of pairs.
 pub(super) trait Visit<V> {
     fn visit(&mut self, estimate: V, reference: V);
 }
 
-/// Rows whose values of one column fill a line of the cache.
+/// Rows per cache line of one column.
 const LINE_ROWS: usize = 8;
 
-/// Shows `visitor` all pairs, and zeros beside the last ones; sends for the lines of `next` meanwhile.
+/// Passes all pairs to `visitor`, with the last vector padded by zeros, and prefetches the lines of `next`.
 #[inline(always)]
 pub(super) fn visit_all<V: Vector>(
     proof: V::Proof,
@@ -174,7 +174,7 @@ struct ErrorSums<V, const STREAMS: u8> {
     one: V,
     greatest_residual: V,
     greatest_truth: V,
-    /// The predecessors of the least magnitudes that are not zero.
+    /// Predecessors of the least nonzero magnitudes.
     least_residual: V,
     least_truth: V,
     absolute: GridSum<V>,
@@ -226,7 +226,7 @@ impl<const STREAMS: u8> Job for Errors<'_, STREAMS> {
         let truth = bounds.truth.in_lanes::<V>(proof);
         let within = residual.hold(sums.least_residual, sums.greatest_residual)
             && truth.hold(sums.least_truth, sums.greatest_truth);
-        // A NaN is neither greatest nor least, but it stays in every sum.
+        // A NaN is neither greatest nor least, but stays in every sum.
         let sound = sums.absolute.is_sound() && sums.residual.is_sound() && sums.squared.is_sound();
         if !within || !sound {
             return None;
@@ -285,7 +285,7 @@ impl<const STREAMS: u8, const GATED: bool> Job for Values<'_, STREAMS, GATED> {
     fn run<V: Vector>(self, proof: V::Proof) -> ValueUnits {
         let Values(block) = self;
         let grid = block.grids.truth;
-        // Where nothing is gated, what the gated sums are is not looked at.
+        // Without a gate, the gated sums are not read.
         let gate = block.gate.unwrap_or(f64::INFINITY);
         let mut sums = ValueSums::<V, STREAMS, GATED> {
             one: V::splat(proof, std::hint::black_box(1.0)),

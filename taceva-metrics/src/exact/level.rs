@@ -1,18 +1,18 @@
-//! Values as whole steps: where they are compared with a bound, or sorted into bins, rounding decides nothing.
+//! Values in whole steps, so that rounding decides no comparison with a bound and no choice of a bin.
 
 use taceva_core::{Nanometre, Unit};
 
-/// `value` in whole millionths of its unit, ties to even; `None` for what is no number up to 2⁵³ of them.
+/// `value` in whole millionths of its unit, ties to even; `None` for NaN or above 2⁵³ millionths.
 #[inline]
 pub(crate) fn millionths(value: f64) -> Option<i64> {
-    /// 1.5 × 2⁵²: of a sum with it no place below one is left, and its pattern of bits counts the ones.
+    /// 1.5 × 2⁵²: a sum with it has no places below one, and its bit pattern counts the ones.
     const ONES: f64 = 6_755_399_441_055_744.0;
     const GREATEST: f64 = 1_125_899_906_842_624.0;
     let scaled = value * 1e6;
     if scaled.abs() <= GREATEST {
         return Some((scaled + ONES).to_bits().cast_signed() - ONES.to_bits().cast_signed());
     }
-    // What a nanometre is to a millimetre.
+    // A millionth is to one as a nanometre is to a millimetre.
     Nanometre::from_millimetres(value).map(|millionths| millionths.0)
 }
 

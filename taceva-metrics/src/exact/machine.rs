@@ -1,6 +1,6 @@
-//! The instructions that sums are formed with. All give the same bits; they differ in speed alone.
+//! Instruction sets for sums. All give the same bits; they differ in speed alone.
 //!
-//! `taceva-network` has a file like this one. It is not shared: what each instruction set can do is a type of this crate's `simd/`, whose making
+//! `taceva-network` has a similar file, which is not shared. Each instruction set is a type of this crate's `simd/`, whose construction
 //! proves that the processor has it, and whose operations are those of sums.
 
 use taceva_core::Isa;
@@ -12,7 +12,7 @@ use super::simd::Portable;
 use super::simd::{Avx2, Avx512};
 use super::vector::Job;
 
-/// An instruction set that the machine was found to have.
+/// An instruction set that the machine has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Machine {
     #[cfg(target_arch = "x86_64")]
@@ -39,12 +39,12 @@ impl Machine {
         }
     }
 
-    /// The machine as [`Isa::detect`] has it.
+    /// The machine with the set of [`Isa::detect`].
     pub(crate) fn detect() -> Machine {
         Machine::with(Isa::detect()).unwrap_or(Machine::Portable(Portable))
     }
 
-    /// Does `job` with the machine's vectors.
+    /// Runs `job` with the machine's vectors.
     #[inline]
     pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
         match self {

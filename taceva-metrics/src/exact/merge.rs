@@ -1,14 +1,14 @@
-//! Joining what was kept apart.
+//! Merging of separate summaries.
 
 use std::collections::BTreeMap;
 
 use crate::exact::sorted_map::SortedMap;
 
-/// A summary whose parts can be joined, exactly; what is merged twice counts twice.
+/// A summary that merges exactly; merging the same summary twice counts it twice.
 pub(crate) trait Merge {
-    /// Takes over what `other` holds.
+    /// Adds `other`.
     fn merge(&mut self, other: &Self);
-    /// Takes over what `other` holds, `times` over.
+    /// Adds `other`, `times` over.
     fn merge_times(&mut self, other: &Self, times: u32) {
         (0..times).for_each(|_| self.merge(other));
     }
@@ -32,7 +32,7 @@ impl<T: Merge, const N: usize> Merge for [T; N] {
 
 /// Entries by name; of equal names the last one stays.
 ///
-/// What `collect` would give: but that sorts first, by code of its own for each kind of iterator, which took a tenth of the time to compile.
+/// Same as `collect`. That sorts first, with separate code for each kind of iterator, which took a tenth of the compile time.
 pub(crate) fn keyed<T>(entries: impl IntoIterator<Item = (String, T)>) -> BTreeMap<String, T> {
     let mut cells = BTreeMap::new();
     for (key, entry) in entries {
@@ -41,7 +41,7 @@ pub(crate) fn keyed<T>(entries: impl IntoIterator<Item = (String, T)>) -> BTreeM
     cells
 }
 
-/// Joins sums by key. A key without sums stays absent, so that equal sets have equal maps.
+/// Merges sums by key. A key without sums stays absent, so that equal sets have equal maps.
 pub(crate) fn merge_cells<K: Ord + Clone, T: Merge + Clone>(
     ours: &mut SortedMap<K, T>,
     theirs: &SortedMap<K, T>,

@@ -25,7 +25,7 @@ impl Moments {
         (self.n > 0).then(|| self.sum.to_dyadic().over(&Dyadic::from(self.n)))
     }
 
-    /// RN((n Sqq − S²) / (n (n − ddof))); `None` for no more than `ddof` values.
+    /// RN((n Sqq − S²) / (n (n − ddof))); `None` for `ddof` values or fewer.
     pub(crate) fn variance(&self, ddof: u64) -> Option<f64> {
         let freedom = self.n.checked_sub(ddof).filter(|freedom| *freedom > 0)?;
         Some(
@@ -50,7 +50,7 @@ impl Moments {
         &(&Dyadic::from(self.n) * &self.squares.to_dyadic()) - &(&sum * &sum)
     }
 
-    /// As a state holds it: count, then sum and sum of squares.
+    /// Converts the moments to the record of a state: count, then sum and sum of squares.
     pub(crate) fn to_record(&self) -> Record {
         Record {
             counts: vec![self.n],
@@ -59,7 +59,7 @@ impl Moments {
         }
     }
 
-    /// Back from a state.
+    /// Reads the record of a state.
     pub(crate) fn read_record(record: &Record) -> Result<Moments, String> {
         let ([n], [sum, squares]) = record.exactly()?;
         Ok(Moments {

@@ -38,7 +38,7 @@ impl Ord for Ordered {
     }
 }
 
-/// The positions below `length` in the order of `compare`; equal ones stay in theirs.
+/// Positions below `length` in the order of `compare`; the sort is stable.
 pub(crate) fn ranked(length: usize, compare: &dyn Fn(usize, usize) -> Ordering) -> Vec<usize> {
     let mut order: Vec<usize> = (0..length).collect();
     order.sort_by(|&left, &right| compare(left, right));

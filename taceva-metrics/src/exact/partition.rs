@@ -1,4 +1,4 @@
-//! A block divided into the rows that fit its grids and those that stray.
+//! Partition of a block into rows that fit its grids and strays.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use super::bounds::Bounds;
 use super::kernel::BLOCK_ROWS;
 use crate::pair::Paired;
 
-/// A block's rows, those that fit before those that stray.
+/// Rows of a block, fitting ones before strays.
 pub(super) struct Parts {
     estimate: [f64; BLOCK_ROWS],
     reference: [f64; BLOCK_ROWS],
@@ -14,12 +14,12 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// Copies `pairs` to one end or the other.
+    /// Copies fitting pairs to the front and strays to the end.
     pub(super) fn divide(&mut self, pairs: Paired<&[f64]>, bounds: &Bounds) {
         let (mut fitting, mut strays) = (0, 0);
         for pair in pairs.iter() {
             let fits = bounds.hold(pair);
-            // Without a branch, which would be guessed wrong at each stray.
+            // Without a branch, which would be mispredicted at each stray.
             let place = if fits {
                 fitting
             } else {

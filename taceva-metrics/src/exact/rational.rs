@@ -67,9 +67,9 @@ impl Dyadic {
         )
     }
 
-    /// The binary64 nearest to √(self / divisor), rounded once, also where the quotient is beyond its range; 0 of what is below 0.
+    /// The binary64 nearest to √(self / divisor), rounded once, also if the quotient is beyond its range; 0 for a negative quotient.
     ///
-    /// A root of about 70 bits is found in whole numbers: the integer part of √(a 2ᵏ / b) has enough of them that only what is left decides.
+    /// A root of about 70 bits is computed in integers: the integer part of √(a 2ᵏ / b) and a flag for its remainder suffice for rounding.
     ///
     /// # Panics
     /// If `divisor` is zero.
@@ -78,7 +78,7 @@ impl Dyadic {
         if self.is_zero() || self.negative != divisor.negative {
             return 0.0;
         }
-        // The quotient to 128 bits or so, and whether that is all of it; then its root to 62 bits or so.
+        // The quotient to about 128 bits and a flag for a remainder, then its root to about 62 bits.
         let bits =
             |natural: &Natural| i64::try_from(natural.bits()).expect("bits that fit in memory");
         let up = (128 - (bits(&self.magnitude) - bits(&divisor.magnitude))).max(0);

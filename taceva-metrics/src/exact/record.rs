@@ -1,11 +1,11 @@
-//! Counts and exact sums as a state holds them.
+//! Counts and exact sums of a state.
 
 use std::collections::BTreeMap;
 
 use crate::exact::ExactSum;
 use crate::exact::sorted_map::SortedMap;
 
-/// Counts and exact sums; the schema says of what.
+/// Counts and exact sums; the schema defines their meaning.
 ///
 /// ```
 /// use taceva_metrics::Record;
@@ -19,13 +19,13 @@ pub struct Record {
     pub counts: Vec<u64>,
     /// Sums, those of the schema in its order.
     pub sums: Vec<ExactSum>,
-    /// Numbers that are kept as they are, those of the schema in its order; absent where the schema has none.
+    /// Numbers that are stored unchanged, those of the schema in its order; empty if the schema has none.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "Vec::is_empty")
     )]
     pub values: Vec<f64>,
-    /// Records of places, scenes and the like by their key; only of those that have samples.
+    /// Records of places, scenes and the like by their key; only those with samples.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "BTreeMap::is_empty")
@@ -34,7 +34,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// The counts and sums of a record that holds `C` and `S` of them and nothing else.
+    /// The counts and sums of a record with exactly `C` counts, `S` sums and nothing else.
     pub(crate) fn exactly<const C: usize, const S: usize>(
         &self,
     ) -> Result<(&[u64; C], &[ExactSum; S]), String> {
@@ -44,7 +44,7 @@ impl Record {
         self.with_cells()
     }
 
-    /// The counts and sums of a record that holds `C` and `S` of them, and perhaps values and cells.
+    /// The counts and sums of a record with `C` counts, `S` sums, and perhaps values and cells.
     pub(crate) fn with_cells<const C: usize, const S: usize>(
         &self,
     ) -> Result<(&[u64; C], &[ExactSum; S]), String> {
@@ -63,7 +63,7 @@ impl Record {
         }
     }
 
-    /// The cells by key, each read by `read`; a key that `parse` does not know is refused.
+    /// The cells by key, each read by `read`; keys that `parse` does not know are rejected.
     pub(crate) fn read_cells<K: Ord, T>(
         &self,
         parse: impl Fn(&str) -> Option<K>,

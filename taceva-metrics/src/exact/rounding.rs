@@ -1,7 +1,6 @@
-//! The one place where something is rounded.
+//! Rounding: the only code that rounds.
 
-/// The binary64 nearest to `±(mantissa + rest) × 2^exponent`, ties to even, where `0 ≤ rest < 1` and `inexact` says that
-/// `rest` is not zero.
+/// The binary64 nearest to `±(mantissa + rest) × 2^exponent`, ties to even, with `0 ≤ rest < 1`. `inexact` is true if `rest` is not zero.
 ///
 /// An inexact mantissa must have at least 55 bits, or bits would be missing. Overflow gives an infinity; underflow keeps
 /// its sign.

@@ -10,7 +10,7 @@ pub(crate) fn exactly(value: f64) -> Dyadic {
     ExactSum::from_iter([value]).to_dyadic()
 }
 
-/// How `value` compares with zero.
+/// Sign of `value`, as its order against zero.
 pub(crate) fn sign(value: &Dyadic) -> Ordering {
     match (value.is_zero(), value.to_f64().is_sign_negative()) {
         (true, _) => Ordering::Equal,

@@ -44,7 +44,7 @@ impl<K, V> SortedMap<K, V> {
         self.runs.iter().map(Vec::len).sum()
     }
 
-    /// Whether there is no entry.
+    /// True if there are no entries.
     pub(crate) fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
@@ -94,7 +94,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         is_taken.then(|| &mut self.runs[run][at].1)
     }
 
-    /// Adds an entry; false, and nothing added, if the key is taken.
+    /// Adds an entry. Returns false and adds nothing if the key is taken.
     pub(crate) fn insert(&mut self, key: K, value: V) -> bool {
         let place = self.place(&key);
         if !place.is_taken {
@@ -103,7 +103,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         !place.is_taken
     }
 
-    /// The value of `key`, which is the default one if there was none.
+    /// The value of `key`; inserts the default if there is none.
     pub(crate) fn entry(&mut self, key: K) -> &mut V
     where
         V: Default,
@@ -119,7 +119,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         &mut self.runs[run][at].1
     }
 
-    /// Puts `entry` at its place, and returns where it stands.
+    /// Inserts `entry` at its place and returns its position.
     fn put(&mut self, place: &Place, entry: (K, V)) -> [usize; 2] {
         let &Place { run, at, .. } = place;
         let Some(entries) = self.runs.get_mut(run) else {
@@ -139,7 +139,7 @@ impl<K: Ord, V> SortedMap<K, V> {
     }
 }
 
-/// By entries: the runs depend on the order in which they came.
+/// Equality by entries: the runs depend on the order of insertion.
 impl<K: PartialEq, V: PartialEq> PartialEq for SortedMap<K, V> {
     fn eq(&self, other: &SortedMap<K, V>) -> bool {
         let mut others = other.iter();

@@ -1,4 +1,4 @@
-//! Which sums of pairs are kept: only those that a wanted score is finished from.
+//! Streams: the sums of pairs that wanted scores are finished from.
 
 use std::fmt;
 use std::ops::BitOr;
@@ -80,12 +80,12 @@ impl Streams {
         Streams { bits }
     }
 
-    /// Whether `stream` is in the set.
+    /// True if `stream` is in the set.
     pub const fn contains(self, stream: Stream) -> bool {
         self.bits & 1 << stream as u8 != 0
     }
 
-    /// Whether a stream is in both sets.
+    /// True if a stream is in both sets.
     pub(crate) const fn intersects(self, other: Streams) -> bool {
         self.bits & other.bits != 0
     }

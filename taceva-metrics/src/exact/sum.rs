@@ -8,26 +8,25 @@ use super::digits::{
 };
 use super::rational::Dyadic;
 
-/// Digits that are kept in place; a sum of one quantity rarely spans more.
+/// Digits of the inline window; a sum of one quantity rarely spans more.
 const WINDOW: usize = 8;
 
 /// The bit of weight one.
 const UNIT_POSITION: usize = 2176;
-/// A deposit changes a digit by less than 2⁵³, so that 1000 of them stay within an `i64`.
+/// Deposits between carries: each changes a digit by less than 2⁵³, so 1000 of them stay within an `i64`.
 const DEPOSITS: u32 = 1000;
-/// Where the mantissa of the least denormal begins.
+/// Position of the mantissa of the least denormal.
 const DENORMAL_POSITION: usize = UNIT_POSITION - 1074;
-/// Where the square of the least denormal begins.
+/// Position of the square of the least denormal.
 const DENORMAL_SQUARE_POSITION: usize = UNIT_POSITION - 2148;
 
 /// An exact sum of binary64 numbers and of products of two of them.
 ///
-/// Adding, merging and subtracting never round; [`to_f64`](ExactSum::to_f64) rounds once. Two sums are equal if their
-/// values are, however they came about.
+/// Adding, merging and subtracting never round; [`to_f64`](ExactSum::to_f64) rounds once. Sums of equal value are equal, whatever their
+/// history.
 ///
-/// It is a fixed-point number of 32-bit digits, each in an `i64` whose upper half collects carries, so that a deposit
-/// touches a few neighbouring digits and nothing else. Eight digits are kept in place, where the values happen to lie; the
-/// whole range is only allocated for sums that span more.
+/// A fixed-point number of 32-bit digits, each in an `i64` whose upper half collects carries, so a deposit touches a few neighbouring
+/// digits only. Eight digits are kept inline, around the values seen. The whole range is allocated only for sums that span more.
 ///
 /// ```
 /// use taceva_metrics::ExactSum;
@@ -40,11 +39,11 @@ const DENORMAL_SQUARE_POSITION: usize = UNIT_POSITION - 2148;
 #[derive(Clone, Default)]
 pub struct ExactSum {
     window: [i64; WINDOW],
-    /// Which digit `window[0]` is.
+    /// Index of the digit `window[0]`.
     first: u32,
-    /// Deposits before carries must be passed on; nothing is in place yet when it starts at zero.
+    /// Deposits left before carries must be propagated; 0 in a new sum, which has no window yet.
     deposits_left: u32,
-    /// All digits, once the window was too narrow.
+    /// All digits, allocated once the window is too narrow.
     full: Option<Box<[i64; DIGITS]>>,
 }
 
@@ -52,7 +51,7 @@ impl ExactSum {
     /// Adds `value`.
     ///
     /// # Panics
-    /// If it is NaN or infinite: what such a value means is for the caller to decide.
+    /// If it is NaN or infinite: the caller decides what such a value means.
     pub fn add(&mut self, value: f64) {
         assert!(value.is_finite(), "only finite numbers have a sum");
         self.deposit(value);
@@ -79,7 +78,7 @@ impl ExactSum {
         other.for_each_digit(|index, digit| self.deposit_digits(index, [digit]));
     }
 
-    /// Takes another sum away, exactly.
+    /// Subtracts another sum, exactly.
     pub fn subtract(&mut self, other: &ExactSum) {
         other.for_each_digit(|index, digit| self.deposit_digits(index, [-digit]));
     }
@@ -89,7 +88,7 @@ impl ExactSum {
         self.to_dyadic().to_f64()
     }
 
-    /// The one form that all sums of equal value share.
+    /// Canonical form, which all sums of equal value share.
     pub fn to_canonical(&self) -> Canonical {
         let mut digits = [0; DIGITS];
         let mut top = None;
@@ -137,7 +136,7 @@ impl ExactSum {
         self.deposit_parts(position, parts.map(|part| sign * part));
     }
 
-    /// Adds units × 2^unit, which must not lie below the square of the least denormal.
+    /// Adds units × 2^unit, which must be at least the square of the least denormal.
     pub(super) fn add_units(&mut self, units: i64, unit: i32) {
         let position = usize::try_from(unit - UNIT_EXPONENT).expect("a power of two in range");
         let sign = units.signum();
@@ -160,7 +159,7 @@ impl ExactSum {
         self.deposit_parts(position, split(square, position));
     }
 
-    /// A zero is left out: it lies far below other values and would only widen the window.
+    /// Skips zeros, which are far below other values and would only widen the window.
     #[inline]
     fn deposit_parts<const PARTS: usize>(&mut self, position: usize, parts: [i64; PARTS]) {
         if parts != [0; PARTS] {
@@ -197,7 +196,7 @@ impl ExactSum {
         self.deposits_left -= 1;
     }
 
-    /// Passes carries on and moves the window so that it covers digits `low..high` too, or gives it up.
+    /// Propagates carries and moves the window to cover digits `low..high` too, or switches to the full range.
     fn make_room(&mut self, low: usize, high: usize) {
         let (digits, old_first) = self.carried_window();
         let (mut low, mut high) = (low, high);
@@ -232,7 +231,7 @@ impl ExactSum {
         self.first = u32::try_from(first).expect("a digit's index is below 140");
     }
 
-    /// The window with its carries passed on, and which digit it begins with.
+    /// Window with propagated carries, and the index of its first digit.
     fn carried_window(&self) -> ([i64; WINDOW + 2], usize) {
         let mut digits = [0; WINDOW + 2];
         digits[..WINDOW].copy_from_slice(&self.window);
@@ -240,7 +239,7 @@ impl ExactSum {
         (digits, self.first as usize)
     }
 
-    /// Visits the digits that are not zero, from the lowest; each is in −2³¹..2³¹.
+    /// Visits the nonzero digits, from the lowest; each is in −2³¹..2³¹.
     fn for_each_digit(&self, visit: impl FnMut(usize, i64)) {
         match &self.full {
             Some(full) => {

@@ -1,4 +1,4 @@
-//! Sums in whole units of grids, before a superaccumulator has them.
+//! Sums in whole units of grids, before they move to a superaccumulator.
 
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{Grid, ProductUnits};
@@ -6,21 +6,21 @@ use super::kernel::{ErrorUnits, ValueUnits};
 use super::sum::ExactSum;
 use crate::exact::streams::{Stream, Streams};
 
-/// Grids move once more than one of so many rows did not fit, and a handful besides.
+/// Grids change once more than one in this many rows did not fit, plus [`FREE_STRAYS`].
 const ROWS_PER_STRAY: usize = 16;
 
 const FREE_STRAYS: usize = 16;
 
-/// Units that no superaccumulator has yet.
+/// Units that are not yet in a superaccumulator.
 #[derive(Clone, Debug)]
 pub(super) struct Pending {
     pub(super) grids: Grids,
     pub(super) bounds: Bounds,
     pub(super) errors: ErrorUnits,
     pub(super) values: ValueUnits,
-    /// Rows whose units are held.
+    /// Rows whose units are pending.
     pub(super) rows: usize,
-    /// Rows that fitted since these grids were chosen, and rows that did not.
+    /// Rows that fitted since these grids were chosen, and below it rows that did not.
     pub(super) rows_on_grids: usize,
     pub(super) strays: usize,
 }
@@ -38,7 +38,7 @@ impl Pending {
         }
     }
 
-    /// How many rows may be off these grids before others are chosen.
+    /// Most rows that may miss these grids before others are chosen.
     pub(super) fn free_strays(&self) -> usize {
         FREE_STRAYS + self.rows_on_grids / ROWS_PER_STRAY
     }

@@ -1,4 +1,4 @@
-//! How far predictions are from the truth: the sums of each channel's pairs, and of the distances in planes.
+//! Accuracy of predictions: sums of each channel's pairs, and of the distances in planes.
 
 mod gate;
 pub(crate) mod pair_sums;

@@ -1,4 +1,4 @@
-//! How the mean error changes over the range of the truth.
+//! Mean error by level of the truth.
 
 mod window;
 
@@ -22,7 +22,7 @@ use crate::score::value::{Finished, InapplicableReason, UndefinedReason, Value};
 use crate::score::{Count, Parameter, Variant};
 use window::Window;
 
-/// Samples from which on the mean error of a level counts for the score.
+/// Least samples of a level whose mean error counts for the score.
 const LEAST_SAMPLES: u64 = 5;
 
 pub(crate) static BIAS_LEVEL: Metric = Metric {
@@ -72,7 +72,7 @@ pub(crate) struct Levels {
     gathered: Gathered,
 }
 
-/// What is kept of one channel.
+/// Sums of one channel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LevelSums {
     n: u64,
@@ -175,7 +175,7 @@ impl Channelwise for Levels {
 
     fn read_record(&self, record: &Record) -> Result<LevelSums, String> {
         let (&[n, n_invalid], []) = record.with_cells()?;
-        // Beyond this no level has a middle.
+        // Beyond this limit a level has no representable middle.
         let parse = |text: &str| {
             let level = text
                 .parse::<i64>()

@@ -7,12 +7,12 @@ use crate::exact::merge::{Merge, keyed};
 use crate::exact::record::Record;
 use crate::exact::sorted_map::SortedMap;
 
-/// Where presses belong together: a contact point, and a depth step within it where that matters.
+/// Key of a cell of presses that belong together: a contact point, with a depth step if it matters.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct CellKey {
     point: Option<Arc<str>>,
     step: u32,
-    /// Which time it was drawn: a bootstrap replicate holds a location several times, side by side. 0 everywhere else.
+    /// Number of the draw: a bootstrap replicate holds a location several times, side by side. 0 elsewhere.
     copy: u32,
 }
 
@@ -22,7 +22,7 @@ impl CellKey {
         self.step
     }
 
-    /// As a state writes it: `3:point 7`, or nothing for what has no location.
+    /// Text in a state: `3:point 7`, or empty without a location.
     fn to_text(&self) -> String {
         match &self.point {
             Some(point) => format!("{}:{point}", self.step),
@@ -44,10 +44,10 @@ impl CellKey {
     }
 }
 
-/// Summaries by cell. Copies share them, so that what is finished from one is finished once.
+/// Summaries by cell. Copies share them, so each is finished once.
 ///
-/// Once some row names no location it is not known which presses belong together: all cells become one, and stay so. Which of the
-/// two it is depends on the set of rows alone.
+/// Once a row lacks a location, all cells are merged into one for good, because the presses cannot be grouped. The outcome depends on the
+/// set of rows alone.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells<V> {
     cells: SortedMap<CellKey, Arc<V>>,
@@ -64,7 +64,7 @@ impl<V> Default for Cells<V> {
 }
 
 impl<V: Merge + Clone + Default> Cells<V> {
-    /// Whether every row so far named its location.
+    /// True if every row so far named its location.
     pub(crate) fn are_named(&self) -> bool {
         self.named
     }
@@ -74,7 +74,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
         self.cells.iter().map(|(key, cell)| (key, cell.as_ref()))
     }
 
-    /// How many cells there are.
+    /// Number of cells.
     pub(crate) fn len(&self) -> usize {
         self.cells.len()
     }
@@ -96,7 +96,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
         Arc::make_mut(self.cells.entry(key))
     }
 
-    /// Makes all cells one.
+    /// Merges all cells into one.
     pub(crate) fn forget_names(&mut self) {
         if !self.named {
             return;
@@ -133,7 +133,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
         keyed(cells.map(|(key, cell)| (key.to_text(), to_record(cell))))
     }
 
-    /// The cells of a record, which `named` or not must agree with.
+    /// Reads the cells of a record; their keys must have locations exactly if `named`.
     pub(crate) fn from_record(
         record: &Record,
         named: bool,
@@ -168,7 +168,7 @@ impl<V: Merge + Clone + Default> Merge for Cells<V> {
     }
 }
 
-/// Adds what is counted elsewhere, `times` over.
+/// Adds `other`, `times` over.
 pub(crate) fn add_times(count: &mut u64, other: u64, times: u32) {
     *count = count.saturating_add(other.saturating_mul(u64::from(times)));
 }

@@ -1,4 +1,4 @@
-//! Families that keep the same sums of each channel on its own: such a family only has to define what it keeps.
+//! Families with the same sums for each channel on its own; such a family only defines its sums.
 
 use std::collections::BTreeMap;
 
@@ -13,20 +13,20 @@ use crate::families::accuracy::outputs;
 use crate::pair::Paired;
 use crate::score::value::InapplicableReason;
 
-/// What is kept of a channel, and which scores come of it.
+/// Sums of one channel, and the scores finished from them.
 pub(crate) trait Channelwise: Send + 'static {
-    /// What is kept of one channel; the default is that of no row.
+    /// Sums of one channel; the default is empty.
     type Sums: Merge + Clone + Default + Send + 'static;
 
-    /// What must agree before states merge.
+    /// Parameters that must be equal in states that merge.
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
     }
-    /// Whether `channel` takes part.
+    /// True if the family covers `channel`.
     fn takes(&self, _channel: &Channel) -> bool {
         true
     }
-    /// Adds `rows` of `batch`, all of them for `None`, to what is kept of the channel at `position`.
+    /// Adds `rows` of `batch`, all of them for `None`, to the sums of the channel at `position`.
     fn deposit(
         &mut self,
         sums: &mut Self::Sums,
@@ -34,13 +34,13 @@ pub(crate) trait Channelwise: Send + 'static {
         position: usize,
         rows: Option<&[u32]>,
     );
-    /// As a state holds it.
+    /// Converts sums to the record of a state.
     fn to_record(&self, sums: &Self::Sums) -> Record;
-    /// Back from a state.
+    /// Reads the record of a state.
     fn read_record(&self, record: &Record) -> Result<Self::Sums, String>;
-    /// Samples that take part.
+    /// Number of samples that count.
     fn count(&self, sums: &Self::Sums) -> u64;
-    /// Samples that were left out, because a value is no usable number.
+    /// Number of samples skipped for an unusable value.
     fn invalid(&self, sums: &Self::Sums) -> u64;
     /// The numbers of `metric`.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
@@ -48,11 +48,11 @@ pub(crate) trait Channelwise: Send + 'static {
     fn resampled(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers {
         self.numbers(metric, output, sums)
     }
-    /// Why there is no value, if so.
+    /// Reason why the metric does not apply, if any.
     fn inapplicable(&self, _output: &Output) -> Option<InapplicableReason> {
         None
     }
-    /// What the score says beside its numbers.
+    /// Details of the score beside its numbers.
     fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
         Details::default()
     }

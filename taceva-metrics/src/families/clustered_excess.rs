@@ -1,4 +1,4 @@
-//! A variant that is made of the spread of bins beyond chance, where it is known which samples belong to one contact point.
+//! Variant from the spread of bins beyond chance, if the samples of each contact point are known.
 
 use crate::evaluate::family::Intervals;
 use crate::score::Interval;
@@ -11,7 +11,7 @@ pub(crate) struct WithEnds {
     pub(crate) ends: [f64; 2],
 }
 
-/// The variant called `name`, its value and its interval by `clusters` clusters, that `finish` makes of the mean of `all`.
+/// The variant `name` with its value and its interval from `clusters` clusters. `finish` computes both from the mean of `all`.
 pub(crate) fn of_mean(
     name: &str,
     all: Result<Vec<Excess>, UndefinedReason>,

@@ -1,4 +1,4 @@
-//! How much of one channel leaks into the predictions of another.
+//! Cross-talk: the leak of one channel into the predictions of another.
 
 mod fit;
 mod sums;
@@ -52,7 +52,7 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
 
 /// All channels of a contact at once.
 pub(crate) struct Crosstalk {
-    /// Where the channels stand that take part: those of the six.
+    /// Positions of those channels of the six that the plan has.
     positions: Vec<usize>,
     names: Vec<String>,
     adder: ColumnAdder,

@@ -1,4 +1,4 @@
-//! Whether errors grow while the clock runs.
+//! Drift of errors over time.
 
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
@@ -47,7 +47,7 @@ pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.drifts/1", |plan| {
 /// Errors over time.
 pub(crate) struct Drifts;
 
-/// What is kept of one channel: t the time in s, d = RN(y − ŷ).
+/// Sums of one channel: t the time in s, d = RN(y − ŷ).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct DriftSums {
     n: u64,

@@ -1,4 +1,4 @@
-//! How much of the work of pressing is not given back.
+//! Hysteresis: the share of the work of pressing that is not recovered.
 
 mod branches;
 mod loops;

@@ -1,4 +1,4 @@
-//! The family of scores that are finished from predictions where nothing is touched.
+//! Family of scores from predictions without contact.
 
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
@@ -13,9 +13,9 @@ use crate::families::row_columns::Gathered;
 use crate::pair::{Paired, is_valid};
 use crate::score::value::UndefinedReason;
 
-/// The normal force from which on there is contact, in N.
+/// Least normal force of contact, N.
 pub(crate) const GATE_N: f64 = 0.02;
-/// Samples without contact below which nothing is said of them.
+/// Least samples without contact for a score of them.
 pub(crate) const LEAST_SAMPLES: u64 = 10;
 
 /// Needs of scores of predictions without contact.
@@ -32,7 +32,7 @@ pub(crate) static IDLE: FamilyKind = FamilyKind::new("taceva.idle/1", |plan| {
     erased(ByChannel::new(Idle::for_plan(plan)?, plan))
 });
 
-/// Predicted forces where nothing is touched.
+/// Predicted forces without contact.
 pub(crate) struct Idle {
     normal_force: usize,
     gathered: Gathered,
@@ -56,7 +56,7 @@ impl Idle {
     }
 }
 
-/// Refuses too few samples for a score.
+/// Rejects too few samples for a score.
 pub(crate) fn enough(predictions: &Moments) -> Result<(), UndefinedReason> {
     match predictions.n {
         0 => Err(UndefinedReason::NoIdleSamples),

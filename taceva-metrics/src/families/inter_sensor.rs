@@ -1,4 +1,4 @@
-//! How alike the surfaces of several units of one sensor are.
+//! Gap between the surfaces of several units of one sensor.
 
 mod gap;
 mod pairs;
@@ -20,7 +20,7 @@ use crate::score::{Count, Variant};
 use pairs::UnitGaps;
 use surfaces::SurfaceClouds;
 
-/// The channel with the height of the untouched surface, where the indenter first met it.
+/// Channel with the height of the untouched surface, at first contact of the indenter.
 const SURFACE_CHANNEL: &str = "surface_z";
 
 pub(crate) static INTER_SENSOR: Metric = Metric {

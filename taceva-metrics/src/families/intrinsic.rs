@@ -1,4 +1,4 @@
-//! What a recording shows of the sensor itself: its frame rate, and the area that it senses.
+//! Properties of the sensor as its recording shows them: frame rate and sensing area.
 
 mod sums;
 mod times;
@@ -40,7 +40,7 @@ pub(crate) static INTRINSIC: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// What is read where samples carry it.
+/// Fields that are read if samples carry them.
 pub(crate) const OPTIONAL_FIELDS: FieldSet = FieldSet::EMPTY
     .with(Field::Truth)
     .with(Field::Stamp)
@@ -72,17 +72,17 @@ pub(crate) struct Intrinsic {
     frame_size: Option<[u32; 2]>,
 }
 
-/// How contact is detected.
+/// Criterion of contact.
 #[derive(Clone, Copy, Debug)]
 enum Contact {
-    /// From this force on, whose channel stands at the position.
+    /// Force of at least the threshold, in the channel at this position.
     Force(usize),
-    /// By an indentation, whose channel stands at the position.
+    /// Positive indentation, in the channel at this position.
     Depth(usize),
 }
 
 impl Contact {
-    /// Whether the sample at `row` is in contact; `None` if it does not say.
+    /// True if the sample at `row` is in contact; `None` if it has no value.
     fn at(self, batch: &Batch, row: usize) -> Option<bool> {
         /// The contact threshold, in N.
         const GATE_N: f64 = 0.02;
@@ -106,7 +106,7 @@ impl Intrinsic {
         }
     }
 
-    /// What `plan` lacks, if the samples say nothing of any property.
+    /// Missing field of `plan`, if its samples show no property at all.
     pub(crate) fn obstacle(plan: &MetricPlan) -> Option<SkipReason> {
         let named = |name| plan.channels().position(name).is_some();
         let places = plan.carries(Field::Truth) && named("Px") && named("Py");
@@ -114,7 +114,7 @@ impl Intrinsic {
         (!any).then_some(SkipReason::FieldAbsent(Field::Stamp))
     }
 
-    /// The true place of the sample at `row`, if it is in contact.
+    /// True place of the sample at `row`, mm, if it is in contact.
     fn contact_mm(&self, batch: &Batch, row: usize) -> Option<[f64; 2]> {
         let [x, y] = self.place?;
         self.contact?.at(batch, row).filter(|contact| *contact)?;
@@ -155,7 +155,7 @@ impl Family for Intrinsic {
         sums.add_contacts(&places);
     }
 
-    /// All samples are one cluster: a time means nothing without the one before.
+    /// All samples are one cluster: a time needs the one before it.
     fn clusters<'a>(&self, _batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         None
     }

@@ -108,7 +108,7 @@ impl Family for Lighting {
                     Unit::One,
                     Value::from(robustness::of_plane([x, y], &self.reference)),
                 )],
-                // Both axes were lit alike: what a flag of one warns of holds for the plane.
+                // Both axes had the same light, so a flag of one axis holds for the plane.
                 flags: robustness::flags(parts, &self.reference),
                 ..Details::default()
             },
@@ -116,7 +116,7 @@ impl Family for Lighting {
         }
     }
 
-    /// Of one channel by the delta method; the mean of two is jackknifed itself, as their errors go together.
+    /// Intervals of one channel, by the delta method. The mean of two channels is jackknifed itself, as their errors are correlated.
     fn intervals(
         &self,
         _metric: &Metric,

@@ -1,4 +1,4 @@
-//! How far predictions stray from a straight line of the truth.
+//! Deviation of predictions from a straight line over the truth.
 
 mod line;
 
@@ -47,7 +47,7 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
 /// Predictions over truth.
 #[derive(Default)]
 pub(crate) struct Lines {
-    /// By the position of the channel: channels have magnitudes of their own.
+    /// Adders by position of the channel, as channels differ in magnitude.
     adders: Vec<ColumnAdder>,
     gathered: Gathered,
 }
@@ -101,7 +101,7 @@ impl Channelwise for Lines {
     }
 }
 
-/// `numbers` with those of the line, which have intervals.
+/// Adds the numbers of the line, which have intervals, to `numbers`.
 fn with_line(numbers: Numbers, output: &Output, sums: &LineSums) -> Numbers {
     let line = Line::through(sums);
     numbers

@@ -1,4 +1,4 @@
-//! The family of scores that are finished from the repeats of each press.
+//! Family of scores from the repeats of each press.
 
 pub(crate) mod spread;
 
@@ -25,7 +25,7 @@ pub(crate) static REPEATS: FamilyKind = FamilyKind::new("taceva.repeats/1", |pla
     erased(ByChannel::new(Repeats, plan))
 });
 
-/// What scores of repeats need.
+/// Needs of scores of repeats.
 pub(crate) const REPEAT_NEEDS: Needs = Needs::new(
     FieldSet::EMPTY
         .with(Field::Prediction)
@@ -39,9 +39,9 @@ pub(crate) const REPEAT_NEEDS: Needs = Needs::new(
 pub(crate) struct RepeatFormula {
     /// The numbers, in the unit of the channel.
     pub(crate) finish: fn(&SpreadSums, Unit) -> Numbers,
-    /// Whether the score holds the mean spread at each depth step.
+    /// True if the score includes the mean spread at each depth step.
     pub(crate) has_curve: bool,
-    /// Whether it is flagged where labels hardly differ.
+    /// True if the score is flagged for labels that hardly differ.
     pub(crate) needs_stimulus: bool,
 }
 
@@ -52,18 +52,18 @@ fn formula(metric: &Metric) -> Option<&'static RepeatFormula> {
 /// Predictions by point and depth step.
 struct Repeats;
 
-/// What is kept of one channel.
+/// Sums of one channel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct RepeatSums {
     n: u64,
     n_invalid: u64,
     cells: Cells<Cell>,
-    /// The labels of the same repeats, where they carry any: what there was to tell apart.
+    /// Labels of the same repeats, as far as they have any: the stimulus to distinguish.
     truth: Moments,
 }
 
 impl RepeatSums {
-    /// Whether labels differ less from press to press than predictions of one press do: then what predictions differ by is no signal.
+    /// True if the standard deviation of labels is below the pooled spread of repeats: then differences of predictions are no signal.
     fn is_low_stimulus(&self) -> bool {
         let stimulus = self.truth.deviation(1);
         let spread = SpreadSums::of(&self.cells).pooled().ok();
@@ -112,7 +112,7 @@ impl Channelwise for Repeats {
                 sums.n_invalid += 1;
                 return;
             };
-            // A press of which nothing is usable is still one that was made: its cell is counted.
+            // A press without usable values was made all the same: its cell is counted.
             let cell = sums
                 .cells
                 .at(points.and_then(|points| points.get(row)), step);
@@ -230,7 +230,7 @@ fn depth_curve(parts: &[&RepeatSums]) -> Value {
     })
 }
 
-/// The depth step that is kept as `step`; `None` if it is no whole number from 0 to 2³² − 1.
+/// Depth step from its number `step`; `None` if it is no whole number from 0 to 2³² − 1.
 fn whole_step(step: f64) -> Option<u32> {
     let whole = (0.0..=f64::from(u32::MAX)).contains(&step) && step.fract().abs() <= 0.0;
     #[expect(

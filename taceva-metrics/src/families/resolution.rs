@@ -1,4 +1,4 @@
-//! Spatial resolution: how well the spacing of a grating is classified.
+//! Spatial resolution: classification of the spacing of a grating.
 
 mod histogram;
 mod success_rate;
@@ -42,7 +42,7 @@ impl Resolution {
     }
 }
 
-/// A spacing in whole nanometres, exact in binary64; `None` if it is none.
+/// Spacing in whole nanometres, exact in binary64; `None` for other numbers.
 fn spacing(value: f64) -> Option<i64> {
     const GREATEST: f64 = 9_007_199_254_740_992.0;
     #[expect(
@@ -90,7 +90,7 @@ impl Family for Resolution {
         });
     }
 
-    /// A board is pressed many times: it is the cluster, by its name or else by what is on it.
+    /// A board is pressed many times and is the cluster, by its point or else by its grating.
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         if self.by_point {
             return batch.points().map(Cow::Borrowed);
@@ -138,7 +138,7 @@ impl Family for Resolution {
     }
 }
 
-/// What is on the board of each row: `line:350000`. Rows without a board share one that has no samples.
+/// Name of each row's board by its grating: `line:350000`. Rows without a board share the name `none`, which has no samples.
 fn boards(batch: &Batch) -> Labels {
     let (kinds, spacings) = (batch.labels(Field::Kind), batch.numbers(Field::Spacing));
     let mut boards = Labels::default();

@@ -1,18 +1,18 @@
-//! Some rows of some columns side by side.
+//! Gathering of some rows of some columns.
 
 use std::ops::Range;
 
 use taceva_core::Column;
 
-/// The values of the rows that were gathered last; kept so that their memory is used again.
+/// Values of the last gathered rows; kept to reuse their memory.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gathered {
     columns: Vec<Vec<f64>>,
 }
 
 impl Gathered {
-    /// The values of `columns` in `rows`, which ascend, or all of them for `None`, without the rows in which a column has no value; where these
-    /// stand side by side they are those of the columns themselves.
+    /// Values of `columns` in the ascending `rows`, or in all rows for `None`. Rows in which a column has no value are skipped. Adjacent
+    /// rows are borrowed from the columns without a copy.
     pub(crate) fn rows<'a>(
         &'a mut self,
         columns: &[&'a Column],

@@ -1,4 +1,4 @@
-//! Spatial robustness: whether errors are alike near the axis and far from it, at the surface and deep in the gel.
+//! Spatial robustness: variation of errors with distance from the axis and with depth.
 
 mod robustness;
 mod sums;

@@ -1,4 +1,4 @@
-//! How the surface yields to normal force: sensitivity and its uniformity, finished from the same sums.
+//! Compliance of the surface under normal force: sensitivity and its uniformity, from the same sums.
 
 mod grid;
 pub(crate) mod sums;
@@ -31,15 +31,15 @@ pub(crate) static SURFACE: FamilyKind =
 
 /// Formula of a metric that is finished from the compliance of the surface.
 pub(crate) struct SurfaceFormula {
-    /// The channels it is made of.
+    /// Channels of the score.
     pub(crate) of: &'static [&'static str],
-    /// The samples that take part.
+    /// Number of samples that count.
     pub(crate) count: fn(&SurfaceSums) -> u64,
     /// The numbers.
     pub(crate) finish: fn(&SurfaceSums, &Settings) -> Numbers,
-    /// Variants that clusters give another value, and their intervals.
+    /// Variants with values that depend on clusters, and their intervals.
     pub(crate) of_clusters: Option<fn(&[&SurfaceSums], &Settings) -> Intervals>,
-    /// Whether the score holds the mean of each cell.
+    /// True if the score includes the mean of each cell.
     pub(crate) has_map: bool,
 }
 
@@ -47,7 +47,7 @@ fn formula(metric: &Metric) -> Option<&'static SurfaceFormula> {
     metric.formula.get()
 }
 
-/// Sums of the compliance of the surface, by cell where there is a footprint.
+/// Sums of the compliance of the surface, by cell if there is a footprint.
 pub(crate) struct Surface {
     settings: Settings,
     grid: Option<Grid>,
@@ -74,7 +74,7 @@ impl Surface {
         })
     }
 
-    /// Where the sample at `row` lies; `None` if that is no number.
+    /// Cell of the sample at `row`; `None` if a coordinate is no usable number.
     fn place(&self, batch: &Batch, row: usize) -> Option<Place> {
         let (Some(grid), Some([x, y])) = (&self.grid, self.place) else {
             return Some(Place::Unknown);
@@ -88,7 +88,7 @@ impl Surface {
         Some(grid.cell(x_mm, y_mm).map_or(Place::Outside, Place::Cell))
     }
 
-    /// Whether the sample at `row` is known to have no shear: both forces measured, both below the gate.
+    /// True if the sample at `row` is known to have no shear: both forces are measured and below the gate.
     fn without_shear(&self, batch: &Batch, row: usize) -> bool {
         let small = |axis: usize| {
             let force = batch.truth(axis).get(row);

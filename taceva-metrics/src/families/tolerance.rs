@@ -1,4 +1,4 @@
-//! Which share of predictions is good enough.
+//! Share of predictions within a tolerance.
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
@@ -21,7 +21,7 @@ use crate::score::{Parameter, Variant};
 
 /// Tolerances in thousandths of the unit's [`step`]: 0.01 to 2 mm or N, 0.1 to 20 degrees or N mm.
 const TOLERANCES: [i64; 8] = [100, 200, 500, 1000, 2000, 5000, 10_000, 20_000];
-/// Which of them the score is of: half a step, 0.05 mm or N.
+/// Index of the tolerance of the score: half a step, 0.05 mm or N.
 const HEADLINE: usize = 2;
 
 pub(crate) static TOLERANCE: Metric = Metric {
@@ -69,13 +69,13 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
 
 /// Magnitudes of errors.
 pub(crate) struct Tolerances {
-    /// What the model is measured by, channel by channel, in millionths of the unit; none where the training part is not known.
+    /// Best constant prediction of each channel, in millionths of the unit; `None` if the training part is unknown.
     constants: Vec<Option<i64>>,
     gathered: Gathered,
 }
 
 impl Tolerances {
-    /// Those of `plan`.
+    /// Tolerances for the channels and constants of `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Tolerances {
         let channels = plan.channels().iter();
         let constants = channels.map(|channel| plan.constant(channel.name()).and_then(millionths));
@@ -85,7 +85,7 @@ impl Tolerances {
         }
     }
 
-    /// The share that the constants of the channels at `positions` reach, the mean over a plane; none unless all are known.
+    /// Share that the constants of the channels at `positions` reach, for a plane the mean of both; `None` unless all are known.
     fn of_constant(&self, positions: &[usize], parts: &[&ErrorCounts]) -> Option<f64> {
         let share = |(position, sums): (&usize, &&ErrorCounts)| {
             let of_constant = sums.of_constant.filter(|_| sums.n > 0)?;
@@ -101,28 +101,28 @@ impl Tolerances {
     }
 }
 
-/// Which of `tolerances` is the least that `error` is within; one past the last for none.
+/// Index of the least of `tolerances` that `error` is within; one past the last for none.
 #[inline]
 fn class(error: i64, tolerances: &[i64; 8]) -> usize {
-    // Halving without a branch: which class an error falls into is not foreseen.
+    // Bisection without branches, as the class of an error is unpredictable.
     let mut class = 4 * usize::from(error > tolerances[3]);
     class += 2 * usize::from(error > tolerances[class + 1]);
     class += usize::from(error > tolerances[class]);
     class + usize::from(error > tolerances[7])
 }
 
-/// How many errors of one channel need which tolerance.
+/// Counts of the errors of one channel by tolerance.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ErrorCounts {
     n: u64,
     n_invalid: u64,
-    /// Errors within each tolerance and not within the one before.
+    /// Errors within each tolerance but above the one before.
     classes: [u64; TOLERANCES.len()],
-    /// What the constant of the channel reaches; none where it is not known, and of samples whose models have different ones.
+    /// Counts of the channel's constant; `None` if it is unknown, or if samples have models with different constants.
     of_constant: Option<OfConstant>,
 }
 
-/// How many truths a constant meets within the tolerance of the score.
+/// Count of truths that a constant meets within the tolerance of the score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct OfConstant {
     /// In millionths of the unit.
@@ -131,7 +131,7 @@ struct OfConstant {
 }
 
 impl OfConstant {
-    /// Both together, if they are of the same constant.
+    /// Sum of both counts, if they have the same constant.
     fn and(self, other: OfConstant) -> Option<OfConstant> {
         (self.constant == other.constant).then(|| OfConstant {
             met: self.met.saturating_add(other.met),
@@ -205,7 +205,7 @@ impl Channelwise for Tolerances {
     }
 
     fn read_record(&self, record: &Record) -> Result<ErrorCounts, String> {
-        // Two numbers fewer if no constant is known.
+        // The record has two numbers fewer if no constant is known.
         let ((n, n_invalid, classes), of_constant) = match record.counts.len() {
             10 => {
                 let (&[n, n_invalid, ref classes @ ..], []) = record.exactly::<10, 0>()?;

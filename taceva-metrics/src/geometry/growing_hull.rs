@@ -1,21 +1,21 @@
-//! A hull of many points that come a few at a time: those that change nothing are passed over quickly.
+//! Convex hull of many points that come a few at a time; interior points are skipped quickly.
 
 use super::hull::Hull;
 use super::hull_core::Core;
 use super::orientation::Place;
 
-/// Points from which on it pays to look for a core.
+/// Least points for a core to pay.
 const LEAST_POINTS: u64 = 64;
 
-/// A hull that knows a part of it in which new points mostly lie.
+/// Hull with a core, in which most new points are.
 ///
-/// The core is that of the hull of some of the points, and so in that of all; it changes what is looked at, never the hull.
+/// The core belongs to the hull of some of the points, and so is inside the hull of all. It changes the points examined, never the hull.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GrowingHull {
     hull: Hull,
     core: Option<Core>,
     points: u64,
-    /// How many points there were when the core was found.
+    /// Number of points when the core was found.
     points_of_core: u64,
 }
 
@@ -25,7 +25,7 @@ impl GrowingHull {
         &self.hull
     }
 
-    /// Widens the hull so that it holds `points` too.
+    /// Extends the hull by `points`.
     pub(crate) fn extend(&mut self, points: impl IntoIterator<Item = Place>) {
         let mut count = 0;
         let outside = points.into_iter().filter(|&point| {
@@ -38,14 +38,14 @@ impl GrowingHull {
         if !outside.is_empty() {
             self.hull.extend(outside);
         }
-        // Twice as many points have a hull that is little larger: a core of each doubling is enough.
+        // The hull grows little while the points double: one core per doubling is enough.
         if self.points >= LEAST_POINTS.max(2 * self.points_of_core) {
             self.core = Core::of(&self.hull);
             self.points_of_core = self.points;
         }
     }
 
-    /// Widens the hull so that it holds `other` too.
+    /// Extends the hull by `other`.
     pub(crate) fn merge(&mut self, other: &Hull) {
         self.hull.merge(other);
     }
@@ -60,7 +60,7 @@ impl From<Hull> for GrowingHull {
     }
 }
 
-/// By the hull: equal sets of points have equal ones.
+/// Equality of the hulls: equal sets of points have equal hulls.
 impl PartialEq for GrowingHull {
     fn eq(&self, other: &GrowingHull) -> bool {
         self.hull == other.hull

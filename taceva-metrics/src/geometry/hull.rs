@@ -7,8 +7,8 @@ use crate::pair::is_valid;
 
 /// The corners of the convex hull of points in the plane.
 ///
-/// They run anticlockwise from the leftmost, the lowest of those first; no corner lies between two others, so that equal
-/// sets of points have equal hulls. A hull is flat if all points lie on one line: it has at most two corners then.
+/// They run anticlockwise from the leftmost corner, the lowest of these first. No corner is on the line between two others, so equal sets
+/// of points have equal hulls. A hull is flat if all points are on one line: it then has at most two corners.
 ///
 /// # Laws
 /// Merging is associative, commutative and idempotent; the empty hull changes nothing.
@@ -20,7 +20,7 @@ pub(crate) struct Hull {
 impl Hull {
     /// The hull of `points`, whose coordinates are finite.
     pub(crate) fn of(points: impl IntoIterator<Item = Place>) -> Hull {
-        // A zero has one sign here, or equal sets would have two hulls.
+        // Zeros get one sign, so that equal sets have equal hulls.
         let plain = |[x, y]: Place| [x + 0.0, y + 0.0];
         let mut points: Vec<Place> = points.into_iter().map(plain).collect();
         points.sort_unstable_by(compare);
@@ -35,10 +35,10 @@ impl Hull {
         Hull { corners }
     }
 
-    /// The hull with the given corners, x, y, x, y, …, as a state holds them.
+    /// Reads the corners x, y, x, y, … of a state.
     ///
     /// # Errors
-    /// What is wrong with them, if they are not the corners of a hull in their order.
+    /// A message if they are not the ordered corners of a hull.
     pub(crate) fn from_values(values: &[f64]) -> Result<Hull, String> {
         let corners: Vec<Place> = values
             .chunks_exact(2)
@@ -55,24 +55,24 @@ impl Hull {
         &self.corners
     }
 
-    /// Whether there is no point.
+    /// True if there are no points.
     pub(crate) fn is_empty(&self) -> bool {
         self.corners.is_empty()
     }
 
-    /// Widens the hull so that it holds `points` too.
+    /// Extends the hull by `points`.
     pub(crate) fn extend(&mut self, points: impl IntoIterator<Item = Place>) {
         *self = Hull::of(self.corners.iter().copied().chain(points));
     }
 
-    /// Widens the hull so that it holds `other` too.
+    /// Extends the hull by `other`.
     pub(crate) fn merge(&mut self, other: &Hull) {
         self.extend(other.corners.iter().copied());
     }
 
     /// RN of the area; 0 for a flat hull.
     pub(crate) fn area(&self) -> f64 {
-        // Halving is exact but for areas below the least normal number, which have no use for their last bit.
+        // Halving is exact except for subnormal areas, whose last bit does not matter.
         doubled_area(&self.corners).to_f64() * 0.5
     }
 
@@ -84,7 +84,7 @@ impl Hull {
         Some([low, high])
     }
 
-    /// Whether `place` lies in the hull or on its edge.
+    /// True if `place` is in the hull or on its edge.
     pub(crate) fn contains(&self, place: Place) -> bool {
         match self.corners[..] {
             [] => false,
@@ -103,7 +103,7 @@ impl Hull {
     }
 }
 
-/// One half of the hull of sorted points: what turns left all the way.
+/// Half of the hull of sorted points: the chain of left turns.
 ///
 /// # Reference
 /// Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
@@ -121,7 +121,7 @@ fn chain(points: impl Iterator<Item = Place>) -> Vec<Place> {
     chain
 }
 
-/// By x, then by y; both zeros are one number.
+/// Order by x, then by y; both zeros are one number.
 fn compare(left: &Place, right: &Place) -> Ordering {
     let along = |axis: usize| (left[axis] + 0.0).total_cmp(&(right[axis] + 0.0));
     along(0).then_with(|| along(1))

@@ -1,33 +1,33 @@
-//! A part of a hull in which a point is seen to lie at once.
+//! Core of a hull: a part with a fast test for points.
 
 use std::cmp::Ordering;
 
 use super::hull::Hull;
 use super::orientation::{Place, turn};
 
-/// Stretches of x: with fewer the part is smaller, with more it takes longer to find and fills more of the cache.
+/// Stretches of x. With fewer the core is smaller; with more it takes longer to find and more cache.
 const STRETCHES: u32 = 64;
 
-/// How far beyond its ends a stretch is looked at, as a share of its width: rounding may take a point for one of the next stretch.
+/// Overlap of neighbouring stretches, as a share of their width: rounding may assign a point to the next stretch.
 const OVERLAP: f64 = 1.0 / 1024.0;
 
-/// What rounding may move a height by, as a share of the greatest: far more than the few roundings of each.
+/// Bound of the rounding of a height, as a share of the greatest height: far above the few roundings of each.
 const MARGIN: f64 = 1.0 / 35_184_372_088_832.0;
 
-/// Between two heights over each of some stretches of x, y being taken less a multiple of x so that the hull lies flat.
+/// Lower and upper height of the core over each of some stretches of x. y is taken less a multiple of x, so that the hull is level.
 #[derive(Clone, Debug)]
 pub(crate) struct Core {
     slope: f64,
     ends: [f64; 2],
     stretches_per_x: f64,
-    /// The points of a stretch whose height lies between these are inside; none where the first is above the second.
+    /// Points of a stretch with a height between these are inside; none if the first is above the second.
     between: Vec<[f64; 2]>,
-    /// The outline that it is the core of.
+    /// Outline of the hull.
     chains: [Vec<Place>; 2],
 }
 
 impl Core {
-    /// The core of `hull`; none if it is flat, or so narrow, small or large that rounding could decide what is inside.
+    /// Core of `hull`; `None` if the hull is flat, or so narrow, small or large that rounding could decide the test.
     pub(crate) fn of(hull: &Hull) -> Option<Core> {
         let [lower, upper] = chains(hull.corners())?;
         let (&[first, left], &[last, right]) = (lower.first()?, lower.last()?);
@@ -51,7 +51,7 @@ impl Core {
         };
         let (mut below, mut above) = (Heights::of(&lower, slope), Heights::of(&upper, slope));
         let between = (0..STRETCHES).map(|stretch| {
-            // The lower chain sags between two places and the upper one rises: what is inside at both is inside between them.
+            // The lower chain is convex and the upper one concave: heights inside at both ends are inside between them.
             let places = [place(stretch, -OVERLAP), place(stretch, 1.0 + OVERLAP)];
             let [low, high] = [places.map(|x| below.at(x)), places.map(|x| above.at(x))];
             let margin = size * MARGIN;
@@ -66,7 +66,7 @@ impl Core {
         })
     }
 
-    /// Whether the point at `place` is seen to lie in the hull; of some points in it, it is not.
+    /// True if the point at `place` is in the core. False is no proof that it is outside the hull.
     #[inline]
     pub(crate) fn holds(&self, [x, y]: Place) -> bool {
         let [first, last] = self.ends;
@@ -86,7 +86,7 @@ impl Core {
 }
 
 impl Core {
-    /// Whether the point at `place` lies in the hull that this is the core of, or on its edge: two places of its outline decide.
+    /// True if the point at `place` is in the hull of this core or on its edge, by the two edges of the outline above and below it.
     pub(crate) fn outline_holds(&self, place: Place) -> bool {
         let [first, last] = self.ends;
         let along = |chain: &[Place]| {
@@ -100,7 +100,7 @@ impl Core {
     }
 }
 
-/// The lower and the upper half of the outline, both from left to right and without upright edges; none of a flat hull.
+/// Lower and upper half of the outline, both from left to right and without vertical edges; `None` for a flat hull.
 fn chains(corners: &[Place]) -> Option<[Vec<Place>; 2]> {
     let (&[first, _], &[before, _]) = (corners.first()?, corners.last()?);
     let last = corners.iter().map(|[x, _]| *x).fold(first, f64::max);
@@ -120,7 +120,7 @@ fn chains(corners: &[Place]) -> Option<[Vec<Place>; 2]> {
     Some([corners[..=lower_end].to_vec(), upper])
 }
 
-/// The heights along a chain, asked for from left to right.
+/// Heights along a chain, queried from left to right.
 struct Heights {
     corners: Vec<Place>,
     at: usize,

@@ -4,7 +4,7 @@ use super::rigid::Point;
 
 use crate::exact::number_key::ranked;
 
-/// Points in an order in which the nearest is found without visiting all.
+/// Points sorted for a nearest-point search that need not visit all.
 #[derive(Clone, Debug)]
 pub(crate) struct NearestPoints {
     /// By x, then by index.
@@ -14,9 +14,9 @@ pub(crate) struct NearestPoints {
 /// A point that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearest {
-    /// Which of the points it is.
+    /// Index of the point.
     pub(crate) index: usize,
-    /// Where it lies.
+    /// Coordinates of the point.
     pub(crate) point: Point,
     /// RN of its squared distance as the rounded sum of three rounded squares.
     pub(crate) squared: f64,
@@ -42,7 +42,7 @@ impl NearestPoints {
             .partition_point(|(point, _)| point[0] < place[0]);
         let (left, right) = self.sorted.split_at(middle);
         let mut best = None;
-        // A squared distance is at least that along x, also when rounded: beyond it no point is nearer or as near.
+        // A squared distance is at least that along x, also when rounded: beyond it no point is nearer or equally near.
         for (points, backwards) in [(right, false), (left, true)] {
             let mut visit =
                 |&(point, index): &(Point, usize)| closer(&mut best, place, point, index);
@@ -56,7 +56,7 @@ impl NearestPoints {
     }
 }
 
-/// Keeps the nearer of the best so far and `point`; whether points further along x can still be as near.
+/// Keeps the nearer of the best so far and `point`. Returns true if points further along x can still be as near.
 fn closer(best: &mut Option<Nearest>, place: Point, point: Point, index: usize) -> bool {
     let [x, y, z]: Point = std::array::from_fn(|axis| point[axis] - place[axis]);
     let along = x * x;

@@ -1,4 +1,4 @@
-//! On which side of a line a point lies, decided without rounding.
+//! Side of a line on which a point is, decided without rounding.
 
 use std::cmp::Ordering;
 
@@ -9,8 +9,8 @@ pub(crate) type Place = [f64; 2];
 
 /// The turn from `start` over `middle` to `end`: `Greater` to the left, `Less` to the right, `Equal` on one line.
 ///
-/// The sign of (bx − ax)(cy − ay) − (by − ay)(cx − ax). Rounded arithmetic settles nearly every case; the rest is decided
-/// by the six products of the expanded determinant, summed exactly.
+/// The sign of (bx − ax)(cy − ay) − (by − ay)(cx − ax). Rounded arithmetic settles nearly every case. The rest is decided by the six
+/// products of the expanded determinant, summed exactly.
 ///
 /// # Reference
 /// Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates (1997), the bound A of
@@ -19,7 +19,7 @@ pub(crate) fn turn(start: Place, middle: Place, end: Place) -> Ordering {
     /// (3 + 16 ε) ε, ε = 2⁻⁵³.
     const BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
     const EPSILON: f64 = f64::EPSILON / 2.0;
-    /// Below it a product may have lost bits to underflow, which the bound does not count.
+    /// Below this size a product may have lost bits to underflow, which the bound ignores.
     const LEAST: f64 = 1e-290;
     let left = (middle[0] - start[0]) * (end[1] - start[1]);
     let right = (middle[1] - start[1]) * (end[0] - start[0]);
@@ -52,7 +52,7 @@ pub(crate) fn doubled_area(corners: &[Place]) -> ExactSum {
     area
 }
 
-/// How a sum compares with zero.
+/// Sign of a sum, as its order against zero.
 pub(crate) fn sign(sum: &ExactSum) -> Ordering {
     let form = sum.to_canonical();
     match (form.digits().is_empty(), form.is_negative()) {

@@ -1,4 +1,4 @@
-//! Two clouds whose points are not paired, brought into one frame: the iterative closest point.
+//! Registration of two clouds without paired points: iterative closest point.
 
 use super::nearest::NearestPoints;
 use super::rigid::{Motion, Point};
@@ -6,19 +6,19 @@ use super::rigid::{Motion, Point};
 /// Steps after which the registration ends, settled or not.
 const MOST_STEPS: u32 = 50;
 
-/// A motion, and how it was arrived at.
+/// A motion, and the convergence of its search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Registration {
-    /// What brings the moving cloud onto the other.
+    /// Motion of the moving cloud onto the other.
     pub(crate) motion: Motion,
-    /// Whether the last step paired the points as the one before: further steps would change nothing.
+    /// True if the last two steps paired the same points, so that further steps change nothing.
     pub(crate) settled: bool,
 }
 
-/// Moves `from` onto `onto`, starting where they lie: each step pairs every point with the nearest one and solves for the
-/// motion of the original cloud.
+/// Moves `from` onto `onto`, from their given positions: each step pairs every point with the nearest one and solves for the motion of the
+/// original cloud.
 ///
-/// `None` if some pairing leaves the turn open.
+/// `None` if some pairing does not determine the rotation.
 ///
 /// # Reference
 /// Besl and McKay, A method for registration of 3-D shapes (1992).

@@ -19,7 +19,7 @@ impl Motion {
         shift: [0.0; 3],
     };
 
-    /// Where `point` comes to lie.
+    /// Moves `point`.
     pub(crate) fn apply(&self, point: Point) -> Point {
         let turned = turned(&self.rotation, point);
         std::array::from_fn(|axis| turned[axis] + self.shift[axis])
@@ -27,7 +27,7 @@ impl Motion {
 
     /// The motion of `from` for which the squared distances to the points of `onto`, one by one, have the least sum.
     ///
-    /// `None` if the points leave the turn open: fewer than three, or all on one line.
+    /// `None` if the points do not determine the rotation: fewer than three, or all on one line.
     ///
     /// # Shapes
     /// `from`, `onto`: one length.
@@ -66,8 +66,8 @@ fn quaternion_form(products: &[[f64; 3]; 3]) -> [[f64; 4]; 4] {
 fn leading_vector(mut matrix: [[f64; 4]; 4]) -> Option<[f64; 4]> {
     /// Sweeps over all pairs; convergence is quadratic, so that six or so are enough.
     const SWEEPS: usize = 20;
-    /// Points on one line bring the two greatest eigenvalues within rounding of each other; less than this share of the
-    /// greatest between them is no direction.
+    /// Least relative gap between the two greatest eigenvalues. Points on one line bring them within rounding of each other, and a smaller
+    /// gap determines no direction.
     const OPEN: f64 = 1e-12;
     let mut vectors = [[0.0; 4]; 4];
     for (place, vector) in vectors.iter_mut().enumerate() {
@@ -113,7 +113,7 @@ fn clear(matrix: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], low: usize, hi
     vectors.iter_mut().for_each(mix);
 }
 
-/// The turn of a quaternion, which is brought to length one.
+/// Rotation matrix of a quaternion, which is normalized.
 fn rotation_of([w, x, y, z]: [f64; 4]) -> [[f64; 3]; 3] {
     let twice = 2.0 / (w * w + x * x + y * y + z * z);
     let product = |left: f64, right: f64| twice * left * right;

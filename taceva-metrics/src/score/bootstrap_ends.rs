@@ -1,8 +1,8 @@
-//! The way from replicates to an interval.
+//! Ends of an interval from bootstrap replicates.
 
 use std::fmt;
 
-/// How an interval is read off bootstrap replicates.
+/// Ends of an interval from bootstrap replicates.
 ///
 /// ```
 /// assert_eq!(taceva_metrics::BootstrapEnds::Percentile.to_string(), "percentile");
@@ -10,7 +10,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BootstrapEnds {
-    /// Of B replicates in their order the k-th and the (B + 1 − k)-th, k = ⌊(B + 1) / 40⌋: skewed where the score is.
+    /// The k-th and the (B + 1 − k)-th of B sorted replicates, k = ⌊(B + 1) / 40⌋; skewed for skewed scores.
     Percentile,
     /// The value ± t(G − 1) standard deviations of the replicates, on a scale without ends.
     Normal,

@@ -24,14 +24,14 @@ pub struct Curve {
     pub x_unit: Unit,
     /// The value at each level.
     pub values: Vec<Option<f64>>,
-    /// How many samples each value is made of.
+    /// Number of samples of each value.
     pub counts: Vec<u64>,
-    /// What lies below and above each value; the metric says of which meaning.
+    /// Lower and upper curve around the values; the metric defines their meaning.
     pub band: Option<Band>,
 }
 
 impl Curve {
-    /// The curve through `values` at the levels `x`, without a band, whose shapes the caller has checked.
+    /// Curve through `values` at the levels `x`, without a band; the caller has checked their shapes.
     pub fn new(x: Vec<f64>, x_unit: Unit, values: Vec<Option<f64>>, counts: Vec<u64>) -> Curve {
         Curve {
             x,
@@ -61,8 +61,8 @@ impl Curve {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Band {
-    /// The lower one.
+    /// Lower curve.
     pub low: Vec<Option<f64>>,
-    /// The upper one.
+    /// Upper curve.
     pub high: Vec<Option<f64>>,
 }

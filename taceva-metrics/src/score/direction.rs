@@ -1,6 +1,6 @@
-//! Which values are good, and the sign that says so beside a name.
+//! Direction of good values, and its sign beside a name.
 
-/// Which values of a metric are good.
+/// Direction of good values of a metric.
 ///
 /// ```
 /// use taceva_metrics::{Better, catalogue};
@@ -11,19 +11,18 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Better {
-    /// Small ones.
+    /// Small values are good.
     Lower,
-    /// Large ones.
+    /// Large values are good.
     Higher,
-    /// Those near zero.
+    /// Values near zero are good.
     NearZero,
-    /// None: they describe.
+    /// No direction: values only describe.
     Described,
 }
 
 impl Better {
-    /// `name` as it stands in every table, with the sign of the direction behind it: `mae ↓`, `r2 ↑`, `bias →0`; nothing behind what only
-    /// describes.
+    /// `name` in tables, followed by the sign of the direction: `mae ↓`, `r2 ↑`, `bias →0`. Descriptive values have no sign.
     ///
     /// ```
     /// use taceva_metrics::Better;

@@ -1,8 +1,8 @@
-//! What a reader must know before trusting a score.
+//! Warnings about a score.
 
 use std::fmt;
 
-/// A circumstance under which a defined score says less than it seems to.
+/// Circumstance that weakens a defined score.
 ///
 /// ```
 /// use taceva_metrics::Flag;
@@ -11,16 +11,15 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Flag {
-    /// All samples lie in one bin, so that nothing can vary.
+    /// All samples are in one bin, so nothing can vary.
     OneBin,
-    /// What the score is formed from hardly changed: the light by less than 5 % in some scene, or labels from press to press less than predictions
-    /// of one press.
+    /// The stimulus hardly changed: the light by less than 5 % in some scene, or labels between presses less than predictions of one press.
     LowStimulus,
     /// In some scene the error is smaller than in the reference scene, which the score counts like a larger one.
     ImprovedError,
     /// The truths of some channels move together, so that their effects on a prediction cannot be separated.
     CollinearTruths,
-    /// The labels that the model was fitted on are not known: skill is measured by the mean of the evaluated truth.
+    /// The training labels are unknown: skill is measured against the mean of the evaluated truth.
     MeanOfTruth,
 }
 

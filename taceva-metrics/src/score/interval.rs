@@ -1,10 +1,10 @@
-//! How certain a score is: both ends of its interval, and how they were found.
+//! Confidence interval of a score: both ends, and the method.
 
 use crate::score::bootstrap_ends::BootstrapEnds;
 use crate::score::scale::Scale;
 use crate::score::value::UndefinedReason;
 
-/// What the clusters of an interval are.
+/// Clusters of an interval.
 ///
 /// ```
 /// use taceva_metrics::{Channel, ClusteredBy, Evaluator, Interval};
@@ -21,16 +21,16 @@ pub enum ClusteredBy {
     /// Contact points.
     #[default]
     Point,
-    /// Single samples, taken as independent because the caller said that they are.
+    /// Single samples, which the caller declared independent.
     Sample,
-    /// Whole recordings, of samples of several.
+    /// Whole recordings, for samples of several.
     Recording,
     /// Groups of samples that depend on each other: blocks of time, clips, objects.
     Group,
 }
 
 impl ClusteredBy {
-    /// Behind the name of a method.
+    /// Text behind the name of a method.
     const fn words(self) -> &'static str {
         match self {
             ClusteredBy::Point => " by point_id",
@@ -63,13 +63,13 @@ pub enum Interval {
         high: f64,
         /// The root of the jackknife's variance, on the score's own scale.
         standard_error: f64,
-        /// Degrees of freedom of Student's t that the ends were made with.
+        /// Degrees of freedom of Student's t for the ends.
         freedom: f64,
         /// Number of clusters with samples.
         clusters: usize,
-        /// On which scale the ends lie about the value.
+        /// Scale on which the ends are symmetric about the value.
         scale: Scale,
-        /// What varies from cluster to cluster.
+        /// Kind of the clusters.
         by: ClusteredBy,
     },
     /// By counting each cluster a random number of times.
@@ -80,11 +80,11 @@ pub enum Interval {
         high: f64,
         /// The standard deviation of the replicates, on the score's own scale.
         standard_error: f64,
-        /// One degree of freedom less than there are clusters.
+        /// Degrees of freedom: one less than there are clusters.
         freedom: f64,
-        /// On which scale the ends lie about the value; percentiles need none.
+        /// Scale on which the ends are symmetric about the value; percentiles need none.
         scale: Scale,
-        /// How the ends were read off the replicates.
+        /// Method for the ends from the replicates.
         ends: BootstrapEnds,
         /// Number of clusters with samples.
         clusters: usize,
@@ -92,12 +92,12 @@ pub enum Interval {
         replicates: usize,
         /// The seed they were drawn with.
         seed: u64,
-        /// Replicates in which the score has no value; they are left out.
+        /// Replicates without a value, which are skipped.
         undefined: usize,
-        /// What varies from cluster to cluster.
+        /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// Carried over from the jackknife variances of what the value is made of, to first order.
+    /// Delta method: from the jackknife variances of the components of the value, to first order.
     Delta {
         /// Lower end.
         low: f64,
@@ -105,16 +105,16 @@ pub enum Interval {
         high: f64,
         /// The root of the variance, on the score's own scale.
         standard_error: f64,
-        /// Degrees of freedom of Student's t that the ends were made with.
+        /// Degrees of freedom of Student's t for the ends.
         freedom: f64,
         /// Number of clusters with samples, of the part that has the fewest.
         clusters: usize,
-        /// On which scale the ends lie about the value.
+        /// Scale on which the ends are symmetric about the value.
         scale: Scale,
-        /// What varies from cluster to cluster.
+        /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// From the variance between clusters and within them, of a spread beyond chance.
+    /// From the variance between and within clusters, for a spread beyond chance.
     Components {
         /// Lower end.
         low: f64,
@@ -129,19 +129,19 @@ pub enum Interval {
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// As if all samples were independent: what the interval of a share would be at best.
+    /// As if all samples were independent: the narrowest possible interval of a share.
     Wilson {
         /// Lower end.
         low: f64,
         /// Upper end.
         high: f64,
     },
-    /// There is none.
+    /// No interval, with the reason.
     Undefined(UndefinedReason),
 }
 
 impl Interval {
-    /// The same interval, whose clusters were of this kind.
+    /// The same interval with clusters of this kind.
     pub(crate) fn clustered_by(mut self, clusters: ClusteredBy) -> Interval {
         if let Interval::Jackknife { by, .. }
         | Interval::Bootstrap { by, .. }
@@ -165,8 +165,8 @@ impl Interval {
         }
     }
 
-    /// The standard error that it was made from, in the unit of the score and on its own scale, whichever scale the ends were
-    /// formed on. None where samples are taken as independent.
+    /// Standard error of the interval, in the unit of the score and on its own scale, whatever the scale of the ends. `None` if samples are
+    /// taken as independent.
     pub fn standard_error(&self) -> Option<f64> {
         match *self {
             Interval::Jackknife { standard_error, .. }
@@ -177,8 +177,8 @@ impl Interval {
         }
     }
 
-    /// Degrees of freedom of Student's t that it was made with, on the scale of its ends: the number of independent
-    /// normal values that would give as certain a standard error. None where samples are taken as independent.
+    /// Degrees of freedom of Student's t, on the scale of the ends: the number of independent normal values that give an equally certain
+    /// standard error. `None` if samples are taken as independent.
     pub fn freedom(&self) -> Option<f64> {
         match *self {
             Interval::Jackknife { freedom, .. }
@@ -189,7 +189,7 @@ impl Interval {
         }
     }
 
-    /// On which scale its ends lie about the value.
+    /// Scale on which its ends are symmetric about the value.
     pub fn scale(&self) -> Option<Scale> {
         match *self {
             Interval::Jackknife { scale, .. }
@@ -200,7 +200,7 @@ impl Interval {
         }
     }
 
-    /// How many clusters it was made from, if it was made from clusters.
+    /// Number of clusters, if it was computed from clusters.
     pub fn clusters(&self) -> Option<usize> {
         match *self {
             Interval::Jackknife { clusters, .. }
@@ -211,9 +211,9 @@ impl Interval {
         }
     }
 
-    /// How it was found, in words: `jackknife by point_id, G=32`, `jackknife by point_id, G=32, logarithmic` or
-    /// `Poisson bootstrap by point_id (percentile), G=32, B=1000, seed=0`; `, samples taken as independent` instead of ` by point_id` where
-    /// every sample was a cluster of its own.
+    /// Method in words: `jackknife by point_id, G=32`, `jackknife by point_id, G=32, logarithmic` or
+    /// `Poisson bootstrap by point_id (percentile), G=32, B=1000, seed=0`. If every sample is its own cluster,
+    /// `, samples taken as independent` replaces ` by point_id`.
     pub fn method(&self) -> Option<String> {
         match self {
             Interval::Jackknife {

@@ -1,6 +1,6 @@
-//! How much there must be for an interval.
+//! Least numbers for an interval.
 
-/// Clusters below which there is no interval.
+/// Least clusters for an interval.
 pub(crate) const LEAST_CLUSTERS: usize = 5;
-/// Replicates below which the ends of an interval of 95 % are not among them.
+/// Least replicates, so that the ends of a 95 % interval are among them.
 pub(crate) const LEAST_REPLICATES: usize = 39;

@@ -3,7 +3,7 @@
 /// Numbers in the cells of a grid; a cell without one is `None`, never a placeholder.
 ///
 /// # Shapes
-/// `values[row][column]` and `counts[row][column]` lie between `y_mm[row]..y_mm[row + 1]` and `x_mm[column]..x_mm[column + 1]`.
+/// `values[row][column]` and `counts[row][column]` are for `y_mm[row]..y_mm[row + 1]` and `x_mm[column]..x_mm[column + 1]`.
 /// # Units
 /// Edges in mm; values in the unit of the [`Variant`](crate::Variant) that holds the map.
 ///
@@ -21,12 +21,12 @@ pub struct Map {
     pub y_mm: Vec<f64>,
     /// The value of each cell.
     pub values: Vec<Vec<Option<f64>>>,
-    /// How many samples each cell has.
+    /// Number of samples of each cell.
     pub counts: Vec<Vec<u64>>,
 }
 
 impl Map {
-    /// The map with these edges, values and counts, whose shapes the caller has checked.
+    /// Map with these edges, values and counts; the caller has checked their shapes.
     pub fn new(
         x_mm: Vec<f64>,
         y_mm: Vec<f64>,

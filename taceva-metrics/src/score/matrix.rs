@@ -25,7 +25,7 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// The matrix of `values` by the names of rows and columns, whose shapes the caller has checked.
+    /// Matrix of `values` by the names of rows and columns; the caller has checked their shapes.
     pub fn new(rows: Vec<String>, columns: Vec<String>, values: Vec<Vec<Option<f64>>>) -> Matrix {
         Matrix {
             rows,

@@ -1,6 +1,6 @@
-//! Which values a quantity can have at all.
+//! Range of the values of a quantity.
 
-/// Which values a quantity can have: what its intervals never leave, and on which scale they are formed.
+/// Range of the values of a quantity, which bounds its intervals and determines their scale.
 ///
 /// ```
 /// use taceva_metrics::Range;
@@ -13,25 +13,25 @@ pub enum Range {
     Any,
     /// Above 0: errors, areas, spreads. Infinitely many samples would not give 0.
     Positive,
-    /// Above 0, and the greatest of several numbers: one sample, level or pair of channels decides it, and resampling does not show
-    /// how far it would move with others. It has no interval.
+    /// Above 0, and the greatest of several numbers, without an interval. One sample, level or pair of channels decides it, and resampling
+    /// does not show its variation.
     Greatest,
-    /// From 0 on, and 0 even of infinitely many samples: a spread from which chance was taken.
+    /// From 0, and 0 possible even for infinitely many samples: a spread without its part by chance.
     NotNegative,
     /// Below 1: R², the skill of a model.
     BelowOne,
-    /// Between 0 and 1, neither of which infinitely many samples would give: a uniformity.
+    /// Between 0 and 1, which infinitely many samples would not reach: a uniformity.
     Ratio,
-    /// From 0 to 1, both included: a uniformity from which chance was taken.
+    /// From 0 to 1, both included: a uniformity without its part by chance.
     RatioWithEnds,
     /// Between 0 and 2: a symmetric relative error.
     BelowTwo,
-    /// A share of samples that were counted, from 0 to 1.
+    /// Share of counted samples, from 0 to 1.
     Share,
 }
 
 impl Range {
-    /// The least and the greatest value, infinite where there is none.
+    /// Least and greatest value; infinite without a bound.
     #[must_use]
     pub fn ends(self) -> [f64; 2] {
         match self {
@@ -43,7 +43,7 @@ impl Range {
         }
     }
 
-    /// Whether `value` is one of them, or an end.
+    /// True if `value` is in the range or at one of its ends.
     #[must_use]
     pub fn holds(self, value: f64) -> bool {
         let [low, high] = self.ends();

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// On which scale an interval is symmetric about its value.
+/// Scale on which an interval is symmetric about its value.
 ///
 /// ```
 /// use taceva_metrics::Scale;
@@ -11,20 +11,20 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Scale {
-    /// That of the quantity itself.
+    /// Scale of the quantity itself.
     Own,
-    /// The logarithm of the distance from the one end of the range.
+    /// Logarithm of the distance from the single end of the range.
     Logarithm,
-    /// The logarithm of the distances from both ends, one over the other.
+    /// Logarithm of the ratio of the distances from both ends.
     Logit,
-    /// That of the quantity itself, and cut where its range ends.
+    /// Scale of the quantity itself, cut at the ends of its range.
     Cut,
-    /// That of a test of each share: Wilson's, with as many samples as the clusters are worth.
+    /// Wilson's test of each share, with the effective number of samples of the clusters.
     Wilson,
 }
 
 impl fmt::Display for Scale {
-    /// What is said behind the way in which an interval was found; nothing of the quantity's own scale.
+    /// Text behind the name of a method; empty for the quantity's own scale.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Scale::Own => "",

@@ -1,8 +1,8 @@
-//! What is known of a sensor beside its samples.
+//! Facts about a sensor beside its samples.
 
 use taceva_core::{Footprint, Outline, SkipReason};
 
-/// Facts about a sensor that no sample carries; those that are not declared are absent.
+/// Facts about a sensor that no sample carries; undeclared ones are `None`.
 ///
 /// ```
 /// use taceva_metrics::{Footprint, SensorFacts};
@@ -13,9 +13,9 @@ use taceva_core::{Footprint, Outline, SkipReason};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SensorFacts {
-    /// Where it senses, and how deep it may be pressed.
+    /// Sensing surface, and its greatest indentation.
     pub footprint: Option<Footprint>,
-    /// Whether its gel keeps ambient light out.
+    /// True if its gel blocks ambient light.
     pub opaque: Option<bool>,
     /// The scene that other scenes are compared with.
     pub reference_scene: String,
@@ -76,7 +76,7 @@ impl Default for SensorFacts {
     }
 }
 
-/// A fact without which a metric has no value.
+/// Fact that a metric requires.
 ///
 /// ```
 /// use taceva_metrics::{Fact, catalogue};
@@ -87,18 +87,18 @@ impl Default for SensorFacts {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Fact {
-    /// Where the sensor senses.
+    /// Sensing surface.
     Footprint,
-    /// How deep it may be pressed.
+    /// Greatest indentation.
     DepthMax,
-    /// That its gel is not known to be opaque.
+    /// Gel that is not declared opaque.
     NotOpaque,
-    /// The size of its pictures.
+    /// Size of its pictures.
     FrameSize,
 }
 
 impl Fact {
-    /// What keeps `facts` from having it.
+    /// Reason why `facts` lack it, if they do.
     pub(crate) fn obstacle(self, facts: &SensorFacts) -> Option<SkipReason> {
         let footprint = facts.footprint.as_ref();
         let (there, name) = match self {
@@ -116,7 +116,7 @@ impl Fact {
     }
 }
 
-/// A footprint as the parameters of states write it, in whole nanometres.
+/// Text of a footprint in the parameters of states, in whole nanometres.
 pub(crate) fn written(footprint: &Footprint) -> String {
     let outline = match footprint.outline() {
         Outline::Disc { radius } => format!("disc {}", radius.0),
@@ -129,7 +129,7 @@ pub(crate) fn written(footprint: &Footprint) -> String {
     }
 }
 
-/// A constant as reports write it.
+/// Number of a constant in reports.
 pub(crate) fn as_f64(count: u64) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "constants are far below 2^53")]
     let count = count as f64;

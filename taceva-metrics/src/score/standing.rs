@@ -1,14 +1,14 @@
-//! Whether a score takes part in verdicts, and the reason if it does not.
+//! Standing of a score in verdicts, with the reason for an exclusion.
 
 use std::fmt;
 
-/// The share of predictions brought back to their bounds from which on a score is of the bounds rather than of the model.
+/// Greatest share of clipped predictions; above it a score describes the bounds rather than the model.
 const GREATEST_BOUNDED_SHARE: f64 = 0.05;
 
-/// Up to here a skill is rounding: predictions that equal the constant but for their last bits reach 10⁻¹⁵.
+/// Greatest skill from rounding alone: predictions equal to the constant up to their last bits reach 10⁻¹⁵.
 const ROUNDING: f64 = 1e-9;
 
-/// Whether a score takes part in verdicts, and if not, why; of two, the greater one is the worse.
+/// Standing of a score in verdicts, with the reason for an exclusion. Of two standings, the greater is the worse.
 ///
 /// ```
 /// use taceva_metrics::Standing;
@@ -18,25 +18,25 @@ const ROUNDING: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Standing {
-    /// It takes part.
+    /// Included.
     #[default]
     Counts,
-    /// It takes part and is marked: nothing shows whether the model does better than a constant.
+    /// Included and marked: no evidence that the model is better than a constant.
     SkillUnknown,
-    /// It takes no part: more than 5 % of its predictions lie beyond the bounds of the model.
+    /// Excluded: more than 5 % of its predictions are beyond the bounds of the model.
     Bounded,
-    /// It takes no part: tested samples have neighbours in the training part that resemble them.
+    /// Excluded: tested samples have similar neighbours in the training part.
     Neighbours,
-    /// It takes no part: what it is formed from hardly changed, the light of some scene or the labels of repeated presses.
+    /// Excluded: the stimulus hardly changed, the light of some scene or the labels of repeated presses.
     LowStimulus,
-    /// Excluded: the interval of the variant that verdicts go by holds what chance gives.
+    /// Excluded: the interval of the deciding variant contains the value of chance alone.
     NotAboveNoiseFloor,
-    /// It takes no part: a share of good answers whose interval does not lie above the share that the constant of the skill score reaches,
-    /// though the model may be nearer in the mean square.
+    /// Excluded: a share whose interval is not above the share of the skill's constant. The model may still have a smaller mean squared
+    /// error.
     NotAboveConstant,
-    /// It takes no part: it lies above a constant, and has no interval that says whether more than chance does it.
+    /// Excluded: above a constant, but without an interval that shows more than chance.
     NoInterval,
-    /// It takes no part: the model is not shown to do better than a constant.
+    /// Excluded: the model is not shown to be better than a constant.
     NoSkill,
 }
 
@@ -54,12 +54,12 @@ impl Standing {
         Standing::NoSkill,
     ];
 
-    /// Whether a score of this standing takes part in verdicts.
+    /// True if a score of this standing takes part in verdicts.
     pub fn takes_part(self) -> bool {
         matches!(self, Standing::Counts | Standing::SkillUnknown)
     }
 
-    /// The words for it in every output; none where a score simply counts.
+    /// Words for it in every output; `None` for a score that counts.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -80,13 +80,13 @@ impl Standing {
         }
     }
 
-    /// The standing that is said in `words`.
+    /// Standing with these `words`.
     pub fn from_words(words: &str) -> Option<Standing> {
         let mut said = Standing::ALL.into_iter();
         said.find(|standing| standing.words() == Some(words))
     }
 
-    /// Why a score of this standing takes no part, in a sentence; none where it does.
+    /// Reason for the exclusion of a score, in a sentence; `None` if it takes part.
     pub fn reason(self) -> Option<&'static str> {
         match self {
             Standing::Counts | Standing::SkillUnknown => None,
@@ -114,9 +114,9 @@ impl Standing {
         }
     }
 
-    /// What a skill score says whose interval of 95 % begins at `low`.
+    /// Standing of a skill score whose 95 % interval begins at `low`.
     ///
-    /// Without an interval there is no evidence, and a verdict needs evidence: neither that the model has skill nor that it has none.
+    /// Without an interval there is no evidence for or against skill, and a verdict needs evidence.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -132,7 +132,7 @@ impl Standing {
         }
     }
 
-    /// The same of a score with its value: one that does not lie above zero itself shows no skill with an interval or without.
+    /// The same for a score with its `value`. A value that is not above zero shows no skill, with an interval or without.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -143,7 +143,7 @@ impl Standing {
         Standing::of_skill(low.or(value.filter(|value| *value <= ROUNDING)))
     }
 
-    /// What a share of predictions that were, or would have been, brought back to the bounds of the model says.
+    /// Standing by the share of predictions that were, or would have been, clipped to the bounds of the model.
     pub(crate) fn of_bounded_share(share: f64) -> Standing {
         match share > GREATEST_BOUNDED_SHARE {
             true => Standing::Bounded,

@@ -1,6 +1,6 @@
 //! Sections of reports.
 
-/// Section of a report, in which scores of one subject stand together.
+/// Section of a report with scores of one subject.
 ///
 /// ```
 /// use taceva_metrics::{Theme, catalogue};

@@ -1,4 +1,4 @@
-//! What a score can be: a number, many numbers in their places, or a reason why there is none.
+//! Values of a score: a number, many numbers in their places, or the reason for a missing one.
 
 use std::fmt;
 
@@ -28,7 +28,7 @@ pub enum Value {
     Matrix(Matrix),
     /// The samples determine no value.
     Undefined(UndefinedReason),
-    /// The question does not arise for this channel or sensor.
+    /// The metric does not apply to this channel or sensor.
     NotApplicable(InapplicableReason),
 }
 
@@ -42,7 +42,7 @@ impl Value {
     }
 }
 
-/// A number, or why there is none; never a number that is not finite.
+/// A finite number, or the reason for a missing one.
 pub(crate) type Finished = Result<f64, UndefinedReason>;
 
 impl From<Result<f64, UndefinedReason>> for Value {
@@ -54,7 +54,7 @@ impl From<Result<f64, UndefinedReason>> for Value {
     }
 }
 
-/// Why samples determine no value, or no interval.
+/// Reason why samples determine no value, or no interval.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator, UndefinedReason, Value};
@@ -71,58 +71,58 @@ pub enum UndefinedReason {
     Empty,
     /// There are fewer samples than the formula needs.
     TooFew {
-        /// What it needs.
+        /// Least number that is needed.
         least: u64,
     },
-    /// All truths are equal, so that there is no spread to explain.
+    /// All truths are equal, so there is no spread to explain.
     ConstantTruth {
-        /// Whether every prediction equals it too.
+        /// True if every prediction equals it too.
         perfect: bool,
     },
     /// No truth is as large as the gate.
     BelowGate,
-    /// No sample lies on the declared surface.
+    /// No sample is on the declared surface.
     OutsideFootprint,
-    /// No bin has as many samples as asked for.
+    /// No bin has the least number of samples.
     NoBin {
-        /// How many were asked for.
+        /// Least number of samples of a bin.
         least: u64,
     },
     /// Fewer bins than the formula needs.
     TooFewBins {
-        /// How many there are.
+        /// Number found.
         have: u64,
-        /// What it needs.
+        /// Least number that is needed.
         least: u64,
     },
-    /// No bin or cell has two samples, so that it is not known what is chance.
+    /// No bin or cell has two samples, so the part of chance is unknown.
     NoRepeats,
     /// No press was made twice.
     NoRepeatedPress,
     /// Fewer repeated presses than the formula needs.
     TooFewCells {
-        /// How many there are.
+        /// Number found.
         have: u64,
-        /// What it needs.
+        /// Least number that is needed.
         least: u64,
     },
-    /// Repeats do not differ at all, so that nothing relates to them.
+    /// Repeats do not differ at all, so no ratio to them exists.
     EqualRepeats,
     /// No point has samples at two depths on both branches.
     ShortBranch,
-    /// No stretch is common to what is compared.
+    /// The compared ranges do not overlap.
     NoOverlap,
-    /// No force was met.
+    /// No force was measured.
     NoForce,
     /// No sample is without contact.
     NoIdleSamples,
     /// No sample is in contact and has a place.
     NoContact,
-    /// One channel, where two or more are compared.
+    /// Only one channel; a comparison needs two.
     OneChannel,
-    /// One unit, where two or more are compared.
+    /// Only one unit; a comparison needs two.
     OneUnit,
-    /// Points on one line, or fewer than three: how a unit is turned is open.
+    /// Points on one line, or fewer than three: the rotation of a unit is undetermined.
     OpenTurn,
     /// No sample has a time.
     NoTimes,
@@ -136,15 +136,15 @@ pub enum UndefinedReason {
     NotDeclared(&'static str),
     /// No interval is defined for this score.
     NoInterval,
-    /// The score is the greatest of several numbers, and resampling does not show how far that would move with other samples.
+    /// The score is the greatest of several numbers, and resampling does not show its variation.
     Greatest,
-    /// The value is at the end of its range in every cluster, so that nothing says how far it would move with others.
+    /// The value is at the end of its range in every cluster, so its variation is unknown.
     AtEnd,
-    /// The mean is zero, and nothing relates to it.
+    /// The mean is zero, so no ratio to it exists.
     ZeroMean,
-    /// No sample of the scene that the others are compared with.
+    /// No sample of the reference scene.
     NoReferenceScene,
-    /// No sample of another scene than the one the others are compared with.
+    /// No sample of a scene other than the reference scene.
     OneScene,
     /// The pictures of the reference scene are black.
     ZeroIntensity,
@@ -152,23 +152,23 @@ pub enum UndefinedReason {
     ZeroBaseline,
     /// Neither light nor error changed.
     NoChange,
-    /// No value is a number that is told to a millionth of its unit: each is too large, or none.
+    /// No value is known to a millionth of its unit: each is too large, or there is none.
     NoMillionths,
     /// The value is beyond the range of a binary64.
     Overflow,
     /// Too few clusters for an interval.
     TooFewClusters {
-        /// How many there are.
+        /// Number found.
         have: usize,
     },
     /// Too few bootstrap replicates that have a value: fewer than 39, or than 95 % of those drawn.
     TooFewReplicates {
-        /// How many have one.
+        /// Number of replicates with a value.
         defined: usize,
-        /// How many there are.
+        /// Number of replicates drawn.
         drawn: usize,
     },
-    /// Some sample names no contact point, so that it is not known which belong together.
+    /// Some sample names no contact point, so the clusters are unknown.
     NoClusters,
 }
 
@@ -238,7 +238,7 @@ impl fmt::Display for UndefinedReason {
     }
 }
 
-/// Why a question does not arise.
+/// Reason why a metric does not apply.
 ///
 /// ```
 /// use taceva_metrics::InapplicableReason;
@@ -247,13 +247,13 @@ impl fmt::Display for UndefinedReason {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum InapplicableReason {
-    /// No magnitude is defined from which on values of this unit count as contact.
+    /// No threshold of contact is defined for values of this unit.
     NoGate(Unit),
     /// No width of levels is defined for this unit.
     NoStep(Unit),
     /// The samples carry no such channel.
     ChannelAbsent(&'static str),
-    /// The value is a map, a curve or a matrix, and the question is one of numbers.
+    /// The value is a map, a curve or a matrix instead of one number.
     NotOneNumber,
 }
 

@@ -1,9 +1,9 @@
-//! Rules by which scores take part in verdicts.
+//! Rules for the standing of scores in verdicts.
 
-/// The variant of a share that says what the best constant prediction would reach.
+/// Variant of a share: the share that the best constant prediction reaches.
 pub(crate) const OF_CONSTANT: &str = "of_constant";
 
-/// What decides whether scores of a metric take part in verdicts.
+/// Rule for the standing of a metric's scores in verdicts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum VerdictRule {
     /// The skill of its channels.

@@ -1,4 +1,4 @@
-//! How far a score would move with other contact points: the Poisson bootstrap.
+//! Poisson bootstrap: variation of a score between contact points.
 
 use super::ends::{Ends, Estimated, Moved};
 use super::poisson::weight;
@@ -7,16 +7,15 @@ use crate::score::least::{LEAST_CLUSTERS, LEAST_REPLICATES};
 use crate::score::value::UndefinedReason;
 use crate::score::{BootstrapEnds, ClusteredBy, Interval, Scale};
 
-/// Which share of the replicates may have no value.
+/// One in this many replicates may have no value.
 const UNDEFINED_IN: usize = 20;
 
-/// An interval from replicates, in each of which every cluster counts a random number of times.
+/// Interval from replicates, in each of which every cluster counts a random number of times.
 ///
-/// In replicate b the cluster c counts w = Poisson(1) times, drawn by inverting the 64-bit hash of (seed, c, b); the
-/// replicate's score is finished from Σ_c w_c × sums of c, exactly. So nothing is kept beyond what the jackknife needs, states
-/// merge as ever, and the interval depends on the set of samples, the seed and the number of replicates alone. A cluster is
-/// known by its name where clusters have names, and by its bucket where locations are
-/// [hashed](crate::Clusters::Hashed): all locations of a bucket then share one weight.
+/// In replicate b the cluster c counts w = Poisson(1) times, drawn by inverting the 64-bit hash of (seed, c, b). The replicate's score is
+/// finished from Σ_c w_c × sums of c, exactly. The bootstrap needs no more state than the jackknife, and states still merge. The interval
+/// depends only on the set of samples, the seed and the number of replicates. Clusters are identified by name, or by bucket if locations
+/// are [hashed](crate::Clusters::Hashed): all locations of a bucket then share one weight.
 ///
 /// # Reference
 /// Hanley and MacGibbon, Creating non-parametric bootstrap samples using Poisson frequencies, Computer Methods and Programs in
@@ -30,11 +29,11 @@ const UNDEFINED_IN: usize = 20;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PoissonBootstrap {
-    /// How many times the score is finished with other weights; fewer than 39 give no interval.
+    /// Number of replicates; fewer than 39 give no interval.
     pub replicates: u32,
     /// The seed of the weights.
     pub seed: u64,
-    /// How the interval is read off the replicates.
+    /// Method for the ends from the replicates.
     pub ends: BootstrapEnds,
 }
 
@@ -73,10 +72,9 @@ impl PoissonBootstrap {
 }
 
 impl PoissonBootstrap {
-    /// The interval of an estimate, which is the score of all clusters.
+    /// Interval of an estimate, the score of all clusters.
     ///
-    /// `clusters` are the keys of those that have samples; `resampled` is the score if each counts as often as the weight at
-    /// its place.
+    /// `clusters` are the keys of the clusters that have samples. `resampled` computes the score for the given weights of the clusters.
     pub(crate) fn interval(
         &self,
         estimated: &Estimated,
@@ -113,7 +111,7 @@ impl PoissonBootstrap {
             clusters: clusters.len(),
             carried: carried.map(|carried| [standard_deviation(&carried), freedom]),
         };
-        // A scale changes no percentile, and replicates lie in the range; where none differs from the value, its end is asked.
+        // A scale changes no percentile, and replicates are in the range. If none differs from the value, `Estimated::ends` decides.
         let ends = match self.ends {
             BootstrapEnds::Percentile if standard_error > 0.0 => {
                 Ok(estimated.within(percentiles(&mut replicates), Scale::Own, freedom))
@@ -148,7 +146,7 @@ impl PoissonBootstrap {
     }
 }
 
-/// The ends of the middle 95 %, at least 39 replicates.
+/// Ends of the middle 95 % of at least 39 replicates.
 fn percentiles(replicates: &mut [f64]) -> [f64; 2] {
     replicates.sort_unstable_by(f64::total_cmp);
     let outside = (replicates.len() + 1) / 40;
@@ -158,7 +156,7 @@ fn percentiles(replicates: &mut [f64]) -> [f64; 2] {
     ]
 }
 
-/// With ddof 1, in the order given.
+/// Standard deviation with ddof 1, summed in the given order.
 fn standard_deviation(values: &[f64]) -> f64 {
     let count = values.iter().fold(0.0, |count, _| count + 1.0);
     let mean = values.iter().sum::<f64>() / count;

@@ -1,4 +1,4 @@
-//! Two sensors, each on its own samples: whether their own intervals are far enough apart.
+//! Comparison of two sensors on different samples, by their intervals.
 
 use super::difference::{Difference, DifferenceTest, Inverse, Tested};
 use super::error::ComparisonError;
@@ -7,18 +7,18 @@ use super::sides::Sides;
 use super::student::beyond;
 use crate::score::value::UndefinedReason;
 
-/// The least p value that is told from 0: below it 1 − p is 1 in binary64.
+/// Least p value distinguished from 0: below it 1 − p is 1 in binary64.
 const LEAST_P: f64 = f64::EPSILON / 2.0;
 
-/// Whether two scores differ that come of different samples: of two sensors, or of two sessions.
+/// Difference of two scores of different samples: of two sensors, or of two sessions.
 ///
-/// The difference has the interval that the intervals of both scores give it, each on its own scale and with its own degrees of freedom:
-/// with l and u the distances of their ends below and above them, A − B lies between (A − B) − √(l_A² + u_B²) and
-/// (A − B) + √(u_A² + l_B²). p is the level at which that interval ends at 0, so that verdict, p and all three intervals rest on the same
-/// numbers; below 1.1e-16 it is said to be that.
+/// The interval of the difference follows from the intervals of both scores, each on its own scale and with its own degrees of freedom.
+/// With l and u the distances of their ends below and above them, A − B is between (A − B) − √(l_A² + u_B²) and (A − B) + √(u_A² + l_B²). p
+/// is the level at which that interval ends at 0, so verdict, p and all three intervals rest on the same numbers. Its least value is
+/// 1.1e-16.
 ///
-/// Where nothing differs about 0.04 of pairs are shown to differ, more where few locations make most of the error; `docs/coverage.md` has the
-/// simulation, with Welch's test beside it.
+/// Without a true difference about 0.04 of pairs are shown to differ, more if few locations make most of the error. `docs/coverage.md` has
+/// the simulation, with Welch's test beside it.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals};
@@ -71,7 +71,7 @@ pub fn by_intervals(estimates: Sides<Estimate>) -> Result<Difference, Comparison
     Ok(tested.with(Inverse::Intervals(pair)))
 }
 
-/// Both estimates, whose difference has an interval at every level.
+/// Pair of estimates, whose difference has an interval at every level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pair {
     a: Estimate,
@@ -79,7 +79,7 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// How far the ends of the interval at 1 − `level` lie below and above A − B.
+    /// Distances of the ends of the interval at 1 − `level` below and above A − B.
     pub(super) fn distances(&self, level: f64) -> [f64; 2] {
         let [below_a, above_a] = self.a.distances(beyond(level, self.a.freedom()));
         let [below_b, above_b] = self.b.distances(beyond(level, self.b.freedom()));
@@ -89,9 +89,9 @@ impl Pair {
         ]
     }
 
-    /// The level at which the interval ends at `shift`: the p value, to both sides, of that difference.
+    /// Level at which the interval ends at `shift`: the two-sided p value of that difference.
     pub(super) fn p(&self, shift: f64) -> f64 {
-        /// Halves the ratio of the two levels between which it lies to below a rounding.
+        /// Bisections of the ratio of the enclosing levels, until it is below a rounding.
         const HALVINGS: usize = 64;
         let apart = self.a.value() - self.b.value() - shift;
         let reaches = |level: f64| {
@@ -121,7 +121,7 @@ impl Pair {
     }
 }
 
-/// √(x² + y²), whose squares never leave the range of binary64.
+/// √(x² + y²), scaled so that squares stay in the range of binary64.
 fn root_of_squares(x: f64, y: f64) -> f64 {
     let larger = x.max(y);
     if larger > 0.0 && larger.is_finite() {

@@ -1,4 +1,4 @@
-//! What two models are compared by on the same samples: one exact sum per cluster.
+//! Sums for the comparison of two models on the same samples: one exact sum per cluster.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::error::ComparisonError;
 use crate::exact::ExactSum;
 use crate::pair::Paired;
 
-/// Samples of one cluster, and the sum of what is compared.
+/// Number of samples of one cluster, and their compared sum.
 ///
 /// ```
 /// use taceva_metrics::ClusterSum;
@@ -19,16 +19,16 @@ use crate::pair::Paired;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ClusterSum {
-    /// How many samples there are.
+    /// Number of samples.
     pub n: u64,
     /// Σ|d| in the unit of the channel, or the number of hits.
     pub sum: ExactSum,
 }
 
-/// One exact sum per cluster, however many clusters there are.
+/// One exact sum per cluster, for any number of clusters.
 ///
-/// A cluster is what may be exchanged as a whole: a contact point, or a board of a grating test. Like every state it
-/// depends on the set of samples alone, and merges.
+/// A cluster is exchangeable as a whole: a contact point, or a board of a grating test. Like every state it depends on the set of samples
+/// alone, and merges.
 ///
 /// ```
 /// use taceva_metrics::ClusterSums;
@@ -66,7 +66,7 @@ impl ClusterSums {
 
     /// Adds |d| of each pair of the channel at `position`, by contact point.
     ///
-    /// Rows without a value are passed over; pairs that are no numbers are counted in [`n_invalid`](ClusterSums::n_invalid).
+    /// Rows without a value are skipped; invalid pairs are counted in [`n_invalid`](ClusterSums::n_invalid).
     ///
     /// # Errors
     /// [`ComparisonError::NoClusters`] if the batch has no contact points; nothing is added then.
@@ -98,7 +98,7 @@ impl ClusterSums {
         Ok(())
     }
 
-    /// Takes over what another one holds.
+    /// Merges other sums.
     pub fn merge(&mut self, other: &ClusterSums) {
         for (name, theirs) in &other.cells {
             let cell = self.cell(name);
@@ -118,7 +118,7 @@ impl ClusterSums {
         self.cells.get(cluster)
     }
 
-    /// Pairs left out because a value was no number of a magnitude up to 2¹⁰²¹.
+    /// Number of pairs skipped for a NaN or a magnitude beyond 2¹⁰²¹.
     pub fn n_invalid(&self) -> u64 {
         self.n_invalid
     }

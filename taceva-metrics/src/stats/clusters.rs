@@ -1,4 +1,4 @@
-//! Samples kept apart by contact point, so that intervals know which of them belong together.
+//! Summaries of samples by contact point, so that intervals know which samples belong together.
 
 use std::collections::BTreeMap;
 
@@ -6,17 +6,16 @@ use super::row_groups::{Grouped, HASHED_CLUSTERS, bucket};
 use crate::exact::merge::Merge;
 use taceva_core::random::fnv_1a;
 
-/// Distinct locations up to which each is a cluster of its own.
+/// Most distinct locations that are each a cluster of their own.
 pub const NAMED_CLUSTERS: usize = 64;
-/// The name of the only cluster of what is kept whole.
+/// Name of the only cluster of an undivided summary.
 const WHOLE: &str = "all";
 
 /// One summary per cluster of samples.
 ///
-/// The kinds are stages that follow one another and never go back, and which one is reached depends on the set of samples alone: locations
-/// are kept by name until there are more than [`NAMED_CLUSTERS`], then by a hash of the name, and once a sample names no
-/// location there are no clusters at all. It gets no further variant in a compatible version: states hold it, and another stage would be
-/// another state.
+/// The kinds are stages in a fixed order, and the set of samples alone decides the stage. Locations are kept by name up to
+/// [`NAMED_CLUSTERS`], then by a hash of the name. Once a sample names no location, there are no clusters at all. It
+/// gets no further variant in a compatible version: states hold it, and another stage would be another state.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Clusters, Evaluator, Rows};
@@ -45,8 +44,7 @@ impl<T> Default for Clusters<T> {
 }
 
 impl<T> Clusters<T> {
-    /// The summaries of the clusters in their order, each with a number that stands for its name; `None` if there are no
-    /// clusters.
+    /// Summaries of the clusters in order, each with the hash or number of its name; `None` without clusters.
     pub(crate) fn cells(&self) -> Option<Vec<(u64, &T)>> {
         match self {
             Clusters::Named(cells) => {
@@ -87,7 +85,7 @@ impl<T> Clusters<T> {
     }
 }
 
-/// How clusters are made: what an empty one is, and the seed of the hash.
+/// Recipe of clusters: an empty summary, and the seed of the hash.
 #[derive(Clone, Debug)]
 pub(crate) struct Clustering<T> {
     pub(crate) empty: T,
@@ -95,7 +93,7 @@ pub(crate) struct Clustering<T> {
 }
 
 impl<T: Merge + Clone> Clustering<T> {
-    /// Adds `rows` rows, clustered by `points`: `add` gets each cluster's summary with its rows, or with `None` for all.
+    /// Adds `rows` rows, clustered by `points`. `add` receives each cluster's summary with its rows, or with `None` for all.
     pub(crate) fn deposit(
         &self,
         clusters: &mut Clusters<T>,
@@ -130,7 +128,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// Adds `rows` rows that are kept together: whether their clusters are known stays known, which ones they are does not.
+    /// Adds `rows` rows to one summary. It stays known that they are clustered, but not by which clusters.
     pub(crate) fn deposit_whole(
         &self,
         clusters: &mut Clusters<T>,
@@ -154,7 +152,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// The same samples as one cluster, or as none where none were known.
+    /// The same samples as one cluster, or without clusters if none were known.
     pub(crate) fn whole(&self, clusters: &Clusters<T>) -> Clusters<T> {
         match clusters {
             Clusters::Named(cells) if cells.is_empty() => Clusters::default(),
@@ -167,7 +165,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// Takes over the clusters of `other`.
+    /// Merges the clusters of `other`.
     pub(crate) fn merge(&self, clusters: &mut Clusters<T>, other: &Clusters<T>) {
         match other {
             Clusters::Named(theirs) => {
@@ -192,7 +190,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// All clusters together.
+    /// Sum of all clusters.
     pub(crate) fn total(&self, clusters: &Clusters<T>) -> T {
         let mut total = self.empty.clone();
         match clusters {

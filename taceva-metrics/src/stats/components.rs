@@ -1,4 +1,4 @@
-//! Spread of the means of bins beyond chance, where samples of one cluster are alike: its value, and an interval that is no narrower than it may be.
+//! Spread of the means of bins beyond chance, for correlated samples of a cluster: its value, and a conservative interval.
 
 use std::collections::BTreeMap;
 
@@ -14,11 +14,11 @@ const TWO_SIDED: f64 = 1.959_963_984_540_054;
 const HALVED: f64 = TWO_SIDED;
 const QUARTERED: f64 = 2.241_402_727_604_947;
 const EIGHTH: f64 = 2.497_705_474_412_382;
-/// Excess kurtosis that is allowed for: the absolute value of a Gaussian error has 0.87, and spreads that differ from place to place bring more.
+/// Assumed excess kurtosis: the absolute value of a Gaussian error has 0.87, and spreads that differ between places have more.
 const KURTOSIS: f64 = 1.5;
-/// Degrees of freedom of the noise below which nothing is called more than chance: Paulson's approximation needs three, and tails ask for more.
+/// Least degrees of freedom of the noise for an excess. Paulson's approximation needs three, and tails need more.
 const LEAST_FREEDOM: f64 = 6.0;
-/// Steps of a bisection: each halves what is not known.
+/// Steps of a bisection, each of which halves the range.
 const STEPS: usize = 100;
 
 /// Samples of one cluster in one bin.
@@ -32,7 +32,7 @@ struct Part {
 /// Number of samples of a bin, and its parts with their squared deviations and numbers of samples.
 type SizedBin = (u64, Vec<(Part, f64, u64)>);
 
-/// Bins with what each cluster brings to them.
+/// Bins with the contribution of each cluster.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ClusteredBins {
     bins: Vec<Vec<Part>>,
@@ -41,7 +41,7 @@ pub(crate) struct ClusteredBins {
     freedom: f64,
 }
 
-/// Standard deviation of the means of bins, beyond what chance gives.
+/// Standard deviation of the means of bins beyond chance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Excess {
     /// √max(0, variance of the means − noise).
@@ -55,8 +55,7 @@ pub(crate) struct Excess {
 }
 
 impl ClusteredBins {
-    /// The bins of `clusters`, of which those with at least `n_min` samples take part. Bins and clusters come in their order, so the sums are the
-    /// same on every machine.
+    /// Bins of `clusters` with at least `n_min` samples. Bins and clusters keep their order, so the sums are the same on every machine.
     pub(crate) fn of<'a, K: Ord + Copy + 'a>(
         clusters: impl IntoIterator<Item = impl IntoIterator<Item = (K, &'a Moments)>>,
         n_min: u64,
@@ -95,10 +94,10 @@ impl ClusteredBins {
 
     /// The spread of the means beyond chance.
     ///
-    /// With the variance between clusters of a bin, and within them, pooled over bins, each mean has a variance; clusters that take part in
-    /// several bins move their means together, which is no spread. What remains is noise. The interval inverts the test of the ratio of both
-    /// variances by the F distribution in Paulson's approximation, with the degrees of freedom of Satterthwaite: other bins would have been met
-    /// with other clusters.
+    /// Each mean has a variance from the variances between and within clusters of a bin, pooled over bins. Clusters in several bins move
+    /// their means together, which is no spread. The rest of the variance is noise. The interval inverts the test of the ratio of both
+    /// variances by the F distribution in Paulson's approximation, with the degrees of freedom of Satterthwaite, because other bins would
+    /// have had other clusters.
     ///
     /// # Reference
     /// Thomas and Hultquist, Annals of Statistics 6 (1978); Searle, Casella and McCulloch, Variance Components (1992), chapter 3; Paulson, Annals
@@ -131,7 +130,7 @@ impl ClusteredBins {
             return Err(UndefinedReason::Overflow);
         }
         if noise.variance <= 0.0 {
-            // Nothing scatters within bins: what differs between them is known.
+            // Nothing scatters within bins, so the differences between them are exact.
             let value = variance.sqrt();
             return Ok(Excess {
                 value,
@@ -168,7 +167,7 @@ impl ClusteredBins {
             (low + high) / 2.0
         };
         let value = (variance - noise.variance).max(0.0).sqrt();
-        // Of so little that is known of chance nothing is shown.
+        // With so few degrees of freedom of chance, no excess is shown.
         let low = match noise.freedom >= LEAST_FREEDOM {
             true => (at(TWO_SIDED) * noise.variance).sqrt().min(value),
             false => 0.0,
@@ -211,7 +210,7 @@ impl ClusteredBins {
             let size = weight / between_freedom;
             let mean_square = between / between_freedom;
             of_cluster = (mean_square - within).max(0.0) / size;
-            // Where clusters scatter less than their samples let expect, how well that is known is still up to them.
+            // At least the variance within clusters, so that few clusters always limit the degrees of freedom.
             let mean_square = mean_square.max(within);
             let alpha = shares.iter().map(|share| share.0).sum::<f64>() / bins / size;
             let beta = shares.iter().map(|share| share.1).sum::<f64>() / bins - alpha;
@@ -257,7 +256,7 @@ impl ClusteredBins {
         })
     }
 
-    /// Mean covariance of the means of two bins, from clusters that take part in both.
+    /// Mean covariance of the means of two bins, from clusters in both.
     fn shared(&self, totals: &[(f64, f64)], of_cluster: f64) -> f64 {
         let clusters = self.bins.iter().flatten().map(|part| part.cluster + 1);
         let clusters = clusters.max().unwrap_or_default();
@@ -265,7 +264,7 @@ impl ClusteredBins {
         if of_cluster <= 0.0 || clusters == 0 {
             return 0.0;
         }
-        // The bins of each cluster, with its share of them and how far it lies from their means.
+        // The bins of each cluster, with its share of them and its distance from their means.
         let mut of_clusters: Vec<Vec<(usize, f64, Option<f64>)>> = vec![Vec::new(); clusters];
         for (bin, (parts, (n, mean))) in self.bins.iter().zip(totals).enumerate() {
             for part in parts {
@@ -302,13 +301,13 @@ impl ClusteredBins {
     }
 }
 
-/// Variance that chance gives the means of bins.
+/// Variance of the means of bins by chance.
 #[derive(Clone, Copy, Debug)]
 struct Noise {
     variance: f64,
     /// Number of bins.
     bins: f64,
-    /// Sum of the variances of their means, and of the squares of these with what heavy tails add.
+    /// Sum of the variances of their means, and below it the sum of their squares with a part for heavy tails.
     sum: f64,
     squares: f64,
     /// Degrees of freedom of the noise.
@@ -316,7 +315,7 @@ struct Noise {
 }
 
 impl Noise {
-    /// Degrees of freedom of the variance of the means where the true spread is `spread` times the noise, both as variances.
+    /// Degrees of freedom of the variance of the means if the true spread is `spread` times the noise, both as variances.
     fn bins_with(&self, spread: f64) -> f64 {
         let true_variance = spread * self.variance;
         let sum = self.sum + self.bins * true_variance;
@@ -328,8 +327,8 @@ impl Noise {
 }
 
 impl Excess {
-    /// The mean of several excesses, as that of distance and depth, with an interval that begins above 0 in at most 5 % of cases where none of
-    /// them is any.
+    /// Mean of several excesses, such as those of distance and depth. Without a true excess its interval begins above 0 in at most 5 % of
+    /// cases.
     pub(crate) fn mean_of(all: &[Excess]) -> Option<Excess> {
         let first = all.first()?;
         if all.len() == 1 {
@@ -364,7 +363,7 @@ impl Excess {
         })
     }
 
-    /// The interval with these ends, as a score holds it.
+    /// Interval of a score with these ends.
     pub(crate) fn interval([low, high]: [f64; 2], clusters: usize) -> Interval {
         if clusters < LEAST_CLUSTERS {
             return Interval::Undefined(UndefinedReason::TooFewClusters { have: clusters });

@@ -1,4 +1,4 @@
-//! How far two scores are apart, and how certain that is.
+//! Difference of two scores, and its uncertainty.
 
 use std::fmt;
 
@@ -8,10 +8,10 @@ use super::holm::{LEVEL, Step, steps};
 use super::sides::Sides;
 use super::student::upper;
 
-/// The score of A less that of B.
+/// Score of A less that of B.
 ///
-/// Verdict, p value and interval rest on one decision: [`decide`] makes it for a family of differences at once, and until then a difference
-/// is a family of its own.
+/// Verdict, p value and interval rest on one decision. [`decide`] makes it for a family of differences at once; until then a difference is
+/// its own family.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals};
@@ -27,36 +27,36 @@ pub struct Difference {
     pub value: f64,
     /// Both scores.
     pub scores: Sides<f64>,
-    /// How far the difference would move with other clusters.
+    /// Standard error of the difference between choices of clusters.
     pub standard_error: f64,
-    /// The differences that the test at `1 − confidence` does not reject: 0 is none of them exactly where a difference is shown. An end is
-    /// infinite where so few clusters reject none on that side.
+    /// Differences that the test at `1 − confidence` does not reject; it excludes 0 exactly if a difference is shown. An end is infinite if
+    /// too few clusters reject any difference on that side.
     pub interval: [f64; 2],
-    /// What the interval is of: 0.95 of one difference alone, more of one in a family.
+    /// Confidence of the interval: 0.95 for a single difference, more in a family.
     pub confidence: f64,
-    /// How often a difference as large as this would be seen if there were none; to both sides, and of this test alone.
+    /// Two-sided p value of this test alone: the probability of so large a difference without a true one.
     pub p: f64,
     /// The p value adjusted for the family by [`holm`](crate::holm).
     pub adjusted_p: f64,
-    /// Whether a difference is shown: whether the adjusted p value is at most 0.05.
+    /// True if a difference is shown: the adjusted p value is at most 0.05.
     pub is_shown: bool,
-    /// Which test gave `p` and the interval.
+    /// Test that gave `p` and the interval.
     pub test: DifferenceTest,
-    /// What the test says of other differences than none.
+    /// Result of the test for differences other than zero.
     inverse: Inverse,
 }
 
-/// What a test says of any difference.
+/// Result of a test for any difference.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Inverse {
-    /// The intervals of both scores, at any level.
+    /// Intervals of both scores, at any level.
     Intervals(Pair),
-    /// The differences from which on each pattern of signs counts, to either side.
+    /// Differences at which each pattern of signs begins to count, to either side.
     Flips(Flips),
 }
 
-/// From below and from above, in their order: the differences from which on another pattern of signs gives as large a sum as the one that was
-/// seen. Patterns that always do stand as infinite.
+/// Sorted from below and from above: the differences at which another pattern of signs gives as large a sum as the observed one. Patterns
+/// that always do are infinite.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Flips {
     pub(super) from_below: Vec<f64>,
@@ -66,9 +66,9 @@ pub(super) struct Flips {
 }
 
 impl Flips {
-    /// The differences whose p value is above `level`.
+    /// Range of the differences with a p value above `level`.
     fn interval(&self, level: f64) -> [f64; 2] {
-        // p(δ) is the share of patterns that count; of N patterns more than level × N must.
+        // p(δ) is the share of patterns that count: of N patterns more than level × N must.
         let patterns = self.from_below.iter().fold(0.0, |count, _| count + 1.0);
         let mut skipped = 0.0;
         let mut at = 0;
@@ -80,10 +80,11 @@ impl Flips {
     }
 }
 
-/// Decides about a family of differences, and gives each the interval of its own step: where none of the scores differ, a difference is
-/// shown in at most one family in twenty.
+/// Decides a family of differences, and gives each the interval of its own step. Without true differences, at most one family in twenty
+/// shows one.
 ///
-/// By Holm's procedure the i-th smallest of m p values is decided at 0.05 / (m − i + 1), and all from the first that is kept at the level of that one.
+/// By Holm's procedure the i-th smallest of m p values is decided at 0.05 / (m − i + 1). From the first that is not rejected, all are
+/// decided at the level of that one.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals, decide};
@@ -104,14 +105,14 @@ impl Flips {
 /// Holm, A simple sequentially rejective multiple test procedure, Scandinavian Journal of Statistics 6 (1979).
 pub fn decide(family: &mut [Difference]) {
     let p_values: Vec<f64> = family.iter().map(|difference| difference.p).collect();
-    // Every p value is a share or a tail, so that there is a step for each.
+    // Every p value is a share or a tail, so there is a step for each.
     let steps = steps(&p_values, LEVEL).unwrap_or_default();
     for (difference, step) in family.iter_mut().zip(steps) {
         difference.take(step);
     }
 }
 
-/// A test of whether two scores differ.
+/// Test for a difference of two scores.
 ///
 /// ```
 /// use taceva_metrics::{DifferenceTest, Estimate, Sides, by_intervals};
@@ -123,23 +124,23 @@ pub fn decide(family: &mut [Difference]) {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum DifferenceTest {
-    /// On the same samples: the signs of the clusters' differences are exchanged.
+    /// On the same samples: exchanges the signs of the clusters' differences.
     SignFlip {
         /// Clusters that were paired.
         clusters: usize,
         /// Patterns of signs that were tried.
         flips: u32,
-        /// Whether these are all there are.
+        /// True if these are all patterns.
         exhaustive: bool,
     },
     /// On different samples: by the intervals of both.
     Intervals {
-        /// Degrees of freedom of the interval of each.
+        /// Degrees of freedom of both intervals.
         freedom: Sides<f64>,
     },
 }
 
-/// A difference and the test of it, before it has an interval.
+/// A tested difference before it has an interval.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tested {
     pub(super) value: f64,
@@ -176,7 +177,7 @@ impl Tested {
 }
 
 impl Difference {
-    /// Takes over what the family decides.
+    /// Applies the decision of the family.
     fn take(&mut self, step: Step) {
         self.adjusted_p = step.adjusted_p;
         self.is_shown = step.is_rejected;
@@ -189,7 +190,7 @@ impl Difference {
             Inverse::Flips(flips) => flips.interval(step.level),
         };
         let (low, high) = (low.min(self.value), high.max(self.value));
-        // Where p is the level itself the end is 0, but for rounding.
+        // If p equals the level the end is 0, up to rounding.
         self.interval = match (self.is_shown, self.value > 0.0) {
             (true, true) => [low.max(0.0), high],
             (true, false) => [low, high.min(0.0)],
@@ -197,7 +198,7 @@ impl Difference {
         };
     }
 
-    /// Whether the scores are shown to be less than `margin` apart: whether the interval lies within it.
+    /// True if the scores are shown to be less than `margin` apart: the interval is within it.
     ///
     /// # Units
     /// `margin` is in the unit of the scores.
@@ -211,8 +212,7 @@ impl Difference {
         Ok(self.interval.iter().all(|end| end.abs() < margin))
     }
 
-    /// How often scores that are at least `margin` apart would look as near to each other as these: the larger p value of
-    /// two one-sided tests.
+    /// p value of equivalence: the larger p value of two one-sided tests against a distance of at least `margin`.
     ///
     /// # Units
     /// `margin` is in the unit of the scores.
@@ -227,7 +227,7 @@ impl Difference {
         if !(margin > 0.0 && margin.is_finite()) {
             return Err(ComparisonError::Margin(margin));
         }
-        // Of the two tests that of the nearer bound has the larger p. On the bound it is a half, whatever the standard error.
+        // The test of the nearer bound has the larger p. On the bound it is 0.5, for any standard error.
         let inside = margin - self.value.abs();
         if inside.abs() <= 0.0 {
             return Ok(0.5);

@@ -1,4 +1,4 @@
-//! The ends of an interval, on a scale on which its quantity has no ends, and carried back.
+//! Ends of an interval, computed on a scale without ends and transformed back.
 
 use super::exponential::exponential;
 use super::logarithm::logarithm;
@@ -7,40 +7,40 @@ use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{COVERAGE, Scale};
 
-/// What is known of an estimate before it has an interval.
+/// An estimate before it has an interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Estimated {
     /// The value.
     pub(crate) value: f64,
-    /// Which values there can be.
+    /// Range of possible values.
     pub(crate) range: Range,
-    /// The samples that it is made of.
+    /// Number of its samples.
     pub(crate) samples: u64,
 }
 
-/// How far an estimate would move with other clusters.
+/// Variation of an estimate between choices of clusters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moved {
     /// The standard error, on the quantity's own scale.
     pub(crate) standard_error: f64,
-    /// Its degrees of freedom.
+    /// Degrees of freedom of the standard error.
     pub(crate) freedom: f64,
     /// Clusters with samples.
     pub(crate) clusters: usize,
-    /// Standard error and its degrees of freedom on the scale without ends, where they were found there.
+    /// Standard error and its degrees of freedom on the scale without ends, if they were computed there.
     pub(crate) carried: Option<[f64; 2]>,
 }
 
 impl Moved {
-    /// t × the standard error on the scale without ends, on which a step from the value is `slope` times one of its own: as found there,
-    /// or to first order.
+    /// t × the standard error on the scale without ends: as computed there, or to first order. `slope` is the derivative of that scale at
+    /// the value.
     fn step(&self, slope: f64) -> f64 {
         let first_order = || [self.standard_error * slope, self.freedom];
         let [error, freedom] = self.carried.unwrap_or_else(first_order);
         quantile(COVERAGE, freedom) * error
     }
 
-    /// Degrees of freedom of ends that were found on `scale`.
+    /// Degrees of freedom of ends on `scale`.
     fn freedom_on(&self, scale: Scale) -> f64 {
         match (scale, self.carried) {
             (Scale::Logarithm | Scale::Logit, Some([_, freedom])) => freedom,
@@ -49,30 +49,30 @@ impl Moved {
     }
 }
 
-/// Both ends, and on which scale they were found.
+/// Both ends, and their scale.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends {
     pub(crate) low: f64,
     pub(crate) high: f64,
     pub(crate) scale: Scale,
-    /// Degrees of freedom of Student's t that they were found with.
+    /// Degrees of freedom of Student's t for the ends.
     pub(crate) freedom: f64,
 }
 
-/// The share of a distance below which its logarithm goes on along its tangent.
+/// Share of a distance below which its logarithm is replaced by its tangent.
 const TANGENT: f64 = 0.7;
 
 impl Estimated {
-    /// The 95 % interval of an estimate that moves so far.
+    /// 95 % interval of an estimate with this variation.
     ///
-    /// With s the standard error and h = t(freedom) × s: value ± h where there is no end. Where there is one, at distance d, with s and t
-    /// those of the logarithm of d: d e^(±h); between two ends the same with the odds of the value. Where they are known on the quantity's
-    /// own scale only, the logarithm of d has the standard error s / d to first order. Of a quantity that may be at an end, value ± h is cut there. Of shares: Wilson's
-    /// interval with t for z and n* = p (1 − p) / s² samples for n, at most as many as there are; where no share differs from 0,
-    /// or none from 1, with as many as there are clusters.
+    /// With s the standard error and h = t(freedom) × s, the ends are value ± h for a range without bounds. For a bound at distance d, with
+    /// s and t those of the logarithm of d, they are d e^(±h). Between two bounds the same holds for the odds of the value. If s is known
+    /// only on the quantity's own scale, the logarithm of d has the standard error s / d to first order. For a quantity that may be at a
+    /// bound, value ± h is cut there. Shares use Wilson's interval with t for z and n* = p (1 − p) / s² samples for n, at most the actual
+    /// number. If all shares are 0, or all are 1, n* is the number of clusters.
     ///
     /// # Errors
-    /// [`UndefinedReason::AtEnd`] if the value is at an end of its range, and stays there whichever cluster is left out;
+    /// [`UndefinedReason::AtEnd`] if the value is at an end of its range, and stays there without any one cluster;
     /// [`UndefinedReason::Overflow`] if an end is beyond the range of binary64.
     ///
     /// # Reference
@@ -126,11 +126,11 @@ impl Estimated {
         }
     }
 
-    /// How far `other`, the score without a cluster, lies from the value on the scale without ends, the logarithm of a distance or of odds;
-    /// `None` where the quantity has no such scale, and where the value is at an end.
+    /// Distance of `other`, the score without a cluster, from the value on the scale without ends: the logarithm of a distance or of odds.
+    /// `None` if the quantity has no such scale, or the value is at an end.
     ///
-    /// The logarithm of a distance goes on along its tangent below [`TANGENT`]: where one cluster makes most of an error, what is left without
-    /// it may be any small number, and says nothing of how far the error of other clusters would be from this one.
+    /// Below [`TANGENT`] the logarithm of a distance is replaced by its tangent. If one cluster makes most of an error, the rest may be any
+    /// small number, which says nothing about the errors of other clusters.
     pub(crate) fn carry(&self, other: f64) -> Option<f64> {
         let [least, greatest] = self.range.ends();
         let below = || (other - least) / (self.value - least);
@@ -150,7 +150,7 @@ impl Estimated {
         Some(carried).filter(|carried| carried.is_finite())
     }
 
-    /// The ends, where rounding or a cut may not leave the range nor the value outside.
+    /// Ends, limited to the range and around the value, against rounding and cuts.
     pub(crate) fn within(&self, [low, high]: [f64; 2], scale: Scale, freedom: f64) -> Ends {
         let [least, greatest] = self.range.ends();
         Ends {

@@ -1,4 +1,4 @@
-//! Why two scores cannot be compared.
+//! Errors of comparisons of two scores.
 
 use std::error::Error;
 use std::fmt;
@@ -7,7 +7,7 @@ use super::sides::{Side, Sides};
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::{InapplicableReason, UndefinedReason};
 
-/// Why there is no answer to a comparison.
+/// Reason for a comparison without an answer.
 ///
 /// ```
 /// use taceva_metrics::{ComparisonError, Estimate};
@@ -19,55 +19,55 @@ use crate::score::value::{InapplicableReason, UndefinedReason};
 pub enum ComparisonError {
     /// One side has no value, or no interval.
     Undefined {
-        /// Which one.
+        /// Side without a value or an interval.
         side: Side,
-        /// Why.
+        /// Reason on that side.
         reason: UndefinedReason,
     },
-    /// The question does not arise on one side.
+    /// The metric does not apply on one side.
     NotApplicable {
-        /// Which one.
+        /// Side to which the metric does not apply.
         side: Side,
-        /// Why.
+        /// Reason on that side.
         reason: InapplicableReason,
     },
     /// The difference has no interval.
     NoInterval(UndefinedReason),
-    /// The two scores do not say the same: another definition, unit or constant.
+    /// The two scores differ in definition, unit or constants.
     Meaning(Sides<String>),
     /// Clusters of both sides are paired, and one is on one side only.
     Unpaired {
-        /// Where it is.
+        /// Side that has the cluster.
         side: Side,
-        /// Which one.
+        /// Name of the unpaired cluster.
         cluster: String,
     },
     /// Samples of both sides are paired, and a cluster has more of them on one side.
     Counts {
-        /// Which cluster.
+        /// Name of the cluster.
         cluster: String,
-        /// How many it has.
+        /// Number of its samples on each side.
         samples: Sides<u64>,
     },
     /// Some sample names no cluster.
     NoClusters,
-    /// Too few clusters to say how far an estimate would move with others.
+    /// Too few clusters to estimate the variation.
     TooFewClusters {
-        /// How many there are.
+        /// Number of clusters.
         have: usize,
     },
-    /// A term that has no sum.
+    /// A term that cannot be summed.
     Term {
-        /// In which cluster.
+        /// Cluster of the term.
         cluster: String,
-        /// Its value.
+        /// Value of the term.
         value: f64,
     },
-    /// A score that is no number.
+    /// A score that is not finite.
     Score(f64),
-    /// A standard error that is no number from 0 on.
+    /// A standard error that is not finite and at least 0.
     StandardError(f64),
-    /// Degrees of freedom that are no number from 1 on.
+    /// Degrees of freedom that are not finite and at least 1.
     Freedom(f64),
     /// An interval that does not hold its score.
     Ends {
@@ -76,15 +76,15 @@ pub enum ComparisonError {
         /// Lower and upper end.
         ends: [f64; 2],
     },
-    /// No cluster moves either score, so that nothing can be said about others.
+    /// No cluster changes either score, so the variation is unknown.
     NoSpread,
     /// A margin of equivalence that is not above 0 and finite.
     Margin(f64),
     /// A p value outside of 0..=1.
     Probability {
-        /// Where it stands in its family.
+        /// Index in its family.
         position: usize,
-        /// Its value.
+        /// The p value.
         value: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! A score and its interval, at any level of confidence.
+//! A score with its interval, at any level of confidence.
 
 use super::error::ComparisonError;
 use super::exponential::exponential;
@@ -9,7 +9,7 @@ use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{COVERAGE, Interval, Scale, Score};
 
-/// A score, how far it would move with other clusters, and from how many clusters this is known.
+/// A score, its variation between choices of clusters, and the number of clusters behind it.
 ///
 /// ```
 /// use taceva_metrics::Estimate;
@@ -24,20 +24,20 @@ pub struct Estimate {
     shape: Shape,
 }
 
-/// On which scale the ends of an interval move as its level does, and by how much there for each t, downwards and upwards.
+/// Scale on which the ends of an interval move with its level, with the step per unit of t, downwards and upwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shape {
-    /// That of the score itself.
+    /// Scale of the score itself.
     Own([f64; 2]),
     /// The logarithm of the distance from `end`.
     Logarithm { end: f64, steps: [f64; 2] },
     /// The logarithm of the odds of value / `width`.
     Odds { width: f64, steps: [f64; 2] },
-    /// Wilson's, of a share of so many samples.
+    /// Wilson's interval of a share of `samples` samples.
     Share { samples: f64 },
 }
 
-/// A 95 % interval as it is stated: what an [`Estimate`] is made of where no [`Score`] is at hand.
+/// A stated 95 % interval, from which an [`Estimate`] is made without a [`Score`].
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Scale, StatedInterval};
@@ -50,13 +50,13 @@ enum Shape {
 pub struct StatedInterval {
     /// The lower and the upper end, in the unit of the score.
     pub ends: [f64; 2],
-    /// Degrees of freedom of Student's t that it was made with.
+    /// Degrees of freedom of Student's t.
     pub freedom: f64,
-    /// The clusters it was found from.
+    /// Number of clusters.
     pub clusters: usize,
-    /// On which scale its ends lie about the value.
+    /// Scale on which its ends are symmetric about the value.
     pub scale: Scale,
-    /// The standard error on the score's own scale; half the width over t where none is stated.
+    /// Standard error on the score's own scale; `None` for half the width over t.
     pub standard_error: Option<f64>,
 }
 
@@ -89,8 +89,8 @@ impl StatedInterval {
 }
 
 impl Estimate {
-    /// A value with the standard error that `clusters` give it, symmetric on its own scale, of one degree of freedom less than there are
-    /// clusters.
+    /// Estimate from a value and the standard error of `clusters` clusters. It is symmetric on its own scale, with one degree of freedom
+    /// less than there are clusters.
     ///
     /// # Errors
     /// [`ComparisonError::Score`] or [`ComparisonError::StandardError`] if one is not finite or the error is below 0,
@@ -117,11 +117,11 @@ impl Estimate {
         })
     }
 
-    /// A value with the 95 % interval that is stated of it.
+    /// Estimate from a value and its stated 95 % interval.
     ///
     /// # Errors
-    /// Those of [`try_new`](Estimate::try_new), [`ComparisonError::Freedom`] if the degrees of freedom are no number from 1 on, and
-    /// [`ComparisonError::Ends`] if the interval does not hold the value.
+    /// As [`try_new`](Estimate::try_new). Also [`ComparisonError::Freedom`] if the degrees of freedom are not finite and at least 1, and
+    /// [`ComparisonError::Ends`] if the interval does not contain the value.
     pub fn try_from_interval(
         value: f64,
         stated: StatedInterval,
@@ -147,7 +147,7 @@ impl Estimate {
         let own = [value - low, high - value].map(|distance| distance / t);
         let shape = match stated.scale {
             Scale::Own => Shape::Own(own),
-            // An end that was cut says nothing of how far the score would move.
+            // A cut end does not show the variation of the score.
             Scale::Cut => Shape::Own([standard_error; 2]),
             Scale::Logarithm => logarithmic(value, [low, high], t).unwrap_or(Shape::Own(own)),
             Scale::Logit => odds(value, [low, high], t).unwrap_or(Shape::Own(own)),
@@ -160,7 +160,7 @@ impl Estimate {
         })
     }
 
-    /// Two scores of one meaning.
+    /// Estimates from two scores of one meaning.
     ///
     /// # Errors
     /// [`ComparisonError::Meaning`] if definition, unit or constants differ, [`ComparisonError::Undefined`] or
@@ -188,7 +188,7 @@ impl Estimate {
         match (stated(&score.interval), score.interval) {
             (Some(stated), _) => Estimate::try_from_interval(value, stated),
             (None, Interval::Undefined(reason)) => Err(ComparisonError::Undefined { side, reason }),
-            // Samples taken as independent would make any two sensors differ.
+            // With samples taken as independent, any two sensors would differ.
             (None, _) => {
                 let reason = UndefinedReason::NoClusters;
                 Err(ComparisonError::Undefined { side, reason })
@@ -201,7 +201,7 @@ impl Estimate {
         self.value
     }
 
-    /// Its standard error, on its own scale.
+    /// Standard error, on the score's own scale.
     pub(super) fn standard_error(&self) -> f64 {
         self.standard_error
     }
@@ -211,14 +211,14 @@ impl Estimate {
         self.freedom
     }
 
-    /// How far the ends of its interval lie below and above it where Student's t is `t`.
+    /// Distances of the ends of its interval below and above it if Student's t is `t`.
     pub(super) fn distances(&self, t: f64) -> [f64; 2] {
         let value = self.value;
         match self.shape {
             Shape::Own(steps) => steps.map(|step| t * step),
             Shape::Logarithm { end, steps } => {
                 let distance = value - end;
-                // Away from `end` where it is below, towards it where it is above.
+                // Away from `end` if it is below, towards it if it is above.
                 let sign = if distance < 0.0 { -1.0 } else { 1.0 };
                 let [low, high] = steps.map(|step| sign * t * step);
                 [
@@ -240,19 +240,19 @@ impl Estimate {
     }
 }
 
-/// What an interval says of itself.
+/// Stated form of a computed interval.
 fn stated(interval: &Interval) -> Option<StatedInterval> {
     let (ends, freedom) = (interval.ends()?, interval.freedom()?);
     let stated = StatedInterval::new(ends, freedom, interval.clusters()?).on(interval.scale()?);
     Some(stated.with_standard_error(interval.standard_error()))
 }
 
-/// One degree of freedom less than there are clusters: that of a variance of as many normal numbers.
+/// One degree of freedom less than there are clusters.
 fn freedom_of(clusters: usize) -> f64 {
     f64::from(u32::try_from(clusters.saturating_sub(1)).unwrap_or(u32::MAX))
 }
 
-/// The steps of an interval whose ends are, for one of the ends 0 and 1 of its quantity, at equal ratios of the distance from it.
+/// Steps of an interval whose ends have equal ratios of the distance from 0 or from 1.
 fn logarithmic(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     let about = |end: f64| {
         let distances = ends.map(|of| (of - end) / (value - end));
@@ -265,7 +265,7 @@ fn logarithmic(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     nearest([about(0.0), about(1.0)])
 }
 
-/// The steps of an interval whose ends are at equal ratios of the odds of value / width, for a width of 1 or 2.
+/// Steps of an interval whose ends have equal ratios of the odds of value / width, for a width of 1 or 2.
 fn odds(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     let within = |width: f64| {
         let odds = |of: f64| of / (width - of);
@@ -278,14 +278,14 @@ fn odds(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     nearest([within(1.0), within(2.0)])
 }
 
-/// The shape that is the more symmetric.
+/// More symmetric of both shapes.
 fn nearest(shapes: [Option<(f64, Shape)>; 2]) -> Option<Shape> {
     let found = shapes.into_iter().flatten();
     let nearest = found.min_by(|(one, _), (other, _)| one.total_cmp(other));
     nearest.map(|(_, shape)| shape)
 }
 
-/// The samples with which Wilson's interval has these ends: (p − L)² = t² L (1 − L) / n at either end L.
+/// Number of samples for which Wilson's interval has these ends: (p − L)² = t² L (1 − L) / n at either end L.
 fn share(value: f64, [low, high]: [f64; 2], t: f64) -> Option<Shape> {
     let end = if value - low > high - value {
         low
@@ -297,7 +297,7 @@ fn share(value: f64, [low, high]: [f64; 2], t: f64) -> Option<Shape> {
     (samples.is_finite() && samples > 0.0).then_some(Shape::Share { samples })
 }
 
-/// What a score is of, in words: `mae/1 in N`, with its constants.
+/// Meaning of a score, in words: `mae/1 in N`, with its constants.
 fn meaning(score: &Score) -> String {
     let constants = score.parameters.iter();
     let constants = constants.map(|constant| format!(", {} = {}", constant.name, constant.value));
@@ -311,7 +311,7 @@ mod tests {
     use crate::score::range::Range;
     use crate::stats::ends::{Estimated, Moved};
 
-    /// The interval that `taceva` gives to a value that moves so far, and the estimate that is read off it.
+    /// Computes the interval of a value with this standard error, and the estimate read back from it.
     fn read_back(range: Range, value: f64, standard_error: f64) -> (Estimate, [f64; 2]) {
         let freedom = 7.5;
         let moved = Moved {

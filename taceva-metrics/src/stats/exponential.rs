@@ -1,9 +1,9 @@
-//! e^x, of + − × ÷ alone: a platform's own exponential would not give the same bytes on every machine.
+//! e^x from + − × ÷ alone: a platform's own exponential would not give the same bytes on every machine.
 
-/// ln 2 in two parts, the first of which has so few digits that a whole multiple of it is exact.
+/// ln 2 in two parts. The first has so few digits that its integer multiples are exact.
 pub(super) const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
-/// e^x, to a few roundings; 0 and infinity where it is beyond the range of binary64.
+/// e^x, to a few roundings; 0 or infinity beyond the range of binary64.
 pub(super) fn exponential(x: f64) -> f64 {
     /// e^710 is above the greatest number, e^−750 below half of the least.
     const BEYOND: [f64; 2] = [-750.0, 710.0];

@@ -1,16 +1,16 @@
-//! Many tests at once.
+//! Multiple tests: Holm's procedure.
 
 use super::error::ComparisonError;
 use crate::exact::number_key::ranked;
 
-/// The level of every test: how often chance alone may show a difference.
+/// Level of a family of tests: the probability that chance alone shows a difference.
 pub(super) const LEVEL: f64 = 0.05;
 
-/// The p values of a family of tests, adjusted so that the chance of any false rejection among all of them is that of a single test; in the
-/// order given.
+/// Adjusts the p values of a family of tests, in the order given. The probability of any false rejection among all of them is then that of
+/// a single test.
 ///
-/// With p₍₁₎ ≤ … ≤ p₍ₘ₎ the adjusted values are max over i ≤ j of min(1, (m − i + 1) p₍ᵢ₎): they rise with p, and equal p
-/// values stay equal.
+/// With p₍₁₎ ≤ … ≤ p₍ₘ₎ the adjusted values are max over i ≤ j of min(1, (m − i + 1) p₍ᵢ₎). They rise with p, and equal p values stay
+/// equal.
 ///
 /// ```
 /// let adjusted = taceva_metrics::holm(&[0.01, 0.04, 0.03])?;
@@ -28,21 +28,21 @@ pub fn holm(p_values: &[f64]) -> Result<Vec<f64>, ComparisonError> {
     Ok(steps.iter().map(|step| step.adjusted_p).collect())
 }
 
-/// Where one test of a family stands in Holm's procedure.
+/// Step of one test of a family in Holm's procedure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
-    /// Its p value, adjusted.
+    /// Adjusted p value.
     pub(super) adjusted_p: f64,
-    /// Whether the family rejects it: the one decision that verdict, p and interval rest on.
+    /// True if the family rejects it: the one decision behind verdict, p and interval.
     pub(super) is_rejected: bool,
-    /// The level at which it is decided, and which its interval leaves.
+    /// Level at which it is decided, and of its interval.
     pub(super) level: f64,
 }
 
-/// The step of each test, in the order given, where all together may err as often as `level` says.
+/// Step of each test, in the order given; the family as a whole errs with probability `level`.
 ///
-/// The i-th smallest of m p values is decided at level / (m − i + 1). The first that is not rejected ends the procedure: all others take its
-/// level, at which their larger p values are not rejected either.
+/// The i-th smallest of m p values is decided at level / (m − i + 1). The first that is not rejected ends the procedure: all others take
+/// its level, at which their larger p values are not rejected either.
 ///
 /// # Errors
 /// As [`holm`].

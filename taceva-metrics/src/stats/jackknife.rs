@@ -1,4 +1,4 @@
-//! How far a score would move with other contact points: the delete-one-cluster jackknife.
+//! Delete-one-cluster jackknife: variation of a score between contact points.
 
 use super::ends::{Ends, Estimated, Moved};
 use crate::score::least::LEAST_CLUSTERS;
@@ -6,8 +6,8 @@ use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{ClusteredBy, Interval};
 
-/// The fewest degrees of freedom that the variance of a few clusters is given: with fewer the interval would be several times as wide
-/// where one cluster makes all of the variance, and would hold the truth no more often.
+/// Least degrees of freedom of a variance of few clusters. If one cluster makes all of the variance, fewer would widen the interval several
+/// times and contain the truth no more often.
 const LEAST_FREEDOM: f64 = 3.0;
 
 /// The score with one cluster left out.
@@ -19,7 +19,7 @@ pub(crate) struct LeftOut {
     pub(crate) value: Result<f64, UndefinedReason>,
 }
 
-/// The interval of an estimate, whose score with each cluster left out is known.
+/// Interval of an estimate from the scores without each one of the clusters.
 pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interval {
     let counts = left_out.iter().map(|cluster| cluster.count);
     let estimated = Estimated {
@@ -53,12 +53,10 @@ pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interv
     }
 }
 
-/// Standard error and degrees of freedom of the same jackknife on the scale without ends, if the score of all clusters and those without
-/// one of them lie on it.
+/// Standard error and degrees of freedom of the same jackknife on the scale without ends; `None` unless all scores are on that scale.
 ///
-/// A score of few clusters is skewed on its own scale: one cluster in which a model errs much moves it further up, when it is met, than down
-/// when it is not. There the standard error would hang on where the score happens to lie; on the scale without ends it does not
-/// (`docs/coverage.md`).
+/// A score of few clusters is skewed on its own scale: a cluster with large errors raises it more by its presence than it lowers it by its
+/// absence. The standard error would then depend on the value of the score; on the scale without ends it does not (`docs/coverage.md`).
 fn carried(estimated: &Estimated, left_out: &[LeftOut]) -> Option<[f64; 2]> {
     let carry = |cluster: &LeftOut| {
         let value = estimated.carry(cluster.value.ok()?)?;
@@ -72,7 +70,7 @@ fn carried(estimated: &Estimated, left_out: &[LeftOut]) -> Option<[f64; 2]> {
     Some([moved.standard_error, moved.freedom])
 }
 
-/// How far `value`, the score of all clusters, would move with others, on its own scale.
+/// Standard error of `value`, the score of all clusters, on its own scale.
 pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, UndefinedReason> {
     moved(value, left_out).map(|moved| moved.standard_error)
 }
@@ -82,9 +80,8 @@ pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, Un
 /// With n samples, m_j of them in cluster j, h_j = n / m_j and θ_(−j) the score without cluster j: the pseudo-values are
 /// h_j θ − (h_j − 1) θ_(−j), and the variance is the mean of z_j², z_j² = (pseudo_j − mean)² / (h_j − 1).
 ///
-/// A variance that hangs on few clusters is itself not well known: with κ = mean(z⁴) / mean(z²)² it has
-/// 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom, which are g − 1 for the κ = 3 of normal pseudo-values, never more, and never fewer than
-/// [`LEAST_FREEDOM`].
+/// A variance from few clusters is itself uncertain. With κ = mean(z⁴) / mean(z²)² it has 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom.
+/// These are g − 1 for the κ = 3 of normal pseudo-values, never more, and at least [`LEAST_FREEDOM`].
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999); Satterthwaite,
@@ -133,7 +130,7 @@ fn moved(value: f64, left_out: &[LeftOut]) -> Result<Moved, UndefinedReason> {
     })
 }
 
-/// The interval about `value` whose variance was carried over from the jackknife variances of `clusters` clusters.
+/// Interval about `value` from a `variance` of the delta method over `clusters` clusters.
 pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: usize) -> Interval {
     let freedom = u32::try_from(clusters.saturating_sub(1)).expect("at most 64 clusters");
     let moved = Moved {

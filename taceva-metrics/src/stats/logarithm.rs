@@ -1,8 +1,8 @@
-//! ln x, of + − × ÷ alone: a platform's own logarithm would not give the same bytes on every machine.
+//! ln x from + − × ÷ alone: a platform's own logarithm would not give the same bytes on every machine.
 
 use super::exponential::LN_2;
 
-/// ln x, to a few roundings; minus infinity at 0, and no number below.
+/// ln x, to a few roundings; minus infinity at 0, and NaN below.
 pub(super) fn logarithm(x: f64) -> f64 {
     /// Raises the least numbers to where all have 53 digits.
     const RAISED: f64 = 18_014_398_509_481_984.0;

@@ -1,8 +1,8 @@
-//! How an interval is found.
+//! Methods for intervals.
 
 use super::bootstrap::PoissonBootstrap;
 
-/// How the interval of a score is found. Either way clusters vary: contact points, or samples where the caller takes them as independent.
+/// Method for the interval of a score. Both vary clusters: contact points, or samples that the caller takes as independent.
 ///
 /// ```
 /// use taceva_metrics::{IntervalMethod, PoissonBootstrap};
@@ -12,9 +12,9 @@ use super::bootstrap::PoissonBootstrap;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IntervalMethod {
-    /// Leaving out one cluster after the other: the score is finished once more per cluster.
+    /// Leaves out one cluster after the other: the score is finished once more per cluster.
     #[default]
     Jackknife,
-    /// Weighting clusters at random, for scores whose distribution is skewed: the score is finished once per replicate.
+    /// Weights clusters at random, for skewed scores: the score is finished once per replicate.
     PoissonBootstrap(PoissonBootstrap),
 }

@@ -1,4 +1,4 @@
-//! Student's noncentral t distribution, as far as limits of detection need it.
+//! Student's noncentral t distribution, for limits of detection.
 
 use super::exponential::exponential;
 use super::student::{gamma_ratio, power, quantile, within};
@@ -6,10 +6,10 @@ use super::student::{gamma_ratio, power, quantile, within};
 /// Risk of a false alarm, and of a miss.
 const RISK: f64 = 0.05;
 
-/// δ(ν): how many standard deviations, themselves estimated with `freedom` degrees of freedom, a value must lie above zero so that a threshold which
-/// zero exceeds in 5 % of cases is missed in 5 %.
+/// δ(ν): distance from zero in standard deviations at which a value is missed in 5 % of cases by a threshold that zero exceeds in 5 %. The
+/// standard deviation is estimated with `freedom` degrees of freedom.
 ///
-/// The noncentrality at which P(t′ ≤ t) = 5 % for the t that Student's distribution exceeds in 5 %; 3.29 where the deviation is known.
+/// The noncentrality at which P(t′ ≤ t) = 5 % for the t that Student's distribution exceeds in 5 %; 3.29 for a known deviation.
 ///
 /// # Reference
 /// Currie, Pure and Applied Chemistry 67 (1995), 3.7.2; ISO 11843-2, 5.1.
@@ -42,7 +42,7 @@ pub(crate) fn critical_factor(freedom: f64) -> f64 {
 /// # Reference
 /// Lenth, Algorithm AS 243, Applied Statistics 38 (1989).
 fn below(t: f64, freedom: f64, noncentrality: f64) -> f64 {
-    /// Far beyond the middle of Poisson's shares.
+    /// Most terms, far beyond the mode of Poisson's shares.
     const MOST: u32 = 10_000;
     let half = freedom / 2.0;
     let x = t * t / (freedom + t * t);
@@ -51,7 +51,7 @@ fn below(t: f64, freedom: f64, noncentrality: f64) -> f64 {
     let start = exponential(-y);
     let two_over_pi = std::f64::consts::FRAC_2_PI.sqrt();
     let (mut p, mut q) = (start, noncentrality * start * two_over_pi);
-    // Iₓ(½, ν/2) and Iₓ(1, ν/2), and what they lose from one j to the next.
+    // Iₓ(½, ν/2) and Iₓ(1, ν/2), and their decrements from one j to the next.
     let (mut one, mut other) = (within(t, freedom), 1.0 - rest);
     let two_over_root_pi = std::f64::consts::FRAC_2_SQRT_PI;
     let mut lost = [

@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::UndefinedReason;
 
-/// A difference of means, and how far it would move with other clusters.
+/// A difference of means, with its standard error between choices of clusters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeanDifference {
     pub(super) value: f64,
@@ -17,7 +17,7 @@ pub(super) struct MeanDifference {
     pub(super) freedom: f64,
 }
 
-/// The clusters that have samples, side by side.
+/// Pairs of clusters that have samples.
 pub(super) struct PairedClusters {
     counts: Vec<u64>,
     differences: Vec<ExactSum>,
@@ -25,7 +25,7 @@ pub(super) struct PairedClusters {
 }
 
 impl PairedClusters {
-    /// Both sides' clusters, which must be the same with as many samples each.
+    /// Pairs the clusters of both sides, which must have the same names and numbers of samples.
     pub(super) fn of(sums: Sides<&ClusterSums>) -> Result<PairedClusters, ComparisonError> {
         let sampled = |(_, cell): &(&str, &ClusterSum)| cell.n > 0;
         let unpaired = |side, name: &str| ComparisonError::Unpaired {
@@ -71,7 +71,7 @@ impl PairedClusters {
         &self.differences
     }
 
-    /// The difference of the means over all samples, and how far it would move with other clusters.
+    /// The difference of the means over all samples, with its standard error between choices of clusters.
     pub(super) fn mean_difference(&self) -> Result<MeanDifference, ComparisonError> {
         let clusters = self.counts.len();
         if clusters < LEAST_CLUSTERS {

@@ -1,9 +1,8 @@
-//! Random bits by counting: each draw is a function of a seed and of what it is for, so that no order can change it.
+//! Random bits by counter: each draw is a function of a seed and its purpose, so no order can change it.
 
 use taceva_core::random::mix;
 
-/// 64 random bits, those of the pair `(major, minor)` under `seed`:
-/// mix(mix(mix(seed) ⊕ major) ⊕ minor).
+/// 64 random bits of the pair `(major, minor)` under `seed`: mix(mix(mix(seed) ⊕ major) ⊕ minor).
 pub(super) fn bits(seed: u64, major: u64, minor: u64) -> u64 {
     mix(mix(mix(seed) ^ major) ^ minor)
 }

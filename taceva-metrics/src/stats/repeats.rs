@@ -1,9 +1,9 @@
-//! How far a value moves when the same thing is done again with other random numbers.
+//! Variation of a value between repeats with other random numbers.
 
 use super::student::quantile;
 use crate::score::COVERAGE;
 
-/// A few values of one quantity, as repeats gave them.
+/// Statistics of a few repeated values of one quantity.
 ///
 /// ```
 /// let repeats = taceva_metrics::Repeats::of(&[0.9, 1.1]).ok_or("two values")?;
@@ -13,16 +13,16 @@ use crate::score::COVERAGE;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Repeats {
-    /// Their mean.
+    /// Mean of the values.
     pub mean: f64,
-    /// Their standard deviation, with one degree of freedom less than there are values.
+    /// Standard deviation, with one degree of freedom less than there are values.
     pub standard_deviation: f64,
-    /// Where the mean of infinitely many repeats lies, at 95 %: Student's interval, which takes the values to be normally distributed.
+    /// 95 % interval of the mean of infinitely many repeats: Student's, for normally distributed values.
     pub interval: [f64; 2],
 }
 
 impl Repeats {
-    /// Of `values`; `None` of fewer than two, and where one is no finite number.
+    /// Statistics of `values`; `None` for fewer than two, or if a value is not finite.
     ///
     /// ```
     /// let repeats = taceva_metrics::Repeats::of(&[1.0, 2.0, 3.0]).expect("three");
@@ -48,7 +48,7 @@ impl Repeats {
         (mean.is_finite() && half.is_finite()).then_some(repeats)
     }
 
-    /// The same with its interval kept within what the quantity can be.
+    /// The same with its interval clamped to the possible range of the quantity.
     pub fn within(self, [least, greatest]: [f64; 2]) -> Repeats {
         Repeats {
             interval: self.interval.map(|end| end.clamp(least, greatest)),

@@ -1,4 +1,4 @@
-//! The rows of a batch by cluster, found once for all that keep clusters of the same labels.
+//! Rows of a batch by cluster, found once for all families with clusters of the same labels.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -11,7 +11,7 @@ use taceva_core::random::fnv_1a;
 /// Number of clusters to which more locations than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are assigned by hash.
 pub const HASHED_CLUSTERS: usize = 32;
 
-/// Labels, and the rows that have each.
+/// Labels, with the rows of each.
 pub(crate) struct Grouped<'a> {
     labels: Cow<'a, Labels>,
     seed: u64,
@@ -20,7 +20,7 @@ pub(crate) struct Grouped<'a> {
 }
 
 impl<'a> Grouped<'a> {
-    /// The rows of `labels`; `seed` is that of the hash.
+    /// Rows of `labels`, grouped when first used; `seed` is the seed of the hash.
     pub(crate) fn new(labels: Cow<'a, Labels>, seed: u64) -> Grouped<'a> {
         Grouped {
             labels,
@@ -41,7 +41,7 @@ impl<'a> Grouped<'a> {
         self.by_name.get_or_init(find)
     }
 
-    /// Takes over what is known of the rows of each cluster, by hash or by name.
+    /// Sets the known groups of rows, by hash or by name.
     pub(crate) fn know(&self, is_by_hash: bool, groups: &Groups) {
         let cell = match is_by_hash {
             true => &self.by_hash,
@@ -50,7 +50,7 @@ impl<'a> Grouped<'a> {
         cell.get_or_init(|| groups.clone());
     }
 
-    /// The rows of each cluster that names are assigned to by hash.
+    /// Rows of each cluster, with names assigned to clusters by hash.
     pub(crate) fn by_hash(&self) -> &Groups {
         let of_name = |_, name: &str| bucket(self.seed, name);
         let find = || Groups::new(&self.labels, HASHED_CLUSTERS, of_name);
@@ -58,14 +58,14 @@ impl<'a> Grouped<'a> {
     }
 }
 
-/// Which of the clusters that are assigned by hash a name falls into.
+/// Index of the hashed cluster of a name.
 pub(super) fn bucket(seed: u64, name: &str) -> usize {
     let clusters = u64::try_from(HASHED_CLUSTERS).expect("32 fits");
     let bucket = mix(seed ^ fnv_1a(name.as_bytes())) % clusters;
     usize::try_from(bucket).expect("below 32")
 }
 
-/// The rows of a batch, those of one cluster side by side: a cluster's sums are then visited once per batch.
+/// Rows of a batch, grouped by cluster, so that a cluster's sums are visited once per batch.
 #[derive(Clone, Debug)]
 pub(crate) struct Groups {
     rows: Vec<u32>,
@@ -96,7 +96,7 @@ impl Groups {
         Groups { rows, ends }
     }
 
-    /// The same groups once the rows of each stand side by side, in the order of the groups.
+    /// The same groups for rows sorted by group.
     pub(crate) fn side_by_side(&self) -> Groups {
         Groups {
             rows: (0..).take(self.rows.len()).collect(),

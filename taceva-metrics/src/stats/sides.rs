@@ -1,8 +1,8 @@
-//! The two that are compared, by name.
+//! The two sides of a comparison, by name.
 
 use std::fmt;
 
-/// What there is of each of the two that are compared: a plain pair, which gets no further fields.
+/// Values of both sides of a comparison: a plain pair, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::Sides;
@@ -11,14 +11,14 @@ use std::fmt;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sides<T> {
-    /// Of the one from which the other is subtracted.
+    /// Value of the minuend.
     pub a: T,
-    /// Of the other.
+    /// Value of the subtrahend.
     pub b: T,
 }
 
 impl<T> Sides<T> {
-    /// What `convert` makes of each, or the first error.
+    /// Results of `convert` for both sides, or the first error.
     pub(crate) fn try_map<U, E>(
         self,
         mut convert: impl FnMut(Side, T) -> Result<U, E>,
@@ -30,16 +30,16 @@ impl<T> Sides<T> {
     }
 }
 
-/// One of the two that are compared. It gets no further variant: a comparison has two sides.
+/// One side of a comparison. It gets no further variant: a comparison has two sides.
 ///
 /// ```
 /// assert_eq!(taceva_metrics::Side::A.to_string(), "A");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
-    /// The one from which the other is subtracted.
+    /// The minuend.
     A,
-    /// The other.
+    /// The subtrahend.
     B,
 }
 

@@ -9,15 +9,14 @@ use super::sides::Sides;
 use super::signed_sums::SignedSums;
 use crate::exact::Dyadic;
 
-/// A test of whether two models are equally far from the truth, on the same samples.
+/// Test of whether two models are equally far from the truth, on the same samples.
 ///
-/// With D_c = Σ|d_A| − Σ|d_B| of cluster c and T = Σ_c D_c: if the models were alike, each D_c might as well have the other
-/// sign, so that |T| would be among the |T*| = |Σ_c ± D_c|. Over N patterns of signs drawn at random
-/// p = (1 + #{|T*| ≥ |T|}) / (1 + N); where all 2^G patterns are no more than that, p is the share of all of them with
-/// |T*| ≥ |T|. Sums and comparisons are exact, so that ties are ties.
+/// With D_c = Σ|d_A| − Σ|d_B| of cluster c and T = Σ_c D_c: for equal models each D_c might as well have the other sign, and |T| would be
+/// typical of |T*| = |Σ_c ± D_c|. Over N patterns of signs drawn at random p = (1 + #{|T*| ≥ |T|}) / (1 + N). If all 2^G patterns are at
+/// most N, p is the share of all of them with |T*| ≥ |T|. Sums and comparisons are exact, so ties are ties.
 ///
-/// Flip i negates the c-th cluster, in the order of names, if bit c mod 64 of the hash of (seed, i, ⌊c / 64⌋) is set: the
-/// result depends on the samples, the seed and the number of flips alone, and exchanging A and B keeps p.
+/// Flip i negates the c-th cluster, in the order of names, if bit c mod 64 of the hash of (seed, i, ⌊c / 64⌋) is set. The result depends
+/// only on the samples, the seed and the number of flips. Exchanging A and B keeps p.
 ///
 /// Hits of a success rate are compared the same way, board by board: Σ is then the number of hits.
 ///
@@ -40,9 +39,9 @@ use crate::exact::Dyadic;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SignFlip {
-    /// How many patterns of signs are drawn at most.
+    /// Most patterns of signs that are drawn.
     pub flips: u32,
-    /// The seed they are drawn with.
+    /// Seed of the patterns.
     pub seed: u64,
 }
 
@@ -69,13 +68,13 @@ impl SignFlip {
         SignFlip { seed, ..self }
     }
 
-    /// The difference of the means over all samples; its standard error by leaving out one cluster after the other, its interval by
-    /// the test itself.
+    /// Difference of the means over all samples. Its standard error comes from the jackknife over clusters, its interval from the test
+    /// itself.
     ///
-    /// The interval holds those differences δ whose p value is above the level: if A were worse by δ everywhere, D_c less δ times the samples
-    /// of c might as well have the other sign. Below the difference that was seen a pattern of signs counts from the smaller of the two mean
-    /// differences on, of the clusters it negates and of those it does not; above it, up to the larger one. So each end is one of those
-    /// means, found by counting.
+    /// The interval contains the differences δ whose p value is above the level. If A were worse by δ everywhere, D_c less δ times the
+    /// samples of c might as well have the other sign. A pattern of signs has two mean differences, of the negated clusters and of the
+    /// others. Below the observed difference the pattern counts from the smaller mean on; above it, up to the larger one. So each end is
+    /// one of those means, found by counting.
     ///
     /// # Errors
     /// [`ComparisonError::Unpaired`] or [`ComparisonError::Counts`] if the two do not have the same clusters with as many
@@ -125,7 +124,7 @@ impl SignFlip {
             }
             tried(patterns, true)
         } else {
-            // Signs as they were seen are one pattern more than those drawn.
+            // The observed signs are one pattern more than those drawn.
             try_pattern(&|_| false);
             let mut signs = vec![0; clusters.div_ceil(64)];
             for flip in 0..self.flips {
@@ -147,21 +146,21 @@ impl SignFlip {
         }
     }
 
-    /// 2^clusters, if that is not more than the flips to draw.
+    /// 2^clusters, if at most the number of flips.
     fn all_patterns(&self, clusters: usize) -> Option<u32> {
         let patterns = 2_u32.checked_pow(u32::try_from(clusters).ok()?)?;
         (patterns <= self.flips).then_some(patterns)
     }
 }
 
-/// What all patterns together say.
+/// Result over all patterns.
 struct Tried {
     test: DifferenceTest,
     p: f64,
     flips: Flips,
 }
 
-/// Clusters whose differences are averaged, half by half.
+/// Clusters for averages over both halves of a pattern.
 struct Halves {
     /// Samples and Σ of A less Σ of B of each cluster.
     clusters: Vec<[f64; 2]>,
@@ -179,8 +178,7 @@ impl Halves {
         }
     }
 
-    /// The smaller and the larger of the mean differences of those clusters that are negated and of those that are not; infinite
-    /// where one half is empty.
+    /// Smaller and larger of the mean differences of negated and other clusters; infinite if one half is empty.
     fn means(&self, is_negated: &dyn Fn(usize) -> bool) -> [f64; 2] {
         let mut halves = [[0.0; 2]; 2];
         for (at, [count, difference]) in self.clusters.iter().enumerate() {

@@ -1,15 +1,15 @@
-//! Sums of the same numbers with other signs, exactly, and fast enough for ten thousand of them.
+//! Exact sums of the same numbers with other signs, fast enough for ten thousand patterns.
 
 use crate::exact::ExactSum;
 
-/// Numbers on one fixed point: as many digits of 32 bits each as the widest span needs.
+/// Numbers in one fixed-point format, with the 32-bit digits that the widest span needs.
 pub(super) struct SignedSums {
-    /// One number after the other, each from its lowest digit; a negative number has negative digits.
+    /// The numbers in order, each from its lowest digit; a negative number has negative digits.
     digits: Vec<i64>,
     width: usize,
 }
 
-/// The magnitude of a sum: digits from the highest, so that the order is that of the numbers.
+/// Magnitude of a sum: digits from the highest, so that the order is that of the numbers.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Magnitude(Vec<i64>);
 
@@ -34,7 +34,7 @@ impl SignedSums {
         SignedSums { digits, width }
     }
 
-    /// |Σ ± number|, with − for each number whose place `is_negated`.
+    /// |Σ ± number|, with − for each number with `is_negated`.
     pub(super) fn magnitude(&self, is_negated: impl Fn(usize) -> bool) -> Magnitude {
         // An `i64` holds the sum of 2³¹ digits.
         let mut sum = vec![0_i64; self.width];

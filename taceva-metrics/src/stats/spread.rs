@@ -1,10 +1,10 @@
-//! How much the means of bins differ, and how much of that is chance.
+//! Spread of the means of bins, and the part of chance in it.
 
 use crate::exact::moments::Moments;
 use crate::exact::{Dyadic, ExactSum};
 use crate::score::value::{Finished, UndefinedReason};
 
-/// One bin, with all that is rounded of it: formed once, asked for several spreads.
+/// One bin with its rounded statistics, computed once for several spreads.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bin {
     n: u64,
@@ -17,7 +17,7 @@ pub(crate) struct Bin {
 }
 
 impl Bin {
-    /// The bin of these samples; `None` if there is none.
+    /// Bin of these samples; `None` without samples.
     pub(crate) fn of(moments: &Moments) -> Option<Bin> {
         Some(Bin {
             n: moments.n,
@@ -27,15 +27,15 @@ impl Bin {
         })
     }
 
-    /// Whether it has at least `n_min` samples.
+    /// True if it has at least `n_min` samples.
     pub(crate) fn has(&self, n_min: u64) -> bool {
         self.n >= n_min
     }
 }
 
-/// The means m_b of some bins and what is known of the scatter within them.
+/// Means m_b of some bins, and the scatter within them.
 ///
-/// Each m_b is RN of an exact mean; everything else is exact over those binary64 numbers and rounded where a line says RN.
+/// Each m_b is RN of an exact mean. All else is exact over those binary64 numbers, and rounded where a line says RN.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spread {
     means: Moments,
@@ -47,7 +47,7 @@ pub(crate) struct Spread {
     shares: ExactSum,
     /// RN(STD) of each bin, ddof 0.
     deviations: ExactSum,
-    /// Whether some scatter is beyond binary64.
+    /// True if some scatter is beyond binary64.
     overflow: bool,
     n_min: u64,
 }
@@ -77,7 +77,7 @@ impl Spread {
         }
     }
 
-    /// How many bins take part.
+    /// Number of bins that count.
     pub(crate) fn bins(&self) -> u64 {
         self.means.n
     }
@@ -95,7 +95,7 @@ impl Spread {
         deviation.ok_or(UndefinedReason::TooFewBins { have, least })
     }
 
-    /// The STD of the bin means that samples alone would give: √(s² mean(1 / n_b)), s² the pooled variance within bins.
+    /// STD of the bin means by chance alone: √(s² mean(1 / n_b)), s² the pooled variance within bins.
     pub(crate) fn noise_floor(&self) -> Finished {
         self.noise_variance().map(f64::sqrt)
     }

@@ -1,19 +1,19 @@
 //! Student's t distribution, for any positive number of degrees of freedom.
 //!
-//! Only + − × ÷ and √ are used, which IEEE 754 rounds alike everywhere; a platform's own logarithm or gamma function would
-//! not give the same bytes on every machine.
+//! Only + − × ÷ and √ are used, which IEEE 754 rounds alike everywhere. A platform's own logarithm or gamma function would not give the
+//! same bytes on every machine.
 
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
-/// The t within which, to both sides of 0, lies `central` of the distribution.
+/// The t for which ±t encloses the share `central` of the distribution.
 ///
-/// Newton's steps climb towards it, because the probability is concave there; the first that no longer climbs ends
-/// them. `central` is in 0..1 and `freedom` above 0.
+/// Newton's steps climb towards it, because the probability is concave there; the first that does not climb ends them. `central` is in 0..1
+/// and `freedom` above 0.
 pub(super) fn quantile(central: f64, freedom: f64) -> f64 {
     climb(freedom, |split| central - split.within)
 }
 
-/// The t beyond which, to both sides of 0, lies `level` of the distribution: a quantile that keeps its digits where `level` is small.
+/// The t for which the share `level` is outside ±t: a quantile that keeps its digits for a small `level`.
 ///
 /// `level` is above 0 and at most 1.
 pub(super) fn beyond(level: f64, freedom: f64) -> f64 {
@@ -36,7 +36,7 @@ fn climb(freedom: f64, missing: impl Fn(&Split) -> f64) -> f64 {
     t
 }
 
-/// P(T ≥ t): the p value of a test that looks upwards.
+/// P(T ≥ t): the upper one-sided p value.
 pub(super) fn upper(t: f64, freedom: f64) -> f64 {
     let Split { within, beyond } = Split::at(t.abs(), freedom);
     if t < 0.0 {
@@ -51,7 +51,7 @@ pub(super) fn within(t: f64, freedom: f64) -> f64 {
     Split::at(t.abs(), freedom).within
 }
 
-/// How the distribution is divided by ±t.
+/// Probabilities within and beyond ±t.
 struct Split {
     /// P(|T| < t).
     within: f64,
@@ -60,12 +60,12 @@ struct Split {
 }
 
 impl Split {
-    /// The series of whichever part is the smaller, or near it, so that small p values keep their digits.
+    /// Uses the series of the smaller part, approximately, so that small p values keep their digits.
     ///
     /// # Reference
     /// Abramowitz and Stegun, Handbook of Mathematical Functions, 26.7.1 and 26.5.4, of the incomplete beta function.
     fn at(t: f64, freedom: f64) -> Split {
-        /// Beyond four standard deviations little is left of 1 − within.
+        /// Square of four standard deviations, beyond which little is left of 1 − within.
         const FAR: f64 = 16.0;
         let square = t * t;
         let half = freedom / 2.0;
@@ -74,7 +74,7 @@ impl Split {
         // √near × far^(ν/2) / B(ν/2, 1/2), which both series share.
         let front = near.sqrt() * power(far, half) * gamma_ratio(half) * (FRAC_2_SQRT_PI / 2.0);
         if front <= 0.0 {
-            // At 0, or so far out that the rest is below the least number.
+            // At 0, or so far out that the rest underflows.
             let within = if near < far { 0.0 } else { 1.0 };
             return Split {
                 within,

@@ -1,4 +1,4 @@
-//! The answer of a comparison.
+//! Answers of comparisons.
 
 mod words;
 
@@ -9,7 +9,7 @@ use super::error::ComparisonError;
 use super::sides::Side;
 use crate::score::direction::Better;
 
-/// What is asked of a difference.
+/// Question about a difference.
 ///
 /// ```
 /// use taceva_metrics::{Better, Question, Unit};
@@ -21,14 +21,14 @@ use crate::score::direction::Better;
 pub struct Question {
     /// The unit of the scores.
     pub unit: Unit,
-    /// Which scores are good.
+    /// Direction of good scores.
     pub better: Better,
-    /// How far apart scores may be and still count as equal for the purpose, in `unit`; without it equivalence is not asked.
+    /// Greatest distance of scores that count as equivalent, in `unit`; `None` without a test of equivalence.
     pub margin: Option<f64>,
 }
 
 impl Question {
-    /// Which of two scores in `unit` is better, without asking for equivalence.
+    /// Question of the better of two scores in `unit`, without equivalence.
     pub const fn new(unit: Unit, better: Better) -> Question {
         Question {
             unit,
@@ -37,7 +37,7 @@ impl Question {
         }
     }
 
-    /// The same question, and whether the scores are equal within [`margin`](Question::margin).
+    /// The same question, with equivalence within [`margin`](Question::margin).
     #[must_use]
     pub fn with_margin(self, margin: impl Into<Option<f64>>) -> Question {
         Question {
@@ -47,7 +47,7 @@ impl Question {
     }
 }
 
-/// The answer of a comparison, at a level of 5 %, about a difference that [`decide`](crate::decide) decided among those of its family.
+/// Answer of a comparison at a level of 5 %, for a difference that [`decide`](crate::decide) decided within its family.
 ///
 /// ```
 /// use taceva_core::Unit;
@@ -67,35 +67,35 @@ impl Question {
 pub enum Verdict {
     /// The scores differ.
     Differs {
-        /// By how much.
+        /// Size of the difference.
         difference: Difference,
         /// The unit of the scores.
         unit: Unit,
-        /// Which one is better; none if that is a matter of nearness to zero and they lie on both sides of it.
+        /// Better side. `None` if values near zero are good and the scores are on both sides of zero, or if no value is better.
         better: Option<Side>,
     },
-    /// They may be equal, and may differ by anything inside the interval.
+    /// The scores may be equal, or differ by any value in the interval.
     NoDifferenceShown {
-        /// By how much they differ here.
+        /// Observed difference.
         difference: Difference,
         /// The unit of the scores.
         unit: Unit,
     },
-    /// They are closer to each other than the margin, even where a difference can be shown.
+    /// The scores are closer than the margin, even if a difference is shown.
     Equivalent {
-        /// By how much they differ here.
+        /// Observed difference.
         difference: Difference,
         /// The unit of the scores.
         unit: Unit,
-        /// What was allowed: the interval lies within it.
+        /// Allowed distance, which contains the interval.
         margin: f64,
     },
-    /// There is no answer.
+    /// No answer, with the reason.
     Undefined(ComparisonError),
 }
 
 impl Verdict {
-    /// The answer that `difference` gives to `question`.
+    /// Answer of `difference` to `question`.
     pub fn of(difference: Result<Difference, ComparisonError>, question: Question) -> Verdict {
         match difference {
             Ok(difference) => {
@@ -129,7 +129,7 @@ impl Verdict {
         Ok(Verdict::NoDifferenceShown { difference, unit })
     }
 
-    /// Which one is shown to be better.
+    /// Side that is shown to be better, if any.
     pub fn better(&self) -> Option<Side> {
         match self {
             Verdict::Differs { better, .. } => *better,

@@ -1,11 +1,11 @@
-//! How far a share of independent trials may be from the truth.
+//! Wilson's interval of a share of independent trials.
 
 use crate::score::Interval;
 
-/// z within which, to both sides of 0, lies 95 % of the normal distribution.
+/// z for which ±z encloses 95 % of the normal distribution.
 const Z: f64 = 1.959_963_984_540_054;
 
-/// The interval about `hits` of `trials`, at least one, as if all were independent.
+/// Interval about `hits` of `trials`, at least one, as if all were independent.
 ///
 /// # Reference
 /// Wilson, Probable inference, the law of succession, and statistical inference, JASA 22 (1927).
@@ -15,7 +15,7 @@ pub(crate) fn interval(hits: u64, trials: u64) -> Interval {
     Interval::Wilson { low, high }
 }
 
-/// The shares from which `share` of `n` trials, a number that need not be whole, is less than `z` standard errors away.
+/// Shares that are less than `z` standard errors from `share` of `n` trials; `n` need not be whole.
 pub(super) fn ends(share: f64, n: f64, z: f64) -> [f64; 2] {
     let scale = 1.0 + z * z / n;
     let centre = (share + z * z / (2.0 * n)) / scale;

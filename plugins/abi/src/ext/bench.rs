@@ -7,10 +7,10 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::{TakeText, Text};
 
-/// The id by which a host asks for this ability.
+/// Id of this ability.
 pub const BENCH: &str = "taceva.rig.bench/draft-1";
 
-/// `taceva_specimen`: what a robot carries.
+/// `taceva_specimen`: the object that a robot carries.
 ///
 /// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
 ///
@@ -72,13 +72,13 @@ pub struct BenchCalls {
     /// `[any]` Mounts a specimen; refused while the tip touches the gel.
     pub mount:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, *const Specimen, *mut Error) -> Status>,
-    /// `[any]` What is random in the next press is a function of the name.
+    /// `[any]` Sets the name of the next press, of which its random numbers are a function.
     pub name_press:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, name: u64, *mut Error) -> Status>,
-    /// `[any]` The next tare waits until then.
+    /// `[any]` Delays the next tare until `at_ns`.
     pub schedule:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, at_ns: u64, *mut Error) -> Status>,
-    /// `[any]` What the bench says of itself.
+    /// `[any]` The provenance of the simulation.
     pub provenance: Option<
         unsafe extern "C" fn(*mut Rig, bench: Text, TakeText, *mut c_void, *mut Error) -> Status,
     >,

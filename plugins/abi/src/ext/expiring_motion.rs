@@ -1,4 +1,4 @@
-//! A robot that stands by itself where nobody renews its motion.
+//! A robot that stops by itself if nothing renews its motion.
 
 use core::ffi::c_void;
 
@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::robot::Motion;
 use crate::status::Status;
 
-/// The id by which a host asks for this ability.
+/// Id of this ability.
 pub const EXPIRING_MOTION: &str = "taceva.robot.expiring-motion/1";
 
 /// `taceva_expiring_motion_calls`, since minor 2.
@@ -26,7 +26,7 @@ pub struct ExpiringMotionCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Moves; where its process ends, the robot begins to brake 200 ms later at most.
+    /// `[owner & open]` Moves; if its process ends, the robot begins to brake within 200 ms.
     pub move_expiring: Option<
         unsafe extern "C" fn(
             *mut c_void,

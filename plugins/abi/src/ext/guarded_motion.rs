@@ -7,10 +7,10 @@ use crate::error::Error;
 use crate::robot::{Motion, Pose};
 use crate::status::Status;
 
-/// The id by which a host asks for this ability.
+/// Id of this ability.
 pub const GUARDED_MOTION: &str = "taceva.robot.guarded-motion/1";
 
-/// `taceva_guarded_stop`: how a guarded motion ended.
+/// `taceva_guarded_stop`: end of a guarded motion.
 ///
 /// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
 ///
@@ -28,9 +28,9 @@ pub struct GuardedStop {
     pub size: u32,
     /// 0: it arrived; 1: it stopped at the guard.
     pub is_guarded: u32,
-    /// Where the tip rests.
+    /// Pose of the tip at rest.
     pub pose: Pose,
-    /// Since when it rests there.
+    /// Time at which it came to rest.
     pub stamp: Stamp,
 }
 
@@ -50,7 +50,7 @@ pub struct GuardedMotionCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Moves, and ends where the magnitude of the force reaches the guard.
+    /// `[owner & open]` Moves until the target, or until the magnitude of the force reaches the guard.
     pub move_guarded: Option<
         unsafe extern "C" fn(
             *mut c_void,

@@ -5,7 +5,7 @@ use core::ffi::c_void;
 use crate::error::Error;
 use crate::status::Status;
 
-/// The id by which a host asks for this ability.
+/// Id of this ability.
 pub const NUMBERED: &str = "taceva.force.numbered/1";
 
 /// `taceva_numbered_calls`.

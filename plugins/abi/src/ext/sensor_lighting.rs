@@ -1,4 +1,4 @@
-//! A sensor that sets the light around it by itself.
+//! A sensor that sets the light around itself.
 
 use core::ffi::c_void;
 
@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::Text;
 
-/// The id by which a host asks for this ability.
+/// Id of this ability.
 pub const SENSOR_LIGHTING: &str = "taceva.sensor.lighting/1";
 
 /// `taceva_sensor_lighting_calls`.
@@ -25,7 +25,7 @@ pub struct SensorLightingCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` A scene of the manifest; returns once it holds.
+    /// `[owner & open]` Sets a scene of the manifest; returns once it is steady.
     pub set: Option<
         unsafe extern "C" fn(*mut c_void, scene: Text, timeout_ns: u64, *mut Error) -> Status,
     >,

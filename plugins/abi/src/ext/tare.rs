@@ -1,11 +1,11 @@
-//! A force transducer that can call the present load zero.
+//! A force transducer that can take the present load as zero.
 
 use core::ffi::c_void;
 
 use crate::error::Error;
 use crate::status::Status;
 
-/// The id by which a host asks for this ability.
+/// Id of this ability.
 pub const TARE: &str = "taceva.force.tare/1";
 
 /// `taceva_tare_calls`.
@@ -24,6 +24,6 @@ pub struct TareCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & started]` Returns once it holds.
+    /// `[owner & started]` Takes the present load as zero; returns once that holds.
     pub zero: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,
 }

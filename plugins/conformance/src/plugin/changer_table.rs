@@ -1,4 +1,4 @@
-//! Promises of a changer's table: names that no host passes on.
+//! Promises of a changer's table, for names that no host passes on.
 
 #![expect(
     unsafe_code,
@@ -27,7 +27,7 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Ch
     }
 }
 
-/// The names of what the changer holds; skipped if its arguments have it hold nothing.
+/// Names of the changer's items; skipped without any item.
 fn holds(subject: &Subject) -> Result<Vec<String>, Unmet> {
     let session = &subject.session;
     let changer = subject.opened(session.changer(subject.key()?, &subject.args()?))?;
@@ -39,7 +39,7 @@ fn holds(subject: &Subject) -> Result<Vec<String>, Unmet> {
 
 type Bare = taceva_host::bare::Opened<abi::ChangerCalls>;
 
-/// Past the host, which knows what it holds and refuses the rest.
+/// Calls `bring` without the host, which would reject unknown names itself.
 fn bare_bring(changer: &Bare, name: abi::Text, take: abi::TakeText) -> Result<(), DriverError> {
     let bring = changer.handle.needs(changer.calls.bring, "bring")?;
     let mut taken = Taken::default();

@@ -1,4 +1,4 @@
-//! Checks of every driver, whatever its kind.
+//! Checks of drivers of every kind.
 
 #![expect(
     unsafe_code,
@@ -44,7 +44,7 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Ch
     }
 }
 
-/// An open device of whichever kind, to be dropped.
+/// An open device of any kind, to be dropped.
 enum Device {
     Sensor(Opened<abi::SensorCalls>),
     Robot(Opened<abi::RobotCalls>),
@@ -90,7 +90,7 @@ fn describes_twice(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// With every argument at its limits it describes itself, or says that they contradict each other.
+/// With every argument at its limits the driver describes itself, or reports a contradiction.
 fn describes_every_argument(subject: &Subject) -> Result<(), Unmet> {
     let key = subject.key()?;
     for spec in subject.entry()?.arguments() {
@@ -206,7 +206,7 @@ fn opens_again(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// A second device of the same arguments opens too, or says that the first holds it.
+/// A second device with the same arguments opens too, or gives `BUSY`.
 fn opens_beside(subject: &Subject) -> Result<(), Unmet> {
     let first = opened(subject)?;
     let list = subject.list()?;
@@ -224,7 +224,7 @@ fn opens_beside(subject: &Subject) -> Result<(), Unmet> {
     opened(subject).map(drop)
 }
 
-/// Arguments that nobody declared are refused or passed over, whatever they are.
+/// Undeclared arguments of any content are rejected or ignored.
 fn rubbish_arguments(subject: &Subject) -> Result<(), Unmet> {
     let mut draw = Draw::new(subject.probe.seed);
     for round in 0..subject.openings(64) {
@@ -248,13 +248,13 @@ fn rubbish_arguments(subject: &Subject) -> Result<(), Unmet> {
             count: 1,
         };
         let mut error = abi::Error::new();
-        // Any answer will do, but one must come.
+        // Any answer passes, but the call must return.
         raw_open(subject, subject.entry()?.number, &args, &raw mut error)?;
     }
     Ok(())
 }
 
-/// An error that has less room than today's is written no further than it says.
+/// A shorter `taceva_error` is written only within its stated size.
 fn keeps_to_error(subject: &Subject) -> Result<(), Unmet> {
     const ROOM: usize = 24;
     const CANARY: i8 = 0x5a;
@@ -324,7 +324,7 @@ fn interrupts(subject: &Subject) -> Result<(), Unmet> {
     opened(subject).map(drop)
 }
 
-/// A handle is no thread's own: opened in one, used and closed in another.
+/// A handle belongs to no thread: it is opened in one, and used and closed in another.
 fn other_thread(subject: &Subject) -> Result<(), Unmet> {
     let device = opened(subject)?;
     let closed = thread::scope(|scope| scope.spawn(move || drop(device)).join());
@@ -347,7 +347,7 @@ fn discovers(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// After the first 100, ten thousand openings add less than 1 MiB to the memory that may be written.
+/// After the first 100, another 9,900 openings add less than 1 MiB to the writable memory.
 fn memory(subject: &Subject) -> Result<(), Unmet> {
     if subject.is_real() {
         let why = "a real device is not opened 10000 times";

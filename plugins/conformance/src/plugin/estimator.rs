@@ -40,7 +40,7 @@ struct Samples {
     values: Vec<f64>,
 }
 
-/// Samples whose targets are sums of their features.
+/// Samples with sums of their features as targets.
 fn samples(seed: u64) -> Result<Samples, Unmet> {
     let mut draw = Draw::new(seed);
     let mut values = Vec::new();
@@ -136,7 +136,7 @@ fn keeps(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// Bytes that are no model are refused; those that differ from one in a few bits are, or predict something.
+/// Garbage bytes and truncated models are rejected. A model with a flipped bit is rejected or predicts something.
 fn hostile(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     let bytes = fit(subject, &samples, &SilentProgress)?.save()?;
@@ -164,7 +164,7 @@ fn hostile(subject: &Subject) -> Result<(), Unmet> {
             *byte ^= 1 << bit;
         }
         if let Ok(model) = load(subject, &samples, &damaged) {
-            // Whatever it predicts, or refuses to.
+            // Any prediction or error passes.
             let _ = predicted(&*model, &samples);
         }
     }
@@ -182,7 +182,7 @@ impl Progress for Cancelled {
     }
 }
 
-/// A fit that is cancelled ends, and says so unless it was done before it asked.
+/// A cancelled fit ends with `Interrupted`, unless it finished first.
 fn cancels(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     match fit(subject, &samples, &Cancelled) {

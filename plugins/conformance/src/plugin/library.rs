@@ -14,7 +14,7 @@ use crate::promise::{Unmet, broken, expect, skipped};
 use taceva_host::Library;
 use taceva_host::bare::RigHandle;
 
-/// The check whose child must have printed nothing.
+/// Name of the check whose child must print nothing.
 pub(super) const QUIET: &str = "library/quiet";
 
 pub(super) const CHECKS: &[Check] = &[
@@ -53,14 +53,14 @@ fn loads_twice(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// `deinit` may be called once everything is closed, and the library may be begun again.
+/// `deinit` may be called once everything is closed, and the library may be initialised again.
 fn ends(subject: &Subject) -> Result<(), Unmet> {
     drop(load(subject)?);
     drop(load(subject)?);
     Ok(())
 }
 
-/// What it says it needs stands in its manifest, which alone counts.
+/// The needs that the library states are in its manifest, which alone counts.
 fn needs(subject: &Subject) -> Result<(), Unmet> {
     let offer = subject.library.offer();
     let offer = offer.map_err(|problem| Unmet::Broken(problem.to_string()))?;
@@ -169,7 +169,7 @@ fn keeps_signals(subject: &Subject) -> Result<(), Unmet> {
     }
 }
 
-/// What it prints would stand in the middle of a result; the host looks at what came out of the process.
+/// Loading prints nothing, as output would corrupt a result. The host examines the output of the process.
 fn quiet(subject: &Subject) -> Result<(), Unmet> {
     drop(load(subject)?);
     drop(RigHandle::open(&subject.library)?);

@@ -1,4 +1,4 @@
-//! What a child is asked to check.
+//! Probe: the order to a child to check one driver.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! Promises of a robot's table: motions that no host asks for.
+//! Promises of a robot's table, for motions that no host requests.
 
 #![expect(
     unsafe_code,

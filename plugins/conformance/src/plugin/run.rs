@@ -15,13 +15,13 @@ use taceva_host::Session;
 use taceva_host::bare::Source;
 use taceva_host::bare::pending_call;
 
-/// How the answer of a check begins that could not be made.
+/// Prefix of the answer of a skipped check.
 pub(super) const SKIPPED: &str = "skipped: ";
 
-/// Makes the check that `file` asks for on the plugin of `source`, in this process; a session that is still whole is the sign that it held.
+/// Runs the check of `file` on the plugin of `source`, in this process. An intact session means that the promise held.
 ///
 /// # Errors
-/// Why the promise does not hold, in the words of the check.
+/// Kind and reason of the unmet promise, in the words of the check.
 pub(crate) fn run(
     mut file: File,
     source: Source,

@@ -1,4 +1,4 @@
-//! Checks of the frames of a sensor as they cross: where they lie, and who gives them back.
+//! Checks of the frames of a sensor at the boundary: their memory and its release.
 
 #![expect(
     unsafe_code,
@@ -41,13 +41,13 @@ struct Bare {
     length: usize,
 }
 
-/// A frame as it came; given back when it is dropped.
+/// A frame as received; released when it is dropped.
 struct Lent(abi::Frame);
 
 impl Drop for Lent {
     fn drop(&mut self) {
         if let Some(release) = self.0.release {
-            // SAFETY: [any], once: set by whoever lent it, and nobody looks at the pixels any more.
+            // SAFETY: [any], once: set by the lender, and the pixels are not read any more.
             unsafe { release(&raw mut self.0) };
         }
     }
@@ -130,7 +130,7 @@ fn counts(subject: &Subject) -> Result<(), Unmet> {
 
 const CANARY: u8 = 0x5a;
 
-/// A buffer that is too short is refused, or the frame is lent; nothing beyond it is written.
+/// With a short buffer the call is rejected or the frame is lent; nothing beyond the buffer is written.
 fn keeps_to_buffer(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for room in [1, sensor.length / 2, sensor.length - 1] {
@@ -183,13 +183,13 @@ fn no_buffer(subject: &Subject) -> Result<(), Unmet> {
     }
 }
 
-/// `release` sets itself to NULL, so that nobody gives a frame back twice.
+/// `release` sets itself to NULL, so that no frame is released twice.
 fn releases(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for _ in 0..100 {
         let mut lent = sensor.lend()?;
         if let Some(release) = lent.0.release {
-            // SAFETY: [any], once: `release` is taken as called, whatever it leaves behind.
+            // SAFETY: [any], once: `release` counts as called, whatever its result.
             unsafe { release(&raw mut lent.0) };
         }
         let is_done = lent.0.release.take().is_none();
@@ -203,7 +203,7 @@ fn releases(subject: &Subject) -> Result<(), Unmet> {
 /// A frame that goes to another thread.
 struct Elsewhere(Lent);
 
-// SAFETY: the interface allows `release` from any thread, and a lent frame belongs to whoever holds it.
+// SAFETY: the interface allows `release` from any thread, and a lent frame belongs to its holder.
 unsafe impl Send for Elsewhere {}
 
 fn releases_elsewhere(subject: &Subject) -> Result<(), Unmet> {
@@ -224,7 +224,7 @@ fn releases_elsewhere(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// Frames that are out at once lie apart; one more is refused or waits, and after they are back all goes on.
+/// The declared number of frames can be lent at once. One more is rejected or waits, and capture works again after their release.
 fn lends_many(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     let most = usize::try_from(sensor.opened.calls.max_lent)

@@ -1,4 +1,4 @@
-//! What a check looks at: a loaded plugin, and one of its drivers.
+//! Subject of a check: a loaded plugin, and one of its drivers.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -16,14 +16,14 @@ use super::surroundings::Surroundings;
 use crate::promise::{Kinded, Unmet, broken, skipped};
 use crate::trial::{NO_DEVICE, Trial, Tried, unopened};
 
-/// The time that a call gets which should succeed.
+/// Deadline of a call that should succeed.
 pub(super) const PATIENT: Deadline = Deadline::after(Duration::from_secs(5));
-/// Within which an interrupt and a halt act.
+/// Time limit of an interrupt and a halt.
 pub(super) const AT_ONCE: Duration = Duration::from_millis(50);
-/// Within which whatever should return at once does, on a busy machine.
+/// Time limit of calls that should return at once, on a busy machine.
 pub(super) const SOON: Duration = Duration::from_millis(500);
 
-/// How often one check opens a real device.
+/// Most openings of a real device in one check.
 const REAL_OPENINGS: usize = 3;
 
 /// A loaded plugin, and one of its drivers or estimators.
@@ -33,7 +33,7 @@ pub(crate) struct Subject {
     pub(super) source: Source,
     pub(super) manifest: Manifest,
     pub(super) session: InProcess,
-    /// As it was before the plugin was loaded.
+    /// State of the process before the plugin was loaded.
     pub(super) before: Surroundings,
     key: Option<DriverKey>,
 }
@@ -73,7 +73,7 @@ impl Subject {
         entry.ok_or_else(|| Unmet::Broken(format!("`{key}` is not there")))
     }
 
-    /// What the manifest says of the driver.
+    /// Description of the driver in the manifest.
     pub(super) fn descriptor(&self) -> Result<&Descriptor, Unmet> {
         match &self.entry()?.provided {
             Provided::Driver { descriptor, .. } => Ok(descriptor),
@@ -81,7 +81,7 @@ impl Subject {
         }
     }
 
-    /// The arguments to open it with: those that were given, or what it declares.
+    /// Arguments of opening: the given ones, or the declared defaults.
     pub(super) fn args(&self) -> Result<Args, Unmet> {
         let args = Args::parse(self.entry()?.arguments(), &self.probe.arguments);
         args.map_err(|error| {
@@ -94,7 +94,7 @@ impl Subject {
         Ok(ArgList::new(&self.args()?, self.entry()?.arguments()))
     }
 
-    /// What the library says of the driver with its arguments.
+    /// Description of the driver by the library, with its arguments.
     pub(super) fn said(&self) -> Result<Descriptor, Unmet> {
         Ok(self.session.describe(self.key()?, &self.args()?)?)
     }
@@ -105,12 +105,12 @@ impl Subject {
         self.opened(open(&rig, self.entry()?, &self.list()?))
     }
 
-    /// A device that opened, or why it did not.
+    /// The opened device, or the reason for the failure.
     pub(super) fn opened<T>(&self, opened: Result<T, DriverError>) -> Result<T, Unmet> {
         opened.map_err(|error| self.not_opened(error))
     }
 
-    /// Why a device did not open: one that exists, and is not here, keeps no promise and breaks none.
+    /// Reason why a device did not open: an absent real device keeps no promise and breaks none.
     fn not_opened(&self, error: DriverError) -> Unmet {
         match unopened(error, self.is_real()) {
             Unmet::Skipped(why) => Unmet::Skipped(self.with_place(&why)),
@@ -118,13 +118,13 @@ impl Subject {
         }
     }
 
-    /// Whether its devices are made of matter, and wear.
+    /// True for real devices, which wear.
     pub(super) fn is_real(&self) -> bool {
         let descriptor = self.descriptor();
         descriptor.is_ok_and(|descriptor| descriptor.source() == DriverSource::Real)
     }
 
-    /// How often a device is opened that `simulated` times would be if it were none: a real one takes seconds and wears.
+    /// Number of openings of a device, at most `simulated`. A real device takes seconds and wears, so it is opened less often.
     pub(super) fn openings(&self, simulated: usize) -> usize {
         if self.is_real() {
             simulated.min(REAL_OPENINGS)
@@ -139,7 +139,7 @@ impl Subject {
         open: OpenIn<D>,
         test: fn(&Tried<'_, D>) -> Result<(), Unmet>,
     ) -> Result<(), Unmet> {
-        // What is missing is said in words of the command.
+        // A missing argument is reported in words of the command.
         self.args()?;
         let driver = InLibrary {
             library: &self.library,
@@ -171,7 +171,7 @@ impl Subject {
         Err(skipped("it would move a real device; `--move` allows it"))
     }
 
-    /// `why`, and the argument of the command that names a device.
+    /// `why`, with the argument of the command that names a device.
     fn with_place(&self, why: &str) -> String {
         let key = &self.probe.driver;
         format!("{why}; `--with {key}:…` says where one is")
@@ -181,7 +181,7 @@ impl Subject {
 /// Opens a device of a session.
 pub(super) type OpenIn<D> = fn(&InProcess, &DriverKey, &Args) -> Result<Box<D>, DriverError>;
 
-/// A driver of the library that is checked.
+/// A driver of the checked library.
 struct InLibrary<'a, D: ?Sized> {
     library: &'a Arc<Library>,
     session: &'a InProcess,
@@ -195,7 +195,7 @@ impl<D: Device + ?Sized> Factory<D> for InLibrary<'_, D> {
     }
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
-        // What the library says of itself is for another check; without it the manifest speaks.
+        // The description by the library is for another check; without it the manifest is used.
         let said = self.session.describe(self.descriptor.key(), args);
         Ok(said.unwrap_or_else(|_| self.descriptor.clone()))
     }
@@ -206,19 +206,19 @@ impl<D: Device + ?Sized> Factory<D> for InLibrary<'_, D> {
     }
 }
 
-/// Calls a function of a bare table; the failure is what the plugin says.
+/// Calls a function of a bare table; the error is the failure that the plugin reports.
 pub(super) fn bare(run: impl FnOnce(*mut abi::Error) -> abi::Status) -> Result<(), Failure> {
     call(|error| run(std::ptr::from_mut(error)))
 }
 
-/// How long `run` takes.
+/// Result of `run`, and its duration.
 pub(super) fn timed<T>(run: impl FnOnce() -> T) -> (T, Duration) {
     let begun = Instant::now();
     let result = run();
     (result, begun.elapsed())
 }
 
-/// A number drawn from a seed: xorshift64*, enough for rubbish.
+/// Random numbers from a seed: xorshift64*, enough for garbage data.
 pub(super) struct Draw(u64);
 
 impl Draw {
@@ -240,7 +240,7 @@ impl Draw {
     }
 }
 
-/// Memory of this process that may be written, in bytes: what a leak adds to.
+/// Writable memory of this process, bytes; a leak increases it.
 pub(super) fn writable_memory() -> Result<u64, Unmet> {
     let maps = std::fs::read_to_string("/proc/self/maps")
         .map_err(|error| Unmet::Skipped(format!("/proc/self/maps: {error}")))?;

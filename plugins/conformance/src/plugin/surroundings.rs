@@ -1,4 +1,4 @@
-//! The state of this process that a plugin must leave as it was.
+//! State of this process that a plugin must leave unchanged.
 
 #![expect(unsafe_code, reason = "signal handlers are read through libc")]
 
@@ -12,7 +12,7 @@ pub(super) struct Surroundings {
 }
 
 impl Surroundings {
-    /// Of this process, now.
+    /// Present state of this process.
     pub(super) fn now() -> Surroundings {
         let handler = |signal| {
             // SAFETY: all bytes 0 is a value of this C struct.

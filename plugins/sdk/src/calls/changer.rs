@@ -56,7 +56,7 @@ unsafe extern "C" fn bring(
             return Err(Failure::argument("`take` is NULL"));
         }
         let there = changer.bring(name, deadline(timeout_ns))?;
-        // SAFETY: the host's function and what it is called with.
+        // SAFETY: the host's own function with its own context.
         unsafe { memory::hand(take, context, &there) }
     };
     // SAFETY: the host's own promise for `error`.

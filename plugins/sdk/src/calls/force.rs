@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::handles::Handle;
 use crate::memory;
 
-/// A transducer, and whether it said that it numbers its readings.
+/// A transducer, with its declaration that it numbers readings.
 pub(crate) struct Opened {
     force: Box<dyn ForceTransducer>,
     is_numbered: bool,

@@ -21,7 +21,7 @@ use crate::guard::guard;
 use crate::handles::{self, Handle};
 use crate::memory;
 
-/// A robot, and the motion that was accepted and not begun.
+/// A robot, and the accepted motion that has not begun.
 pub(crate) struct Opened {
     robot: Box<dyn Robot>,
     limits: RobotFacts,
@@ -54,7 +54,7 @@ impl Kind for dyn Robot {
 }
 
 impl Opened {
-    /// The motion that is asked for, if it keeps to what the robot says of itself.
+    /// The requested motion, if it is within the declared limits.
     fn asked(&self, asked: &Motion) -> Result<(Pose, Speed), Failure> {
         let (target, speed) = convert::motion(asked)?;
         let refused = |message| Err(Failure::new(ErrorKind::OutOfRange, message));
@@ -123,7 +123,7 @@ unsafe extern "C" fn pose(
     unsafe { call(handle, error, work) }
 }
 
-/// Accepts a motion; `wait` makes it, as a robot of core moves while it is waited for.
+/// Accepts a motion. `wait` carries it out, because a robot of core moves during a blocking call.
 unsafe extern "C" fn move_to(
     handle: *mut c_void,
     target: *const Motion,
@@ -172,7 +172,7 @@ unsafe extern "C" fn wait(
     unsafe { call(handle, error, work) }
 }
 
-/// Round the queue: whatever call the robot is in.
+/// Halts without waiting for the pending call of the robot.
 unsafe extern "C" fn halt(handle: *mut c_void, error: *mut Error) -> Status {
     let work = || {
         let handle = handles::find::<Handle<Opened>>(handle)?;

@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::handles::Handle;
 use crate::memory;
 
-/// A sensor, and how many frames it gave.
+/// A sensor, and its number of captured frames.
 pub(crate) struct Opened {
     sensor: Box<dyn Sensor>,
     frames: u64,
@@ -96,7 +96,7 @@ unsafe extern "C" fn capture(
                 format!("a buffer of {room} bytes, expected {length} for a frame of {info}");
             return Err(Failure::argument(message));
         }
-        // SAFETY: the host says that the buffer is so long, and ours for the call.
+        // SAFETY: the host states the length of the buffer, which is ours for the call.
         let buffer = unsafe { memory::list_place("buffer", frame.buffer, length) }?;
         let into = FrameMut::new(info, buffer)
             .map_err(|error| Failure::new(ErrorKind::Internal, error.to_string()))?;
@@ -105,7 +105,7 @@ unsafe extern "C" fn capture(
         frame.format = format(info.format)?;
         (frame.data, frame.release) = (frame.buffer.cast_const(), None);
         frame.length = length as u64;
-        // Which frames were lost, drivers of core do not say: those that were given are counted.
+        // Drivers of core do not report lost frames: captured frames are counted.
         opened.frames += 1;
         (frame.sequence, frame.flags) = (opened.frames, 0);
         Ok(())

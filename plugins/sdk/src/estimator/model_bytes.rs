@@ -1,10 +1,10 @@
-//! A fitted model as it crosses the boundary: what it takes and gives, then the author's own bytes.
+//! A fitted model as bytes at the boundary: its shape and channels, then the author's own bytes.
 
 use taceva_core::{Channel, Channels, ErrorKind, FeatureShape, Saved, SavedRegressor, Unit};
 
 use crate::failure::Failure;
 
-/// What the bytes begin with.
+/// First bytes of a model.
 const MAGIC: &[u8; 8] = b"TACEREG1";
 
 /// The bytes of `regressor`.
@@ -30,7 +30,7 @@ pub(super) fn write(regressor: &dyn SavedRegressor) -> Result<Vec<u8>, Failure> 
     Ok(bytes)
 }
 
-/// What [`write`] wrote, given to `load`.
+/// Parses the bytes of [`write`] and passes them to `load`.
 pub(super) fn read<R>(
     bytes: &[u8],
     load: impl FnOnce(&Saved<'_>) -> Result<R, Failure>,
@@ -70,7 +70,7 @@ pub(super) fn read<R>(
     load(&Saved::new(rest.0, &channels, shape))
 }
 
-/// The channel of that name: one of the six that TacEva knows with its unit, any other with the unit 1.
+/// Channel called `name`: one of the six with its unit, any other with the unit 1.
 pub(super) fn channel(name: &str) -> Result<Channel, Failure> {
     let known = Channel::SIX
         .into_iter()
@@ -83,7 +83,7 @@ pub(super) fn channel(name: &str) -> Result<Channel, Failure> {
     }
 }
 
-/// Bytes that are not read yet.
+/// Unread bytes.
 struct Rest<'a>(&'a [u8]);
 
 impl<'a> Rest<'a> {

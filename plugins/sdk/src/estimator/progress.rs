@@ -1,4 +1,4 @@
-//! How far a fit is, reported to the host.
+//! Progress of a fit, reported to the host.
 
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicBool, AtomicPtr, AtomicU64, Ordering};
@@ -7,7 +7,7 @@ use std::thread::{self, ThreadId};
 use taceva_abi::Progress as Report;
 use taceva_core::Progress;
 
-/// Reports to the host, from the thread on which it asked for the fit; other threads learn what it last answered.
+/// Reports to the host from the thread of the fit request; other threads read the last answer.
 pub(super) struct ReportedProgress {
     report: Report,
     context: AtomicPtr<c_void>,

@@ -1,4 +1,4 @@
-//! The calls on estimators and on what they fitted.
+//! Calls on estimators and on fitted models.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -163,7 +163,7 @@ unsafe extern "C" fn predict(
         let regressor: Arc<Kept> = handles::find(handle)?;
         let (samples, shape) = (whole(samples)?, regressor.shape());
         let channels = regressor.channels().len();
-        // What the model says of itself may come from a stranger's file; the lengths are the host's.
+        // The model's shape may come from an untrusted file; the lengths are the host's.
         let taken = times(samples, shape.len())?;
         let given = times(samples, channels)?;
         if whole(features_length)? != taken || whole(into_length)? != given {
@@ -171,7 +171,7 @@ unsafe extern "C" fn predict(
                 "{features_length} features and room for {into_length} numbers, expected {taken} and {given}"
             )));
         }
-        // SAFETY: the host lends as many features and gives as much room as its lengths say.
+        // SAFETY: the host lends features and memory of the stated lengths.
         let (features, into) = unsafe {
             let features = memory::list("features", features, taken)?;
             (features, memory::list_place("into", into, given)?)
@@ -204,7 +204,7 @@ unsafe extern "C" fn save(
             let message = format!("{room} bytes of room, expected {}", bytes.len());
             return Err(Failure::new(ErrorKind::OutOfRange, message));
         }
-        // SAFETY: the host says that there is so much room.
+        // SAFETY: the host states that there is so much room.
         unsafe { memory::list_place("into", into, bytes.len()) }?.copy_from_slice(&bytes);
         Ok(())
     };
@@ -222,7 +222,7 @@ struct Set {
 
 impl Set {
     /// # Safety
-    /// Unless it is NULL, the set and its arrays are as long as they say and nobody changes them during the call.
+    /// Unless it is NULL, the set and its arrays have the stated lengths and stay unchanged during the call.
     unsafe fn read(set: *const AbiSet) -> Result<Set, Failure> {
         // SAFETY: promised by the caller.
         let set = unsafe { memory::sized("training set", set) }?;

@@ -1,9 +1,9 @@
-//! Where the readings of a driver come from.
+//! Source of the readings of a driver.
 
 use std::fmt;
 
-/// Where the readings of a driver come from; every output that rests on them says so. It gets no further variant in a compatible version,
-/// because every reader must say what it makes of each.
+/// Source of the readings of a driver. Every output that rests on them states it. It gets no further variant in a compatible version,
+/// because every reader must handle each source.
 ///
 /// ```
 /// use taceva_core::DriverSource;
@@ -22,7 +22,7 @@ pub enum DriverSource {
 }
 
 impl DriverSource {
-    /// How the source is written in reports.
+    /// Name of the source in reports.
     pub const fn name(self) -> &'static str {
         match self {
             DriverSource::Real => "real",

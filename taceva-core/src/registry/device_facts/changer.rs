@@ -1,6 +1,6 @@
-//! What is known about a changer before it is opened.
+//! Facts about a changer before it is opened.
 
-/// What is known about a changer.
+/// Facts about a changer.
 ///
 /// ```
 /// use taceva_core::ChangerFacts;
@@ -10,7 +10,7 @@
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ChangerFacts {
-    /// The names of what it holds; none where its arguments say what it holds.
+    /// Names of its items; empty if its arguments list them.
     pub holds: Vec<String>,
 }
 

@@ -1,9 +1,9 @@
-//! What is known about a force transducer before it is opened.
+//! Facts about a force transducer before it is opened.
 
 use crate::driver::Axes;
 use crate::quantity::{Hertz, Newton};
 
-/// What is known about a force transducer.
+/// Facts about a force transducer.
 ///
 /// ```
 /// use taceva_core::{Axes, ForceFacts, Hertz};
@@ -13,21 +13,21 @@ use crate::quantity::{Hertz, Newton};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ForceFacts {
-    /// Which components it measures.
+    /// Components that it measures.
     pub axes: Axes,
     /// Readings a second.
     pub rate: Option<Hertz>,
     /// The greatest magnitude of each force it can measure.
     pub force_max: Option<Newton>,
-    /// How far readings of a load that rests scatter: one standard deviation per component.
+    /// Noise of the readings under a constant load: one standard deviation per component.
     pub noise: Option<Newton>,
-    /// The step between two neighbouring readings of a force. Equal readings show a frozen signal only where it is below the noise.
+    /// Step between two neighbouring readings of a force. Equal readings show a frozen signal only if the step is below the noise.
     pub resolution: Option<Newton>,
-    /// How long after its measurement a reading is stamped, in ms; a run subtracts it from the stamps. 0 where stamps need no correction.
+    /// Delay from the measurement of a reading to its stamp, ms. A run subtracts it from the stamps; 0 if they need no correction.
     pub latency_ms: Option<f64>,
-    /// Whether it numbers its readings, see [`ForceTransducer::sequence`](crate::ForceTransducer::sequence).
+    /// True if it numbers its readings, see [`ForceTransducer::sequence`](crate::ForceTransducer::sequence).
     pub numbered: bool,
-    /// Whether it can take the present load as zero.
+    /// True if it can take the present load as zero.
     pub tare: bool,
 }
 
@@ -88,7 +88,7 @@ impl ForceFacts {
         self
     }
 
-    /// Whether two readings of a working transducer are hardly ever equal to the last bit: its step, if one is stated, is below its noise.
+    /// True if readings of a working transducer are hardly ever equal to the last bit: its resolution, if stated, is below its noise.
     ///
     /// ```
     /// use taceva_core::{ForceFacts, Newton};

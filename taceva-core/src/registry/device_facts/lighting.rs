@@ -1,6 +1,6 @@
-//! What is known about a lighting before it is opened.
+//! Facts about a lighting before it is opened.
 
-/// What is known about a lighting.
+/// Facts about a lighting.
 ///
 /// ```
 /// use taceva_core::LightingFacts;

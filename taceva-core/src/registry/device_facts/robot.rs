@@ -1,10 +1,10 @@
-//! What is known about a robot before it is opened.
+//! Facts about a robot before it is opened.
 
 use super::workspace::Workspace;
 use crate::driver::Speed;
 use crate::quantity::Millimetre;
 
-/// What is known about a robot.
+/// Facts about a robot.
 ///
 /// ```
 /// use taceva_core::{RobotFacts, Speed};
@@ -15,24 +15,24 @@ use crate::quantity::Millimetre;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct RobotFacts {
-    /// Where its tip may be.
+    /// Box that the tip stays in.
     pub workspace: Option<Workspace>,
-    /// How fast it may move.
+    /// Greatest speed of the tip.
     pub speed_max: Option<Speed>,
-    /// How well it comes back to a pose: one standard deviation per axis.
+    /// Repeatability of a pose: one standard deviation per axis.
     pub repeatability: Option<Millimetre>,
-    /// How far a pose that it reports scatters about where it was sent: one standard deviation per axis. Where it is not known, a real robot
-    /// is taken to report as well as it comes back, and a simulated one to report where it was sent.
+    /// Noise of a reported pose about its target: one standard deviation per axis. If unknown, the repeatability is taken for a real robot,
+    /// and 0 for a simulated one.
     pub pose_noise: Option<Millimetre>,
-    /// How fast it slows down when it is halted, in mm/s².
+    /// Deceleration when it is halted, mm/s².
     pub deceleration_mm_s2: Option<f64>,
-    /// How long it moves on after a halt has reached it, in ms.
+    /// Time for which it still moves after a halt has reached it, ms.
     pub stop_ms: Option<f64>,
-    /// How long after its measurement a pose is stamped, in ms; a run subtracts it from the stamps. 0 where stamps need no correction.
+    /// Delay from the measurement of a pose to its stamp, ms. A run subtracts it from the stamps; 0 if they need no correction.
     pub latency_ms: Option<f64>,
-    /// Whether it can stop by itself at a force.
+    /// True if it can stop by itself at a force.
     pub guarded_motion: bool,
-    /// Whether its poses are in a base frame of its own, which must be mapped to that of the sensor before it is moved over a gel.
+    /// True if its poses are in its own base frame. They must be mapped to the sensor's frame before it moves over a gel.
     pub base_frame: bool,
 }
 

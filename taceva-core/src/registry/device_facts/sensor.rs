@@ -1,10 +1,10 @@
-//! What is known about a sensor before it is opened.
+//! Facts about a sensor before it is opened.
 
 use crate::footprint::Footprint;
 use crate::frame::FrameInfo;
 use crate::quantity::{Hertz, Millimetre, Newton};
 
-/// What is known about a sensor.
+/// Facts about a sensor.
 ///
 /// ```
 /// use taceva_core::{Footprint, Millimetre, SensorFacts};
@@ -15,29 +15,29 @@ use crate::quantity::{Hertz, Millimetre, Newton};
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SensorFacts {
-    /// Size and format of the frames it gives; `None` where only its arguments or a recording decide.
+    /// Size and format of its frames; `None` if only its arguments or a recording decide.
     pub frame: Option<FrameInfo>,
     /// Frames a second.
     pub rate: Option<Hertz>,
-    /// Whether the gel keeps the light of the room from the camera.
+    /// True if the gel blocks ambient light from the camera.
     pub opaque: Option<bool>,
-    /// Whether markers in the gel show how it shears.
+    /// True if markers in the gel show its shear.
     pub markers: Option<bool>,
-    /// The scenes of the light around it that it can set itself; an opaque gel has none.
+    /// Light scenes that it can set itself; an opaque gel has none.
     pub scenes: Vec<String>,
-    /// Where it senses, and how deep it may be pressed.
+    /// Sensing surface, and its greatest indentation.
     pub footprint: Option<Footprint>,
-    /// How deep it may be pressed; never deeper than the footprint says.
+    /// Greatest indentation; at most that of the footprint.
     pub depth_max: Option<Millimetre>,
-    /// How hard it may be pressed.
+    /// Greatest force of a press.
     pub force_max: Option<Newton>,
     /// Pixels along x and y of its camera, before anything is scaled.
     pub camera: Option<[u32; 2]>,
-    /// How thick the gel is.
+    /// Thickness of the gel.
     pub gel_thickness: Option<Millimetre>,
     /// The area that the camera sees, in mm².
     pub field_of_view_mm2: Option<f64>,
-    /// How long after it was taken a frame is stamped, in ms; a run subtracts it from the stamps. 0 where stamps need no correction.
+    /// Delay from the capture of a frame to its stamp, ms. A run subtracts it from the stamps; 0 if they need no correction.
     pub latency_ms: Option<f64>,
 }
 
@@ -132,7 +132,7 @@ impl SensorFacts {
         self
     }
 
-    /// How deep it may be pressed: `depth_max`, or without it the depth of the footprint.
+    /// Greatest indentation: `depth_max`, or else the depth of the footprint.
     pub fn depth_limit(&self) -> Option<Millimetre> {
         let footprint = self.footprint.and_then(|footprint| footprint.depth_max());
         self.depth_max

@@ -1,4 +1,4 @@
-//! Where the tip of a robot may be.
+//! Workspace of a robot's tip.
 
 use crate::geometry::Point;
 
@@ -19,7 +19,7 @@ pub struct Workspace {
 }
 
 impl Workspace {
-    /// Whether `point` lies in it.
+    /// True if `point` is in the box, faces included.
     pub fn contains(&self, point: &Point) -> bool {
         self.sides(point)
             .iter()

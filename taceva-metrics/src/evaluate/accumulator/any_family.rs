@@ -1,4 +1,4 @@
-//! A family without the name of its type.
+//! Type-erased families.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ pub(crate) trait AnyFamily: Send {
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>>;
     fn unclustered(&self) -> UndefinedReason;
     fn to_records(&self, parts: &ErasedSums) -> Vec<Record>;
-    /// Back from a state, which must have one record per part.
+    /// Reads the records of a state, one per part.
     fn read_records(&self, records: &[Record]) -> Result<ErasedSums, String>;
     fn outputs(&self, metric: &Metric) -> Vec<Output>;
     fn count(&self, metric: &Metric, parts: &ErasedSums, part: usize) -> u64;
@@ -44,7 +44,7 @@ pub(crate) trait AnyFamily: Send {
     ) -> Option<Intervals>;
 }
 
-/// `family` without the name of its type.
+/// Erases the type of `family`.
 pub(crate) fn erased(family: impl Family) -> Option<Box<dyn AnyFamily>> {
     Some(Box::new(Erased(family)))
 }

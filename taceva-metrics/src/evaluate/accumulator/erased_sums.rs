@@ -1,4 +1,4 @@
-//! The sums of a family without the name of their type, so that what holds, joins and resamples them is compiled once.
+//! Type-erased sums of a family, so that storage, merges and resampling are compiled once.
 
 use std::any::Any;
 
@@ -7,7 +7,7 @@ use crate::exact::merge::Merge;
 /// The sums of every part of one family: a `Vec` of its sums.
 pub(crate) struct ErasedSums(Box<dyn AnySums>);
 
-/// What is done with parts whose type is not known.
+/// Operations on parts of unknown type.
 trait AnySums: Any + Send {
     fn merge(&mut self, other: &dyn Any);
     fn merge_times(&mut self, other: &dyn Any, times: u32);
@@ -32,7 +32,7 @@ fn typed<S: 'static>(parts: &dyn Any) -> &Vec<S> {
     parts.downcast_ref().expect(ONE_FAMILY)
 }
 
-/// Why a type is the one that is asked for: an accumulator has one family, which made all its parts.
+/// Panic message of a failed downcast. It cannot occur: an accumulator has one family, which made all its parts.
 const ONE_FAMILY: &str = "parts of one family";
 
 impl ErasedSums {

@@ -1,4 +1,4 @@
-//! A score computed again for other choices of clusters, from which its interval is formed.
+//! Resampling: a score computed for other choices of clusters, for its interval.
 
 use std::borrow::Cow;
 
@@ -11,13 +11,12 @@ use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::jackknife::{self, LeftOut};
 use crate::stats::{Estimated, PoissonBootstrap};
 
-/// A cluster: a number that stands for its name, and the sums of each part.
+/// A cluster: the hash or number of its name, and the sums of each part.
 pub(super) type Cell<'a> = (u64, &'a ErasedSums);
 
-/// Shows `visit` each cluster with the sums of all the others.
+/// Calls `visit` with each cluster and the sums of all others.
 ///
-/// Sums of the clusters before and of those after are carried along, so that nothing need ever be taken away: sets that only
-/// grow have intervals too.
+/// Running sums of the clusters before and after avoid any subtraction, so that sets that only grow have intervals too.
 pub(super) fn each_left_out(
     empty: &ErasedSums,
     cells: &[Cell<'_>],
@@ -40,20 +39,20 @@ pub(super) fn each_left_out(
 
 /// The value and the variants of one score, for other choices of clusters.
 pub(super) struct Resampling {
-    /// The names, and which values there can be.
+    /// Names and ranges of the numbers.
     names: Vec<(Option<Cow<'static, str>>, Range)>,
     draws: Draws,
 }
 
 enum Draws {
-    /// Samples of the cluster left out, and the numbers of the others.
+    /// Samples of the left-out cluster, and the numbers of the other clusters.
     LeftOut(Vec<(u64, Vec<Finished>)>),
     /// The intervals of the numbers.
     Weighted(Vec<Interval>),
 }
 
 impl Resampling {
-    /// No choice yet, for the numbers of all clusters, whose value lies in `range`.
+    /// Empty resampling of `numbers`, those of all clusters, with a value in `range`.
     pub(super) fn new(numbers: &Numbers, range: Range) -> Resampling {
         let variants = numbers.variants.iter();
         let names = variants.map(|variant| (Some(variant.name.clone()), variant.range));
@@ -63,13 +62,13 @@ impl Resampling {
         }
     }
 
-    /// Whether any of the numbers has an interval: greatest values have none.
+    /// True if any of the numbers has an interval; greatest values have none.
     pub(super) fn is_needed(&self) -> bool {
         let mut ranges = self.names.iter().map(|(_, range)| range);
         ranges.any(|range| *range != Range::Greatest)
     }
 
-    /// Takes in the numbers of the others of a cluster of `count` samples.
+    /// Adds the numbers without one cluster, which has `count` samples.
     pub(super) fn leave_out(&mut self, count: u64, others: &Numbers) {
         let others = self.in_order(others);
         if let Draws::LeftOut(draws) = &mut self.draws {
@@ -77,7 +76,7 @@ impl Resampling {
         }
     }
 
-    /// Finishes the score once a replicate, clusters of `samples` samples counting as often as their weights say.
+    /// Finishes the score once per replicate, with clusters of `samples` samples counted as often as their weights.
     pub(super) fn weigh(
         &mut self,
         bootstrap: PoissonBootstrap,
@@ -88,7 +87,7 @@ impl Resampling {
     ) {
         let keys: Vec<u64> = cells.iter().map(|(key, _)| *key).collect();
         let mut replicates: Vec<Vec<Finished>> = Vec::new();
-        // The weights depend on clusters and seed alone: the first pass finishes all numbers, later ones look theirs up.
+        // Weights depend on clusters and seed alone: the first pass computes all numbers, later passes look them up.
         let anything = Estimated {
             value: 0.0,
             range: Range::Any,

@@ -11,7 +11,7 @@ use crate::score::value::{UndefinedReason, Value};
 use crate::score::{Interval, Score, Variant};
 use crate::stats::IntervalMethod;
 
-/// A score on its way.
+/// A score before its interval.
 struct Request {
     metric: &'static Metric,
     output: Output,
@@ -20,7 +20,7 @@ struct Request {
 }
 
 impl Accumulator {
-    /// The scores of those of `metrics` that are finished from what is kept here, metric by metric.
+    /// Scores of the `metrics` of this family, metric by metric.
     pub(crate) fn scores(&self, metrics: &[&'static Metric]) -> Vec<Entry> {
         let total = self.clustering.total(&self.clusters);
         let mut requests = self.requests(metrics, &total);
@@ -38,14 +38,14 @@ impl Accumulator {
             .collect()
     }
 
-    /// The numbers of an output: one part's, the mean of two, or what the family makes of them.
+    /// Numbers of an output: those of one part, the mean of two, or the joint numbers of the family.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
         self.of_parts(metric, output, sums, |part| {
             self.family.numbers(metric, output, sums, part)
         })
     }
 
-    /// The same numbers as far as they have intervals, of other choices of clusters.
+    /// The same numbers for other choices of clusters, as far as they have intervals.
     fn resampled(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
         self.of_parts(metric, output, sums, |part| {
             self.family.resampled(metric, output, sums, part)
@@ -71,7 +71,7 @@ impl Accumulator {
         }
     }
 
-    /// Samples of a cluster that take part in an output.
+    /// Number of samples of a cluster that count for an output.
     fn samples(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> u64 {
         let parts = output.parts.iter();
         let counts = parts.map(|&part| self.family.count(metric, sums, part));
@@ -96,7 +96,7 @@ impl Accumulator {
         requests
     }
 
-    /// Finishes every score again with clusters left out or weighted.
+    /// Finishes every score repeatedly, with clusters left out or weighted.
     fn resample(&self, requests: &mut [Request], cells: &[Cell<'_>]) {
         let requests = requests.iter_mut();
         let mut requests: Vec<&mut Request> = requests

@@ -10,8 +10,8 @@ use crate::score::Score;
 /// One method per metric: its name, and its meaning.
 macro_rules! handles {
     ($($metric:ident: $says:literal),+ $(,)?) => {
-        /// Scores of one channel. `None` if the plan left the metric out ([`skipped`](Evaluation::skipped) says why) or has no such channel; a
-        /// score that the samples do not determine is there, with the reason as its value. Planes and all other metrics:
+        /// Scores of one channel. `None` if the plan [skipped](Evaluation::skipped) the metric or has no such channel. A score that the
+        /// samples do not determine is present, with the reason as its value. For planes and all other metrics use
         /// [`score`](Evaluation::score).
         impl Evaluation {
             $(

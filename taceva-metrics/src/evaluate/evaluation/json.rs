@@ -18,7 +18,7 @@ impl Serialize for Evaluation {
     }
 }
 
-/// `{"mae": {"Fz": …}}`: scores of a metric stand side by side.
+/// `{"mae": {"Fz": …}}`: scores grouped by metric.
 struct ByMetric<'a>(&'a [Entry]);
 
 impl Serialize for ByMetric<'_> {
@@ -110,7 +110,7 @@ impl Serialize for Variant {
     }
 }
 
-/// The keys that say what the value is, and its unit if there is one.
+/// Writes the keys of the value, and its unit if there is one.
 fn serialize_value<M: SerializeMap>(
     into: &mut M,
     value: &Value,
@@ -149,7 +149,7 @@ fn serialize_value<M: SerializeMap>(
     into.serialize_entry("unit", &unit)
 }
 
-/// The interval of a number with the way it was found, and the standard error and clusters behind it.
+/// Writes the interval of a number with its method, standard error and clusters.
 fn serialize_interval<M: SerializeMap>(
     into: &mut M,
     value: &Value,

@@ -100,7 +100,7 @@ fn interval_said(value: &Value, interval: Option<&Interval>) -> String {
     }
 }
 
-/// `value` to four digits: plain where that is short, else with an exponent.
+/// `value` to four digits: plain if that is short, else with an exponent.
 fn significant(value: f64) -> String {
     let scientific = format!("{value:.*e}", usize_of(SIGNIFICANT_DIGITS - 1));
     let exponent: i32 = scientific

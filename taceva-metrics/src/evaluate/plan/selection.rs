@@ -1,4 +1,4 @@
-//! Which metrics a plan keeps, and what is read for them.
+//! Selection of the metrics that a plan keeps, and of the fields to read.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use crate::score::sensor_facts::SensorFacts;
 use crate::stats::IntervalMethod;
 
 impl MetricPlan {
-    /// Keeps of `wanted` what samples with these channels and fields allow, in the order of `catalogue`.
+    /// Keeps the `wanted` metrics that these channels and fields allow, in the order of `catalogue`.
     pub(crate) fn of(
         catalogue: &'static [&'static Metric],
         wanted: &[&'static Metric],
@@ -39,7 +39,7 @@ impl MetricPlan {
         plan.decided()
     }
 
-    /// The same plan for a sensor of which `facts` are known: what they allow is kept too.
+    /// The same plan with `facts` about the sensor; metrics that they allow are kept too.
     ///
     /// ```
     /// use taceva_core::{Channel, Channels, FieldSet, Footprint};
@@ -57,7 +57,7 @@ impl MetricPlan {
         MetricPlan { facts, ..self }.decided()
     }
 
-    /// Decides what is kept and what is read.
+    /// Decides which metrics are kept and which fields are read.
     fn decided(mut self) -> MetricPlan {
         self.kept.clear();
         self.skipped.clear();
@@ -79,13 +79,13 @@ impl MetricPlan {
         self
     }
 
-    /// What `metric` reads where samples carry it, and does without where they do not.
+    /// Fields that `metric` reads only if samples carry them.
     fn optional(&self, metric: &Metric) -> FieldSet {
         let fields = metric.family.optional;
         fields.iter().filter(|field| self.carries(*field)).collect()
     }
 
-    /// What keeps `metric` from having a value.
+    /// Obstacle to a value of `metric`, if any.
     fn obstacle(&self, metric: &Metric) -> Option<SkipReason> {
         let absent_field = metric
             .needs

@@ -19,7 +19,7 @@ use crate::exact::vector::{Job, Vector};
 pub(crate) struct Avx2(());
 
 impl Avx2 {
-    /// The evidence, if there is any.
+    /// Evidence from the features of this processor; `None` if it lacks one.
     pub(in crate::exact) fn detect() -> Option<Avx2> {
         let found = is_x86_feature_detected!("avx2")
             && is_x86_feature_detected!("fma")
@@ -27,7 +27,7 @@ impl Avx2 {
         found.then_some(Avx2(()))
     }
 
-    /// Does `job` with vectors of four.
+    /// Runs `job` with vectors of four.
     pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
         #[target_feature(enable = "avx2,fma,popcnt")]
         fn with_instructions<J: Job>(proof: Avx2, job: J) -> J::Output {
@@ -51,7 +51,7 @@ macro_rules! with_avx2 {
 }
 
 impl Four {
-    /// Which lanes are at least `bound`, one bit per lane.
+    /// Mask of the lanes that are at least `bound`, one bit per lane.
     #[inline(always)]
     fn lanes_at_least(self, bound: Four) -> i32 {
         with_avx2!(_mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GE_OQ>(
@@ -72,7 +72,7 @@ impl Vector for Four {
     #[inline(always)]
     fn load(_proof: Avx2, values: &[f64]) -> Four {
         assert_eq!(values.len(), Self::LANES, "one number per lane");
-        // SAFETY: the machine has AVX2, and four numbers lie where the slice begins.
+        // SAFETY: the machine has AVX2, and the slice has four numbers.
         Four(unsafe { _mm256_loadu_pd(values.as_ptr()) })
     }
 

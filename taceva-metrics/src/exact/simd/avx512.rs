@@ -17,13 +17,13 @@ use crate::exact::vector::{Job, Vector};
 pub(crate) struct Avx512(());
 
 impl Avx512 {
-    /// The evidence, if there is any.
+    /// Evidence from the features of this processor; `None` if it lacks one.
     pub(in crate::exact) fn detect() -> Option<Avx512> {
         let found = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("popcnt");
         found.then_some(Avx512(()))
     }
 
-    /// Does `job` with vectors of eight.
+    /// Runs `job` with vectors of eight.
     pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
         #[target_feature(enable = "avx512f,popcnt")]
         fn with_instructions<J: Job>(proof: Avx512, job: J) -> J::Output {
@@ -58,7 +58,7 @@ impl Vector for Eight {
     #[inline(always)]
     fn load(_proof: Avx512, values: &[f64]) -> Eight {
         assert_eq!(values.len(), Self::LANES, "one number per lane");
-        // SAFETY: the machine has AVX-512F, and eight numbers lie where the slice begins.
+        // SAFETY: the machine has AVX-512F, and the slice has eight numbers.
         Eight(unsafe { _mm512_loadu_pd(values.as_ptr()) })
     }
 

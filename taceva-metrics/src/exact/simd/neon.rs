@@ -16,12 +16,12 @@ use crate::exact::vector::{Job, Vector};
 pub(crate) struct Neon(());
 
 impl Neon {
-    /// The evidence, if there is any.
+    /// Evidence from the features of this processor; `None` if it lacks one.
     pub(in crate::exact) fn detect() -> Option<Neon> {
         std::arch::is_aarch64_feature_detected!("neon").then_some(Neon(()))
     }
 
-    /// Does `job` with vectors of two.
+    /// Runs `job` with vectors of two.
     pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
         #[target_feature(enable = "neon")]
         fn with_instructions<J: Job>(proof: Neon, job: J) -> J::Output {
@@ -56,7 +56,7 @@ impl Vector for Two {
     #[inline(always)]
     fn load(_proof: Neon, values: &[f64]) -> Two {
         assert_eq!(values.len(), Self::LANES, "one number per lane");
-        // SAFETY: the machine has NEON, and two numbers lie where the slice begins.
+        // SAFETY: the machine has NEON, and the slice has two numbers.
         Two(unsafe { vld1q_f64(values.as_ptr()) })
     }
 
@@ -104,7 +104,7 @@ impl Vector for Two {
 
     #[inline(always)]
     fn greatest(self, other: Two) -> Two {
-        // Not the machine's maximum, which gives NaN where one is NaN.
+        // Not the machine's maximum, which returns NaN if one is NaN.
         let greater = with_neon!(vcgtq_f64(self.0, other.0));
         Two(with_neon!(vbslq_f64(greater, self.0, other.0)))
     }

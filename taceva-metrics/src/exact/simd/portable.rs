@@ -2,12 +2,12 @@
 
 use crate::exact::vector::{Job, Vector};
 
-/// Stands where other instruction sets need evidence: every machine can run this.
+/// Replaces the evidence of other instruction sets: every machine can run this one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Portable;
 
 impl Portable {
-    /// Does `job` with pairs of numbers, which compilers turn into vectors of whatever the target has.
+    /// Runs `job` with pairs of numbers, which compilers map to the target's vectors.
     pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
         job.run::<Pair>(self)
     }
@@ -24,7 +24,7 @@ impl Pair {
     }
 }
 
-/// What a rounded product differs from the exact one by, without fused multiplication: Veltkamp's splitting and Dekker's product (1971).
+/// Rounding error of a product without fused multiplication: Veltkamp's splitting and Dekker's product (1971).
 #[inline(always)]
 fn error_of_product(left: f64, right: f64, product: f64) -> f64 {
     let ([left_high, left_low], [right_high, right_low]) = (split(left), split(right));

@@ -1,8 +1,8 @@
-//! From which magnitude of truth on a sample counts as contact.
+//! Least magnitude of truth of a sample in contact.
 
 use taceva_core::Unit;
 
-/// The least |y| of a sample of the gated sMAPE: 0.02 N, the contact threshold, and as many mm.
+/// Least |y| of a sample of the gated sMAPE: 0.02 N, the contact threshold, and 0.02 mm.
 ///
 /// No gate is defined for other units.
 pub(crate) fn gate(unit: Unit) -> Option<f64> {

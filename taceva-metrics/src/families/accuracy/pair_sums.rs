@@ -1,4 +1,4 @@
-//! What is kept of the pairs of one channel: enough for every score of accuracy, and mergeable.
+//! Sums of the pairs of one channel: mergeable, and enough for every score of accuracy.
 
 use taceva_core::{Isa, IsaError};
 
@@ -8,7 +8,7 @@ use crate::exact::streams::{Stream, Streams};
 use crate::exact::{BlockSums, Counts, Dyadic, ExactSum, Machine, Sums};
 use crate::pair::Paired;
 
-/// What is to be summed, and from which magnitude of truth on the gated score counts a sample.
+/// Streams to sum, and the gate of the gated score.
 ///
 /// ```
 /// use taceva_metrics::{PairSpec, Streams};
@@ -18,14 +18,14 @@ use crate::pair::Paired;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct PairSpec {
-    /// The sums that are kept.
+    /// Streams that are summed.
     pub streams: Streams,
-    /// The least |y| of a sample of the gated sMAPE, in the channel's unit; without it there is no such score.
+    /// Least |y| of a sample of the gated sMAPE, in the channel's unit; `None` for no such score.
     pub gate: Option<f64>,
 }
 
 impl PairSpec {
-    /// These sums, without a gated one.
+    /// Sums of `streams`, without a gated one.
     pub const fn new(streams: Streams) -> PairSpec {
         PairSpec {
             streams,
@@ -61,12 +61,12 @@ pub struct PairSums {
 }
 
 impl PairSums {
-    /// The sums of no pair, to be formed with the instructions of [`Isa::detect`].
+    /// Empty sums that use the instructions of [`Isa::detect`].
     pub fn new(spec: PairSpec) -> PairSums {
         PairSums::with_machine(spec, Machine::detect())
     }
 
-    /// The sums of no pair, to be formed with the instructions of `isa`: in another time, with the same result.
+    /// Empty sums that use the instructions of `isa`; they change the time and not the result.
     ///
     /// # Errors
     /// [`IsaError::Unavailable`] if this machine does not have them.
@@ -82,13 +82,12 @@ impl PairSums {
         }
     }
 
-    /// Takes over what was kept elsewhere of the same specification.
+    /// Replaces counts and sums by saved ones of the same specification.
     pub(crate) fn set(&mut self, counts: Counts, sums: Sums) {
         self.kept.set(counts, sums);
     }
 
-    /// Adds pairs; one with a NaN, an infinity or a magnitude beyond 2¹⁰²¹ is counted in
-    /// [`n_invalid`](PairSums::n_invalid) and left out.
+    /// Adds pairs. A pair with a NaN, an infinity or a magnitude beyond 2¹⁰²¹ is skipped and counted in [`n_invalid`](PairSums::n_invalid).
     pub fn update(&mut self, pairs: Paired<&[f64]>) {
         self.kept.update(pairs);
     }
@@ -98,7 +97,7 @@ impl PairSums {
         self.kept.counts.valid
     }
 
-    /// Number of pairs left out because a value was no number of a magnitude up to 2¹⁰²¹.
+    /// Number of pairs skipped for a NaN or a magnitude beyond 2¹⁰²¹.
     pub fn n_invalid(&self) -> u64 {
         self.kept.counts.invalid
     }
@@ -123,7 +122,7 @@ impl PairSums {
         gate(self.spec)
     }
 
-    /// What is summed.
+    /// Specification of the sums.
     pub fn spec(&self) -> PairSpec {
         self.spec
     }
@@ -176,7 +175,7 @@ impl PairSums {
         numerator.over(&(&Dyadic::from(self.n()) * &Dyadic::from(factor)))
     }
 
-    /// Takes over what another one kept, which must keep the same.
+    /// Merges sums of the same specification.
     ///
     /// # Errors
     /// [`MetricError::Parameter`] if the two sum different streams or have different gates.

@@ -1,4 +1,4 @@
-//! The family of scores that are finished from the sums of each channel's pairs.
+//! Family of scores from the sums of each channel's pairs.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ pub(crate) static PAIRS: FamilyKind = FamilyKind {
     ..FamilyKind::new("taceva.pairs/1", |plan| erased(Pairs::for_plan(plan)))
 };
 
-/// What every score of pairs needs.
+/// Needs of every score of pairs.
 pub(crate) const PAIR_NEEDS: Needs =
     Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction)).with_least_samples(1);
 
@@ -32,26 +32,26 @@ pub(crate) const PAIR_NEEDS: Needs =
 pub(crate) struct PairFormula {
     /// The sums it reads.
     pub(crate) streams: Streams,
-    /// Whether it counts only samples that reach the gate.
+    /// True if it counts only samples that reach the gate.
     pub(crate) gated: bool,
-    /// The samples that take part.
+    /// Number of samples that count.
     pub(crate) count: fn(&PairSums) -> u64,
-    /// How it is finished.
+    /// Computation of the value.
     pub(crate) finish: PairFinish,
 }
 
-/// From sums of pairs to a value.
+/// Computation of a value from sums of pairs.
 pub(crate) enum PairFinish {
-    /// Of one channel with at least one pair; the value of a plane is the mean of its axes'.
+    /// Value of one channel with at least one pair; the value of a plane is the mean of its axes'.
     Channel(fn(&PairSums) -> Finished),
-    /// Of all axes together, beside the constants of the model.
+    /// Value of all axes together, with the constants of the model.
     Axes {
         value: fn(&[Axis<'_>]) -> Finished,
         details: fn(&[Axis<'_>], &Output) -> Details,
     },
 }
 
-/// One channel with the constant that its model is measured by.
+/// One channel with the constant that its model is compared with.
 #[derive(Clone, Copy)]
 pub(crate) struct Axis<'a> {
     pub(crate) sums: &'a PairSums,
@@ -64,7 +64,7 @@ struct Pairs {
     streams: Streams,
     gated: bool,
     specs: Vec<PairSpec>,
-    /// What the model is measured by, channel by channel; the mean of truth where absent.
+    /// Constant that the model is compared with, by channel; `None` for the mean of truth.
     constants: Vec<Option<f64>>,
     outputs: Vec<Output>,
     gathered: Gathered,

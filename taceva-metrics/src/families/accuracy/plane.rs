@@ -1,4 +1,4 @@
-//! The family of scores that are finished from distances in the planes of position and of shear force.
+//! Family of scores from distances in the planes of position and of shear force.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ pub(crate) struct PlaneAxes {
     label: &'static str,
     names: [&'static str; 2],
     unit: Unit,
-    /// Where the axes stand among the channels.
+    /// Positions of the axes among the channels.
     pub(crate) axes: [usize; 2],
 }
 
@@ -71,7 +71,7 @@ pub(crate) static PLANE: FamilyKind = FamilyKind {
 pub(crate) struct Plane {
     planes: Vec<PlaneAxes>,
     outputs: Vec<Output>,
-    /// By plane: planes have magnitudes of their own.
+    /// Adders by plane, as planes differ in magnitude.
     adders: Vec<ColumnAdder>,
     gathered: Gathered,
     distances: Vec<f64>,
@@ -100,7 +100,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// An axis without which `channels` span no plane: the second of a plane whose first is there, or else the first of all.
+    /// Missing axis, if `channels` span no plane: the second of a plane whose first is there, or else the first of all.
     fn missing_axis(channels: &Channels) -> Option<&'static str> {
         if !planes(channels).is_empty() {
             return None;
@@ -154,7 +154,7 @@ impl Family for Plane {
             for (x, y) in pairs(0).zip(pairs(2)) {
                 match PlaneSums::distance_of(x, y).filter(|distance| is_valid(*distance)) {
                     Some(distance) => self.distances.push(distance),
-                    // What is no distance is left out, and one that is beyond what columns may hold is added on its own.
+                    // An unusable distance is skipped, and one beyond the range of columns is added on its own.
                     None => sums.add(x, y),
                 }
             }

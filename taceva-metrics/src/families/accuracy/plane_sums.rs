@@ -1,4 +1,4 @@
-//! What is kept of the distances between estimate and reference in a plane.
+//! Sums of the distances between estimate and reference in a plane.
 
 use crate::exact::merge::Merge;
 use crate::exact::{ColumnSums, ExactSum};
@@ -13,7 +13,7 @@ pub(crate) struct PlaneSums {
 }
 
 impl PlaneSums {
-    /// Adds one sample: its pair along x and along y; if a value is no usable number, the sample is counted and left out.
+    /// Adds one sample: its pairs along x and y. A sample with an unusable value is counted and skipped.
     pub(crate) fn add(&mut self, x: Paired<f64>, y: Paired<f64>) {
         match PlaneSums::distance_of(x, y) {
             Some(distance) => {
@@ -24,7 +24,7 @@ impl PlaneSums {
         }
     }
 
-    /// The distance between estimate and reference; none if a value is no usable number.
+    /// Distance between estimate and reference; `None` if a value is unusable.
     #[inline]
     pub(crate) fn distance_of(x: Paired<f64>, y: Paired<f64>) -> Option<f64> {
         let is_usable = x.is_valid() && y.is_valid();
@@ -36,7 +36,7 @@ impl PlaneSums {
         self.n
     }
 
-    /// Number of samples left out.
+    /// Number of skipped samples.
     pub(crate) fn n_invalid(&self) -> u64 {
         self.n_invalid
     }
@@ -47,7 +47,7 @@ impl PlaneSums {
     }
 }
 
-/// Of one column, the distances.
+/// Sums of one column, the distances.
 impl ColumnSums for PlaneSums {
     fn sums(&mut self) -> [&mut [ExactSum]; 2] {
         [std::slice::from_mut(&mut self.distance), &mut []]
@@ -73,7 +73,7 @@ impl Merge for PlaneSums {
 
 /// e = RN(√RN(RN(x²) + RN(y²))), scaled by a power of two where a square would over- or underflow.
 ///
-/// Not the machine's `hypot`, whose last bit differs among platforms.
+/// Unlike the machine's `hypot`, the result is the same to the last bit on every platform.
 #[inline]
 fn hypotenuse(x: f64, y: f64) -> f64 {
     /// 2⁶⁰⁰.

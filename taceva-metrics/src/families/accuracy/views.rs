@@ -7,16 +7,16 @@ use crate::evaluate::number::Number;
 use crate::families::accuracy::pair_sums::PairSums;
 use crate::pair::Paired;
 
-/// Pairs of views that lie apart in memory, or are no binary64, are gathered this many at a time.
+/// Pairs gathered at once from views that are not contiguous or not binary64.
 const BLOCK: usize = 1024;
 
 impl PairSums {
-    /// Adds the pairs of two views of `f32` or `f64`, as [`update`](PairSums::update) does. Contiguous views of `f64` are summed where they lie;
-    /// of others, 1,024 pairs at a time are gathered.
+    /// Adds the pairs of two views of `f32` or `f64`, as [`update`](PairSums::update) does. Contiguous views of `f64` are summed without a
+    /// copy; other views are gathered 1,024 pairs at a time.
     ///
     /// # Errors
-    /// [`MetricError::Lengths`] if they differ in length; nothing is added then. [`MetricError::Absent`] for a number that is an `Option` and
-    /// `None`; the blocks before it are added.
+    /// [`MetricError::Lengths`] if they differ in length; nothing is added then. [`MetricError::Absent`] for an `Option` that is `None`;
+    /// the blocks before it are added.
     ///
     /// ```
     /// use ndarray::array;

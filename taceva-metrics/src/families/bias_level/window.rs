@@ -1,17 +1,17 @@
-//! The errors of a batch by level, where the levels of most rows lie close together.
+//! Errors of a batch by level, for levels that are mostly close together.
 
 use super::{LevelErrors, LevelSums};
 use crate::exact::FixedSum;
 use crate::exact::level::millionths;
 use crate::pair::Paired;
 
-/// Levels that are summed in place; those of a truth that spans more are looked up.
+/// Most levels of the window; wider ranges of truth use a lookup.
 const LEVELS: usize = 1 << 12;
 
-/// Stands for the level of a pair that has none.
+/// Placeholder for the level of a pair without one.
 const NONE: i64 = i64::MIN;
 
-/// Neighbouring levels, from the lowest of a batch on; kept so that their memory is used again.
+/// Adjacent levels from the lowest of a batch on; kept to reuse their memory.
 #[derive(Debug, Default)]
 pub(super) struct Window {
     of_rows: Vec<i64>,
@@ -19,7 +19,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Adds the errors of pairs to the levels of their truths, which are `width` millionths wide.
+    /// Adds the errors of pairs to the levels of their truths, each `width` millionths wide.
     pub(super) fn add(&mut self, pairs: Paired<&[f64]>, width: i64, sums: &mut LevelSums) {
         for pairs in pairs.blocks(FixedSum::MOST) {
             self.add_block(pairs, width, sums);
@@ -69,7 +69,7 @@ impl Window {
     }
 }
 
-/// ⌊value / width⌋; the widths of levels are named, since a division by a known number is a multiplication.
+/// ⌊value / width⌋; the widths are constants here, since a division by a constant compiles to a multiplication.
 #[inline]
 fn floored(value: i64, width: i64) -> i64 {
     match width {

@@ -4,21 +4,21 @@ use super::sums::JointSums;
 use crate::exact::single::exactly;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// How far predictions move with truths, as shares of full scale.
+/// Slopes of predictions over truths, as shares of full scale.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Leaks {
-    /// By predicted channel, then by true one; `None` where the true one does not vary.
+    /// Shares by predicted channel, then by true channel; `None` if the true channel does not vary.
     pub(super) shares: Vec<Vec<Option<f64>>>,
-    /// Whether the slopes are those of a joint fit, and not of each truth alone.
+    /// True for slopes of a joint fit, false for slopes on each truth alone.
     pub(super) joint: bool,
 }
 
 impl Leaks {
     /// Fits y_i = a_i + Σ_j b_ij x_j and gives b_ij range_j / range_i, range the full scale of a truth.
     ///
-    /// The products of deviations are exact and rounded once; the normal equations are scaled to correlations and solved by
-    /// Cholesky's method, whose error grows with how alike the truths are. Where a truth is the others' linear function up to
-    /// 10⁻⁸ of its variance, or there are no more samples than unknowns, slopes are Σ y_i x_j / Σ x_j² of deviations instead.
+    /// The products of deviations are exact and rounded once. The normal equations are scaled to correlations and solved by Cholesky's
+    /// method, whose error grows with the collinearity of the truths. Slopes are Σ y_i x_j / Σ x_j² of deviations instead if a truth is a
+    /// linear function of the others up to 10⁻⁸ of its variance, or without more samples than unknowns.
     ///
     /// # Errors
     /// [`UndefinedReason`] for fewer than three samples, one channel, or no truth that varies.
@@ -92,7 +92,7 @@ struct Factor {
 impl Factor {
     /// `None` if the truths cannot be separated.
     fn of(sums: &JointSums, varying: &[usize]) -> Option<Factor> {
-        /// What is left of a truth's variance, at 1, once the others have explained it.
+        /// Least share of a truth's variance that the other truths leave unexplained.
         const LEAST_OWN: f64 = 1e-8;
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for (place, &truth) in varying.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What is kept of several channels together: x the truths, y the predictions.
+//! Sums of several channels together: x the truths, y the predictions.
 
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
@@ -19,7 +19,7 @@ pub(crate) struct JointSums {
     ranges: Vec<[f64; 2]>,
 }
 
-/// The columns whose products are summed, of so many truths and as many predictions behind them.
+/// Pairs of columns whose products are summed, for `channels` truths followed by as many predictions.
 pub(super) fn products(channels: usize) -> Vec<[usize; 2]> {
     let truths = (0..channels).flat_map(|k| (k..channels).map(move |j| [k, j]));
     let shared = (0..channels).flat_map(|i| (0..channels).map(move |j| [channels + i, j]));
@@ -27,7 +27,7 @@ pub(super) fn products(channels: usize) -> Vec<[usize; 2]> {
 }
 
 impl JointSums {
-    /// The sums of no sample of so many channels.
+    /// Empty sums of `channels` channels.
     pub(super) fn new(channels: usize) -> JointSums {
         JointSums {
             channels,
@@ -64,12 +64,12 @@ impl JointSums {
         self.n
     }
 
-    /// Number of samples left out.
+    /// Number of skipped samples.
     pub(super) fn n_invalid(&self) -> u64 {
         self.n_invalid
     }
 
-    /// The range of truth `j`, which has one if there is a sample.
+    /// Range of truth `j`; `None` without samples.
     pub(super) fn range(&self, j: usize) -> Option<[f64; 2]> {
         self.ranges.get(j).copied()
     }
@@ -93,7 +93,7 @@ impl JointSums {
         &(&Dyadic::from(self.n) * &products.to_dyadic()) - &(&left * &right)
     }
 
-    /// As a state holds it.
+    /// Converts the sums to the record of a state.
     pub(super) fn to_record(&self) -> Record {
         Record {
             counts: vec![self.n, self.n_invalid],
@@ -103,7 +103,7 @@ impl JointSums {
         }
     }
 
-    /// Back from a state of so many channels.
+    /// Reads the record of a state of `channels` channels.
     pub(super) fn read_record(record: &Record, channels: usize) -> Result<JointSums, String> {
         let mut sums = JointSums::new(channels);
         let expected = sums.values.len() + sums.products.len();
@@ -144,7 +144,7 @@ impl ColumnSums for JointSums {
         let range = |column: &&[f64]| {
             let first = [column[0]; 2];
             let wider = |[low, high]: [f64; 2], value: &f64| [low.min(*value), high.max(*value)];
-            // A zero has one sign here, or equal sets would have two ranges.
+            // Zeros get one sign, so that equal sets have equal ranges.
             column.iter().fold(first, wider).map(|end| end + 0.0)
         };
         let truths = columns.iter().take(self.channels);

@@ -1,4 +1,4 @@
-//! What is kept of the presses at one point.
+//! Sums of the presses at one point.
 
 use std::sync::OnceLock;
 
@@ -13,7 +13,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
-/// Forces by depth on both branches, where the point lies, and the comparison, which is computed when it is first needed.
+/// Forces by depth on both branches, the place of the point, and the lazily computed comparison.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Branches {
     load: Branch,
@@ -45,7 +45,7 @@ impl Branches {
         forces.add(force_n);
     }
 
-    /// Adds where a sample lies.
+    /// Adds the place of a sample, mm.
     pub(super) fn add_place(&mut self, place_mm: [f64; 2]) {
         self.place.n += 1;
         for (sum, place) in self.place.sums.iter_mut().zip(place_mm) {
@@ -60,14 +60,14 @@ impl Branches {
             .get_or_init(|| Press::compare(&corners(&self.load), &corners(&self.unload)))
     }
 
-    /// RN of the mean place; `None` if no sample says.
+    /// RN of the mean place, mm; `None` if no sample has a place.
     pub(super) fn place_mm(&self) -> Option<[f64; 2]> {
         let PlaceSums { n, sums } = &self.place;
         let mean = |axis: usize| sums[axis].to_dyadic().over(&Dyadic::from(*n));
         (*n > 0).then(|| [mean(0), mean(1)])
     }
 
-    /// As a state holds it.
+    /// Converts the sums to the record of a state.
     pub(super) fn to_record(&self) -> Record {
         let branch = |name: &str, branch: &Branch| {
             let record = Record {
@@ -90,7 +90,7 @@ impl Branches {
         }
     }
 
-    /// Back from a state.
+    /// Reads the record of a state.
     pub(super) fn read_record(record: &Record) -> Result<Branches, String> {
         let (&[n], sums) = record.with_cells()?;
         let branches = record.read_cells(Phase::from_name, read_branch)?;

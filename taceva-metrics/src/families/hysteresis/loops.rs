@@ -1,4 +1,4 @@
-//! The family of scores that compare loading with unloading, point by point.
+//! Family of scores that compare loading with unloading, point by point.
 
 use std::collections::BTreeMap;
 
@@ -34,7 +34,7 @@ pub(crate) struct Loops {
     grid: Option<Grid>,
 }
 
-/// What is kept of all points.
+/// Sums of all points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LoopSums {
     n: u64,
@@ -56,7 +56,7 @@ impl Loops {
         })
     }
 
-    /// Where the sample at `row` lies, in mm; `None` if a coordinate is missing or no number of a magnitude up to 2¹⁰²¹.
+    /// Place of the sample at `row`, mm; `None` if a coordinate is missing or unusable.
     fn place_mm(&self, batch: &Batch, row: usize) -> Option<[f64; 2]> {
         let [x, y] = self.place?;
         let place = [batch.truth(x).get(row)?, batch.truth(y).get(row)?];
@@ -182,7 +182,7 @@ impl Family for Loops {
 }
 
 impl LoopSums {
-    /// RN of the mean over the points whose branches can be compared of a number that not every press has.
+    /// RN of the mean of `number` over the points with comparable branches. Presses without the number are skipped.
     fn mean(&self, number: &dyn Fn(&Press) -> Option<f64>) -> Finished {
         if self.n == 0 {
             return Err(UndefinedReason::Empty);
@@ -248,7 +248,7 @@ impl Merge for LoopSums {
     }
 }
 
-/// Of two reasons for which points have no number, that of the points that came further: it is what to mend first.
+/// Returns the reason of the points that came further, which is the first to fix.
 fn further(left: UndefinedReason, right: UndefinedReason) -> UndefinedReason {
     let came = |reason: &UndefinedReason| match reason {
         UndefinedReason::ShortBranch => 0,

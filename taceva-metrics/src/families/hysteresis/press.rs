@@ -1,4 +1,4 @@
-//! The area between the two branches of a press, with crossings split where they are.
+//! Area between the two branches of a press, split at their crossings.
 
 use std::cmp::Ordering;
 
@@ -9,15 +9,15 @@ use crate::score::value::UndefinedReason;
 /// Force over depth of one branch: corners `[depth in mm, force in N]`, depths strictly ascending, two at least.
 pub(crate) type Branch<'a> = &'a [[f64; 2]];
 
-/// What one press says about hysteresis.
+/// Hysteresis of one press.
 ///
-/// Every stretch between two corners is a rational number rounded once, and the stretches are summed exactly: areas without
-/// sign are within 2⁻⁵² of the exact ones, relatively; the signed area within 2⁻⁵³ of the area without sign, and one rounding.
+/// Every stretch between two corners is a rational number rounded once, and the stretches are summed exactly. Areas without sign have a
+/// relative error of at most 2⁻⁵². The signed area is within 2⁻⁵³ of the area without sign, plus one rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Press {
     /// ∫ |F_load − F_unload| dz over the depths both branches reach, in N mm.
     pub(crate) area: f64,
-    /// ∫ (F_load − F_unload) dz, in N mm: negative where the gel pushes harder on the way out.
+    /// ∫ (F_load − F_unload) dz, in N mm: negative if the gel pushes harder during unloading.
     pub(crate) signed_area: f64,
     /// ∫ F_load dz over the same depths, in N mm.
     pub(crate) work: f64,
@@ -58,12 +58,12 @@ impl Press {
         })
     }
 
-    /// The share of the work of loading that is lost; `None` if loading took none.
+    /// Share of the work of loading that is lost; `None` if loading took no work.
     pub(crate) fn ratio(&self) -> Option<f64> {
         (self.work > 0.0).then(|| self.area / self.work)
     }
 
-    /// The greatest difference as a share of full scale; `None` if no force was met.
+    /// Greatest difference as a share of full scale; `None` if no force was measured.
     pub(crate) fn relative_difference(&self) -> Option<f64> {
         (self.full_scale > 0.0).then(|| self.greatest_difference / self.full_scale)
     }
@@ -112,7 +112,7 @@ impl Stretch {
         }
     }
 
-    /// (|u| + |v|) h / 2, or (u² + v²) h / (2 (|u| + |v|)) where the branches cross; u, v the differences at the ends.
+    /// (|u| + |v|) h / 2, or (u² + v²) h / (2 (|u| + |v|)) if the branches cross; u, v the differences at the ends.
     fn area(&self) -> f64 {
         let [u, v] = &self.difference;
         let sizes = &magnitude(u.clone()) + &magnitude(v.clone());

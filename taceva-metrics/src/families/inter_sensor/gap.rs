@@ -1,4 +1,4 @@
-//! How far apart two surfaces in one frame are.
+//! Gap between two surfaces in one frame.
 
 use crate::exact::{Dyadic, ExactSum};
 use crate::geometry::{Hull, NearestPoints, Point};
@@ -11,18 +11,18 @@ pub(crate) struct Gap {
     pub(crate) forward: f64,
     /// RN of the mean distance from the points of the second to the nearest of the first.
     pub(crate) backward: f64,
-    /// Points that were measured, of both.
+    /// Number of measured points of both surfaces.
     pub(crate) points: u64,
 }
 
 impl Gap {
-    /// Compares two surfaces where both are known: points count if they lie, seen from above, in the hull of the other
-    /// surface too; the nearest is sought among all of the other's points.
+    /// Compares two surfaces where both are known. Points count if their projection along z is in the hull of the other surface. The
+    /// nearest point is sought among all points of the other surface.
     ///
     /// A distance is RN(√RN(RN(RN(x²) + RN(y²)) + RN(z²))), and distances are summed exactly.
     ///
     /// # Errors
-    /// [`UndefinedReason::NoOverlap`] if no point of one of them lies in the hull of the other.
+    /// [`UndefinedReason::NoOverlap`] if no point of one of them is in the hull of the other.
     pub(crate) fn between(first: &[Point], second: &[Point]) -> Result<Gap, UndefinedReason> {
         let (forward, there) = mean_distance(first, second)?;
         let (backward, back) = mean_distance(second, first)?;
@@ -39,7 +39,7 @@ impl Gap {
     }
 }
 
-/// RN of the mean distance from the points of `from` within the hull of `to` to the nearest of `to`, and how many they are.
+/// RN of the mean distance from the points of `from` within the hull of `to` to the nearest of `to`, and the number of these points.
 fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedReason> {
     let seen_from_above = |&[x, y, _]: &Point| [x, y];
     let hull = Hull::of(to.iter().map(seen_from_above));
@@ -49,7 +49,7 @@ fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedRe
     mean_of_nearest(common, to).ok_or(UndefinedReason::NoOverlap)
 }
 
-/// RN of the mean distance from each of `from` to the nearest of `to`, and how many of `from` there are.
+/// RN of the mean distance from each of `from` to the nearest of `to`, and the number of points in `from`.
 fn mean_of_nearest<'a>(from: impl Iterator<Item = &'a Point>, to: &[Point]) -> Option<(f64, u64)> {
     let search = NearestPoints::new(to.iter().copied());
     let (mut count, mut distances) = (0, ExactSum::default());

@@ -1,4 +1,4 @@
-//! Every pair of units, laid onto each other and compared.
+//! Every pair of units, registered onto each other and compared.
 
 use super::gap::Gap;
 use super::surfaces::{Cloud, SurfaceClouds};
@@ -13,7 +13,7 @@ pub(super) struct UnitGaps {
     pairs: Vec<UnitPair>,
 }
 
-/// Two units by their place in the order of names, and how far apart they are.
+/// Two units by their index in the order of names, with their gap.
 struct UnitPair {
     units: [usize; 2],
     gap: Result<Gap, UndefinedReason>,
@@ -22,7 +22,7 @@ struct UnitPair {
 }
 
 impl UnitGaps {
-    /// Compares each unit with each that comes later in the order of names, which is moved onto it.
+    /// Compares each unit with each later one in the order of names, which is moved onto it.
     ///
     /// # Errors
     /// [`UndefinedReason`] if there is no sample or one unit only.
@@ -46,7 +46,7 @@ impl UnitGaps {
     /// RN of the mean of a number over the pairs that have a gap.
     ///
     /// # Errors
-    /// The reason of the first pair, if none has one.
+    /// The reason of the first pair, if no pair has a gap.
     pub(super) fn mean(&self, number: fn(&Gap) -> f64) -> Finished {
         let gaps: Vec<&Gap> = self
             .pairs
@@ -90,12 +90,12 @@ impl UnitGaps {
         self.count(|pair| pair.gap.is_ok())
     }
 
-    /// Number of pairs that were laid onto each other by points of the same name.
+    /// Number of pairs that were registered by points of the same name.
     pub(super) fn by_point(&self) -> u64 {
         self.count(|pair| pair.by_point)
     }
 
-    /// Number of pairs whose points still changed partners when the steps were over.
+    /// Number of pairs whose registration had not converged after the last step.
     pub(super) fn unsettled(&self) -> u64 {
         self.count(|pair| !pair.settled)
     }

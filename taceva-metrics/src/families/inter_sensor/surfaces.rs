@@ -1,4 +1,4 @@
-//! What is kept of the surfaces of units: where each was first met.
+//! Surfaces of units: the places of first contact.
 
 use crate::exact::level::millionths;
 use crate::exact::merge::{Merge, keyed};
@@ -11,7 +11,7 @@ use crate::geometry::Point;
 
 /// Places by contact point and unit.
 ///
-/// They are sets: a surface that is met at one place in several samples is met there once.
+/// They are sets: a place found in several samples counts once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SurfaceClouds {
     n: u64,
@@ -33,12 +33,12 @@ struct Places {
 pub(super) struct Cloud {
     /// The points.
     pub(super) points: Vec<Point>,
-    /// Which location each point is of; equal numbers in two clouds are one location. Empty where samples name none.
+    /// Index of each point's location; equal indices in two clouds are one location. Empty if samples name no locations.
     pub(super) locations: Vec<usize>,
 }
 
 impl SurfaceClouds {
-    /// Adds where the surface of `unit` was met, mm; a place that is no length is counted and left out.
+    /// Adds a place on the surface of `unit`, mm; a place with an unusable coordinate is counted and skipped.
     pub(super) fn add(&mut self, unit: &str, point: Option<&str>, place_mm: Point) {
         if !place_mm.iter().all(|length| millionths(*length).is_some()) {
             self.n_invalid += 1;
@@ -54,7 +54,7 @@ impl SurfaceClouds {
         }
     }
 
-    /// Notes that some sample names no location.
+    /// Records that some sample names no location.
     pub(super) fn forget_names(&mut self) {
         self.cells.forget_names();
     }
@@ -64,13 +64,13 @@ impl SurfaceClouds {
         self.n
     }
 
-    /// Number of samples left out.
+    /// Number of skipped samples.
     pub(super) fn n_invalid(&self) -> u64 {
         self.n_invalid
     }
 
-    /// The cloud of each unit. Where samples name locations, a location's point is RN of the mean of its places along each
-    /// axis; otherwise every place is a point.
+    /// Cloud of each unit. If samples name locations, a location's point is RN of the mean of its places along each axis. Else every place
+    /// is a point.
     pub(super) fn by_unit(&self) -> Vec<(&str, Cloud)> {
         let mut clouds: SortedMap<&str, Cloud> = SortedMap::default();
         for (location, (_, cell)) in self.cells.iter().enumerate() {
@@ -90,7 +90,7 @@ impl SurfaceClouds {
         clouds.collect()
     }
 
-    /// As a state holds it: by location, by unit, x y z of each place.
+    /// Converts the surfaces to the record of a state: by location, by unit, x y z of each place.
     pub(super) fn to_record(&self) -> Record {
         let cell = |cell: &Places| {
             let units = cell.units.iter().map(|(unit, places)| {
@@ -115,7 +115,7 @@ impl SurfaceClouds {
         }
     }
 
-    /// Back from a state.
+    /// Reads the record of a state.
     pub(super) fn read_record(record: &Record) -> Result<SurfaceClouds, String> {
         let (&[n, n_invalid, named], []) = record.with_cells()?;
         let places = |record: &Record| {

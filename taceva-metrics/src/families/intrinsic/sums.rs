@@ -1,4 +1,4 @@
-//! What is kept of the frames of a recording and of the places that were touched.
+//! Frames of a recording, and the hull of its places of contact.
 
 use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
@@ -10,16 +10,15 @@ use crate::pair::is_valid;
 use crate::score::value::{Finished, UndefinedReason};
 use taceva_core::random::fnv_1a;
 
-/// Every time at which there was a frame, and the hull of the places of contact.
+/// Time of every frame, and the hull of the places of contact.
 ///
-/// It is a set: a frame that stands in several samples is one. Eight bytes of each digest are kept, enough to tell
-/// neighbours apart.
+/// The frames are a set: one in several samples counts once. Eight bytes of each digest are kept, enough to distinguish neighbours.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct IntrinsicSums {
     n_invalid: u64,
     /// Samples with a time.
     timed: u64,
-    /// Samples in contact that say where.
+    /// Samples in contact that have a place.
     contacts: u64,
     hull: GrowingHull,
     frames: SortedMap<(Ordered, Option<u64>), ()>,
@@ -67,17 +66,17 @@ impl IntrinsicSums {
         self.timed
     }
 
-    /// Number of samples in contact that say where.
+    /// Number of samples in contact that have a place.
     pub(super) fn contacts(&self) -> u64 {
         self.contacts
     }
 
-    /// Samples left out because a value was no number of a magnitude up to 2¹⁰²¹.
+    /// Number of samples skipped for a NaN or a magnitude beyond 2¹⁰²¹.
     pub(super) fn n_invalid(&self) -> u64 {
         self.n_invalid
     }
 
-    /// RN of the share, among the frames with a digest that follow one with a digest, of those whose digest is the same.
+    /// RN of the share of duplicates among the frames with a digest whose predecessor has one too.
     pub(super) fn duplicated(&self) -> Finished {
         if self.frames.is_empty() {
             return Err(UndefinedReason::NoTimes);
@@ -115,7 +114,8 @@ impl IntrinsicSums {
         Ok(extent[1] - extent[0])
     }
 
-    /// As a state holds it: the corners of the hull; frames as two records, times and digests of those that have one.
+    /// Converts the sums to the record of a state: the corners of the hull, and frames as two records, times and digests of those that have
+    /// one.
     pub(super) fn to_record(&self) -> Record {
         let part = |of: &dyn Fn(&Option<u64>) -> bool| {
             let frames = self.frames.iter().filter(|((_, digest), ())| of(digest));
@@ -143,7 +143,7 @@ impl IntrinsicSums {
         }
     }
 
-    /// Back from a state.
+    /// Reads the record of a state.
     pub(super) fn read_record(record: &Record) -> Result<IntrinsicSums, String> {
         let (&[n_invalid, timed, contacts], []) = record.with_cells()?;
         let hull = Hull::from_values(&record.values)?;
@@ -174,9 +174,9 @@ impl IntrinsicSums {
     }
 }
 
-/// Frames without a digest, in states.
+/// Name in states of frames without a digest.
 const PLAIN: &str = "plain";
-/// Frames with one.
+/// Name in states of frames with a digest.
 const DIGESTED: &str = "digested";
 
 impl Merge for IntrinsicSums {

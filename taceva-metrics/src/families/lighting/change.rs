@@ -11,7 +11,7 @@ pub(super) struct Change {
     pub(super) error: [f64; 2],
 }
 
-/// Relative change of brightness below which a scene teaches little.
+/// Relative change of brightness below which a scene is uninformative.
 const LOW_STIMULUS: f64 = 0.05;
 
 impl Change {
@@ -44,7 +44,7 @@ impl Change {
         })
     }
 
-    /// a / (a + b) times Io MAEo over itself, so that all stays exact: |Ic − Io| MAEo / (|Ic − Io| MAEo + b MAEo Io).
+    /// a / (a + b) expanded by Io MAEo, so that all stays exact: |Ic − Io| MAEo / (|Ic − Io| MAEo + b MAEo Io).
     fn share(self, counted: impl Fn(Dyadic) -> Dyadic) -> Finished {
         let [scene_intensity, intensity] = self.intensity.map(Dyadic::from_f64);
         let [scene_error, error] = self.error.map(Dyadic::from_f64);
@@ -69,28 +69,28 @@ impl Change {
         Ok(light.over(&both))
     }
 
-    /// Ic / Io and MAEc / MAEo, where there is one.
+    /// Ic / Io and MAEc / MAEo; `None` for a ratio that is undefined.
     pub(super) fn ratios(self) -> [Option<f64>; 2] {
         let ratio = |[scene, reference]: [f64; 2]| (reference > 0.0).then_some(scene / reference);
         [ratio(self.intensity), ratio(self.error)]
             .map(|ratio| ratio.filter(|ratio| ratio.is_finite()))
     }
 
-    /// Whether the light changed by less than 5 %.
+    /// True if the light changed by less than 5 %.
     pub(super) fn is_low_stimulus(self) -> bool {
         let [ratio, _] = self.ratios();
         ratio.is_some_and(|ratio| (ratio - 1.0).abs() < LOW_STIMULUS)
     }
 
-    /// Whether the error is smaller than in the reference scene.
+    /// True if the error is smaller than in the reference scene.
     pub(super) fn is_improved(self) -> bool {
         self.error[0] < self.error[1]
     }
 
     /// |∂R / ∂ ln MAEc| = a ρ / (a + b)², ρ = MAEc / MAEo; with respect to ln MAEo it is the same with the other sign.
     ///
-    /// For `plus` an error below the reference has the slope that it has without: R stays at 1 there, but how far below the reference the error
-    /// truly is, is not known either, and a slope of 0 would call a value certain that lies next to the bend. `None` where R is not defined.
+    /// For `plus`, an error below the reference keeps the magnitude of the slope without `plus`. R stays at 1 there, but the true error may
+    /// be on either side of the bend, and a slope of 0 would make R look certain. `None` if R is undefined.
     pub(super) fn slope(self, plus: bool) -> Option<f64> {
         let [Some(light), Some(harm)] = self.ratios() else {
             return None;

@@ -1,4 +1,4 @@
-//! Intervals of a robustness to lighting: the delta method on the errors that it is made of.
+//! Intervals of a robustness to lighting, by the delta method on its errors.
 
 use super::robustness::{changes, variant_of};
 use super::sums::LightingSums;
@@ -10,11 +10,11 @@ use crate::score::range::Range;
 use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::jackknife::{self, LeftOut};
 
-/// The intervals of one channel's scores, by the jackknife of how errors move together.
+/// Intervals of one channel's scores, by the jackknife of the joint changes of errors.
 ///
-/// To first order a robustness moves by s_c (δ_c − δ_o): s_c = ∂R_c / ∂ ln MAEc, and δ the relative change of a scene's mean absolute error. A mean over
-/// C scenes moves by Σ s_c (δ_c − δ_o) / C. A contact point is left out of every scene at once, because presses at one place err alike under every
-/// light. The brightness counts as known: it is a mean over whole pictures.
+/// To first order a robustness changes by s_c (δ_c − δ_o), with s_c = ∂R_c / ∂ ln MAEc and δ the relative change of a scene's mean absolute
+/// error. A mean over C scenes changes by Σ s_c (δ_c − δ_o) / C. A contact point is left out of every scene at once, because presses at one
+/// place have similar errors under every light. The brightness is taken as exact: it is a mean over whole pictures.
 pub(super) fn intervals(
     total: &LightingSums,
     clusters: &[&LightingSums],
@@ -49,7 +49,7 @@ pub(super) fn intervals(
         }
     }
     let [plain, plus] = terms;
-    // Where every error grew both are one quantity, and have one interval.
+    // If every error grew, both are one quantity and have one interval.
     let values = |terms: &[Term<'_>]| -> Vec<u64> {
         terms.iter().map(|term| term.value.to_bits()).collect()
     };
@@ -72,11 +72,11 @@ pub(super) fn intervals(
 struct Term<'a> {
     scene: &'a str,
     value: f64,
-    /// `None` where the robustness has no finite slope.
+    /// `None` if the robustness has no finite slope.
     slope: Option<f64>,
 }
 
-/// The mean absolute errors of scenes, with each contact point left out.
+/// Mean absolute errors of scenes without each one of the contact points.
 struct Moves<'a> {
     total: &'a LightingSums,
     reference: &'a str,
@@ -139,7 +139,7 @@ impl<'a> Moves<'a> {
         with.filter(|cell| cell.scenes.get(scene).is_some()).count()
     }
 
-    /// By how much the mean of `terms` moves where only `others` are there.
+    /// First-order change of the mean of `terms` if only the samples of `others` remain.
     fn moved(&self, terms: &[&Term<'_>], others: &LightingSums) -> Finished {
         let baseline = self.change_of(self.reference, others)?;
         let mut sum = 0.0;

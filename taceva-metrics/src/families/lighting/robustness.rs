@@ -1,4 +1,4 @@
-//! How little errors follow the light.
+//! Robustness of errors to the light.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
@@ -44,7 +44,7 @@ pub(crate) static R_LIGHT: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Each scene but the reference, beside it.
+/// Change of each scene against the reference scene.
 pub(super) fn changes<'a>(
     sums: &'a LightingSums,
     reference: &str,
@@ -63,7 +63,7 @@ pub(super) fn changes<'a>(
     Ok(changes)
 }
 
-/// The name of a scene's own value among the variants.
+/// Name of the variant for the value of one scene.
 pub(super) fn variant_of(scene: &str) -> String {
     format!("scene:{scene}")
 }
@@ -92,7 +92,7 @@ pub(super) fn robustness(sums: &LightingSums, reference: &str) -> Numbers {
     })
 }
 
-/// RN of the exact mean of those that are defined; the first reason if none is.
+/// RN of the exact mean of the defined values; the first reason if none is defined.
 pub(super) fn mean_of_defined(values: impl Iterator<Item = Finished>) -> Finished {
     let mut reason = None;
     let (mut sum, mut defined) = (ExactSum::default(), 0_u64);
@@ -111,7 +111,7 @@ pub(super) fn mean_of_defined(values: impl Iterator<Item = Finished>) -> Finishe
     Ok(sum.to_dyadic().over(&Dyadic::from(defined)))
 }
 
-/// The ratios of each scene, how many scenes count, and what to beware of.
+/// Ratios of each scene, counts of scenes, and flags.
 pub(super) fn details(sums: &LightingSums, reference: &str) -> Details {
     let Ok(changes) = changes(sums, reference) else {
         return Details::default();
@@ -145,7 +145,7 @@ pub(super) fn details(sums: &LightingSums, reference: &str) -> Details {
     }
 }
 
-/// What to beware of in some scene of one of `parts`.
+/// Flags raised by any scene of any of `parts`.
 pub(super) fn flags(parts: &[&LightingSums], reference: &str) -> Vec<Flag> {
     let found = parts
         .iter()
@@ -162,7 +162,7 @@ pub(super) fn flags(parts: &[&LightingSums], reference: &str) -> Vec<Flag> {
     flags.into_iter().flatten().collect()
 }
 
-/// The value if the error is that of the plane: the mean of both axes' mean absolute errors, scene by scene.
+/// Value for the error of a plane: the mean of both axes' mean absolute errors, scene by scene.
 pub(super) fn of_plane(parts: [&LightingSums; 2], reference: &str) -> Finished {
     let [x, y] = [changes(parts[0], reference)?, changes(parts[1], reference)?];
     let along_y = |scene: &str| {

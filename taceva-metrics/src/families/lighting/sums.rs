@@ -1,4 +1,4 @@
-//! What is kept of the errors under each light.
+//! Sums of the errors under each light.
 
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::record::Record;

@@ -8,15 +8,15 @@ use crate::geometry::{GrowingHull, Hull};
 use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
-/// Samples below which a line says nothing: two are always on one.
+/// Least samples of a line; two samples are always on one.
 pub(super) const LEAST_SAMPLES: u64 = 3;
 
 /// The sums of products of the columns x and y: Σ x² and Σ x y.
 pub(super) const PRODUCTS: [[usize; 2]; 2] = [[0, 0], [0, 1]];
 
-/// What is kept of the pairs of one channel: x the truth, y the prediction.
+/// Sums of the pairs of one channel: x the truth, y the prediction.
 ///
-/// The distance from any line is greatest at a corner of the convex hull, so that the hull stands for all points.
+/// The distance from any line is greatest at a corner of the convex hull, so the hull replaces all points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LineSums {
     n: u64,
@@ -32,12 +32,12 @@ impl LineSums {
         self.n
     }
 
-    /// Number of samples left out.
+    /// Number of skipped samples.
     pub(super) fn n_invalid(&self) -> u64 {
         self.n_invalid
     }
 
-    /// As a state holds it: the corners as x, y, x, y, ….
+    /// Converts the sums to the record of a state: the corners as x, y, x, y, ….
     pub(super) fn to_record(&self) -> Record {
         Record {
             counts: vec![self.n, self.n_invalid],
@@ -47,7 +47,7 @@ impl LineSums {
         }
     }
 
-    /// Back from a state.
+    /// Reads the record of a state.
     pub(super) fn read_record(record: &Record) -> Result<LineSums, String> {
         let (&[n, n_invalid], sums) = record.with_cells()?;
         let hull = Hull::from_values(&record.values)?;
@@ -99,7 +99,7 @@ pub(super) struct Line {
     pub(super) offset: f64,
 }
 
-/// How far predictions stray from the best line.
+/// Deviation of predictions from the best line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Deviation {
     /// max |y − a − b x|.
@@ -169,7 +169,7 @@ impl Line {
 }
 
 impl Deviation {
-    /// That of the pairs in `sums`.
+    /// Deviation of the pairs in `sums`.
     ///
     /// # Errors
     /// As [`Line::through`].

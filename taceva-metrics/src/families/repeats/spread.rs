@@ -1,4 +1,4 @@
-//! The spread within cells, and what follows from that of many.
+//! Spread within cells, and statistics of the spreads of many cells.
 
 use std::sync::OnceLock;
 
@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::Cells;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// The repeats of one cell, and their spread, which is computed when it is first needed.
+/// Repeats of one cell, and their lazily computed spread.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cell {
     moments: Moments,
@@ -89,7 +89,7 @@ impl Spread {
 /// The spreads of the cells that have one.
 pub(crate) struct SpreadSums {
     spreads: Vec<Spread>,
-    /// Why there is no score, if so.
+    /// Reason for a missing score, if any.
     reason: Option<UndefinedReason>,
 }
 
@@ -111,7 +111,7 @@ impl SpreadSums {
         SpreadSums { spreads, reason }
     }
 
-    /// How many cells have a spread.
+    /// Number of cells with a spread.
     pub(crate) fn count(&self) -> u64 {
         self.spreads.iter().fold(0, |count, _| count + 1)
     }
@@ -134,7 +134,7 @@ impl SpreadSums {
         mean(&variances, freedom).map(f64::sqrt)
     }
 
-    /// √max(0, s_m² − s_r² mean(1 / n_c)): how far cells differ beyond what the scatter of their repeats gives their means.
+    /// √max(0, s_m² − s_r² mean(1 / n_c)): the spread of cell means beyond the scatter of their repeats.
     pub(crate) fn signal(&self) -> Finished {
         let (means, repeats) = (self.deviation_of_means()?, self.pooled()?);
         let shares: ExactSum = self

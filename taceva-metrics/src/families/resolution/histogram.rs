@@ -1,4 +1,4 @@
-//! How often a spacing was missed by how much.
+//! Histogram of the errors of spacings.
 
 use std::collections::BTreeMap;
 
@@ -6,22 +6,22 @@ use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::record::Record;
 
-/// Counts of samples by |r̂ − r| in whole nanometres, so that every tolerance can be asked afterwards, and by r, so that it is known how
-/// often one answer for all of them would be right.
+/// Counts of samples by |r̂ − r| in whole nanometres, so that any tolerance can be applied later. Also counts by r, for the success rate of
+/// the best constant answer.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Histogram {
     pub(super) n_invalid: u64,
-    /// Samples by difference; only differences that came.
+    /// Samples by difference; only differences that occurred.
     counts: BTreeMap<u64, u64>,
-    /// Samples by their true spacing; empty in states that were written before it was kept.
+    /// Samples by their true spacing; empty in states of versions without it.
     truths: BTreeMap<u64, u64>,
 }
 
-/// The cell of a record that holds the true spacings.
+/// Name of the record's cell with the true spacings.
 const TRUTHS: &str = "truth";
 
 impl Histogram {
-    /// Adds a sample of the spacing `truth_nm` that was taken for `estimate_nm`.
+    /// Adds a sample of the spacing `truth_nm` with the prediction `estimate_nm`.
     pub(super) fn add(&mut self, truth_nm: i64, estimate_nm: i64) {
         *self
             .counts
@@ -32,8 +32,8 @@ impl Histogram {
         }
     }
 
-    /// RN(most / n), most the samples within `tolerance_nm` of the one spacing that suits the most of them: what the best constant
-    /// prediction reaches. `None` for no sample, or if the spacing of some is not known.
+    /// RN(most / n), the success rate of the best constant prediction: `most` is the largest number of samples within `tolerance_nm` of one
+    /// spacing. `None` without samples, or if some true spacing is unknown.
     pub(super) fn of_constant(&self, tolerance_nm: u64) -> Option<f64> {
         let known = self
             .truths
@@ -58,7 +58,7 @@ impl Histogram {
         counts.fold(0, |n, &count| n.saturating_add(count))
     }
 
-    /// Samples that missed by at most `tolerance_nm`.
+    /// Number of samples with an error of at most `tolerance_nm`.
     pub(super) fn hits(&self, tolerance_nm: u64) -> u64 {
         let within = self.counts.range(..=tolerance_nm);
         within.fold(0, |hits, (_, &count)| hits.saturating_add(count))
@@ -70,7 +70,8 @@ impl Histogram {
         (n > 0).then(|| Dyadic::from(self.hits(tolerance_nm)).over(&Dyadic::from(n)))
     }
 
-    /// As a state holds it: invalid samples, then each difference followed by its count; in a cell each true spacing followed by its count.
+    /// Converts the histogram to the record of a state: invalid samples, then each difference followed by its count. A cell holds each true
+    /// spacing followed by its count.
     pub(super) fn to_record(&self) -> Record {
         let flat = |counts: &BTreeMap<u64, u64>| {
             let counts = counts.iter();
@@ -91,7 +92,7 @@ impl Histogram {
         }
     }
 
-    /// Back from a state.
+    /// Reads the record of a state.
     pub(super) fn read_record(record: &Record) -> Result<Histogram, String> {
         if !(record.sums.is_empty() && record.values.is_empty()) {
             return Err("sums or values beside counts".to_owned());
@@ -115,7 +116,7 @@ impl Histogram {
     }
 }
 
-/// Numbers, ascending, each followed by how often it came; `what` they are.
+/// Reads ascending numbers, each followed by its count; `what` names them in errors.
 fn read_counts(counts: &[u64], what: &str) -> Result<BTreeMap<u64, u64>, String> {
     let mut read = BTreeMap::new();
     for pair in counts.chunks(2) {

@@ -1,4 +1,4 @@
-//! How often a spacing is recognised.
+//! Success rate of the recognition of spacings.
 
 use taceva_core::{Field, FieldSet, Nanometre, Needs, Unit};
 

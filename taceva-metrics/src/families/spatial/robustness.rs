@@ -1,4 +1,4 @@
-//! How alike errors are over distance and depth.
+//! Variation of errors over distance and depth.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
@@ -45,13 +45,13 @@ pub(crate) static R_SPATIAL: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// The variant that verdicts go by.
+/// Variant that decides verdicts.
 pub(super) const EXCESS: &str = "excess";
 
-/// Samples per bin from which on a bin counts for the variant `n_min_5`, beside the paper's least of one.
+/// Least samples of a bin for the variant `n_min_5`; the paper's least is one.
 const WELL_SAMPLED: u64 = 5;
 
-/// R = RN((σ_distance + σ_depth) / 2), σ the population STD of the bin means; the variants are means of both axes likewise.
+/// R = RN((σ_distance + σ_depth) / 2), σ the population STD of the bin means; variants are means of both axes too.
 pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) -> Numbers {
     if sums.n == 0 {
         let outside = sums.outside > 0;
@@ -109,7 +109,7 @@ pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) ->
         )
 }
 
-/// The excess of one channel, or the mean of two, and its interval, where it is known which samples belong to one contact point.
+/// Excess of one channel, or mean of two, and its interval, if the samples of each contact point are known.
 pub(super) fn of_clusters(channels: &[Vec<&SpatialSums>], settings: &Settings) -> Intervals {
     type Axis = fn(&SpatialSums) -> &SortedMap<u8, Moments>;
     let axes: [Axis; 2] = [|sums| &sums.distance, |sums| &sums.depth];
@@ -137,7 +137,7 @@ pub(super) fn of_clusters(channels: &[Vec<&SpatialSums>], settings: &Settings) -
     })
 }
 
-/// The centred rolling means of the bins that have samples, each RN of an exact mean; the window is cut off at the ends.
+/// Centred rolling means of the bins that have samples, each RN of an exact mean. The window is cut at the ends.
 fn smoothed(bins: &[Bin], settings: &Settings) -> Moments {
     let bins = bins.iter().filter(|bin| bin.has(settings.n_min));
     let means: Vec<f64> = bins.map(|bin| bin.mean).collect();

@@ -1,4 +1,4 @@
-//! What is kept of errors by distance from the axis and by depth.
+//! Sums of errors by distance from the axis and by depth.
 
 use taceva_core::{Footprint, Nanometre};
 
@@ -11,7 +11,7 @@ use crate::pair::{Paired, is_valid};
 /// Bins along each axis.
 pub(super) const BINS: u8 = 100;
 
-/// |d| of one channel by bin of distance and by bin of depth; only of bins that have samples.
+/// |d| of one channel by bin of distance and by bin of depth; only for bins that have samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SpatialSums {
     pub(super) n: u64,
@@ -104,7 +104,7 @@ impl Merge for SpatialSums {
     }
 }
 
-/// How far from the axis, and how deep, a sensor is pressed.
+/// Greatest distance from the axis and greatest depth of a sensor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub(super) radius: Nanometre,
@@ -112,7 +112,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// The declared ones; `None` if the depth is not declared.
+    /// Declared reach of `footprint`; `None` if the depth is not declared.
     pub(super) fn of(footprint: &Footprint) -> Option<Reach> {
         Some(Reach {
             radius: footprint.reach(),
@@ -120,7 +120,7 @@ impl Reach {
         })
     }
 
-    /// The bins of distance and depth of a place in mm, decided in whole nanometres; `None` beyond the reach.
+    /// Bins of distance and depth of a place in mm, computed in whole nanometres; `None` beyond the reach.
     ///
     /// Distance: the largest k with (k Rmax)² ≤ 10⁴ r²; depth: ⌊100 z / Dmax⌋; both at most 99.
     fn bins(self, place_mm: [f64; 3]) -> Option<(u8, u8)> {

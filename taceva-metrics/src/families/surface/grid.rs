@@ -1,4 +1,4 @@
-//! Which cell of the surface a place lies in.
+//! Grid of the cells of a surface.
 
 use taceva_core::{Footprint, Nanometre};
 
@@ -17,7 +17,7 @@ impl Grid {
         Grid { footprint, bins }
     }
 
-    /// The cell of a place in mm, decided in whole nanometres; `None` outside the footprint.
+    /// Cell of a place in mm, computed in whole nanometres; `None` outside the footprint.
     ///
     /// bin = min(⌊(x + R) G / 2R⌋, G − 1): the last edge belongs to the last bin.
     pub(crate) fn cell(&self, x_mm: f64, y_mm: f64) -> Option<Cell> {

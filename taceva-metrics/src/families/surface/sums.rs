@@ -1,4 +1,4 @@
-//! What is kept of the compliance of a surface.
+//! Sums of the compliance of a surface.
 
 use super::grid::Cell;
 use crate::exact::ExactSum;
@@ -9,7 +9,7 @@ use crate::exact::sorted_map::SortedMap;
 use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
-/// The variant that leaves out what has shear.
+/// Variant without the samples that have shear.
 pub(crate) const NORMAL_ONLY: &str = "normal_only";
 
 /// The depth and the normal force of a press, as the reference instruments measured them.
@@ -25,10 +25,10 @@ pub(crate) struct SurfaceSums {
     pub(crate) n_invalid: u64,
     /// Samples below the gate, or not pressed into the surface.
     pub(crate) gated: u64,
-    /// Samples in contact whose place lies outside the footprint.
+    /// Samples in contact whose place is outside the footprint.
     pub(crate) outside: u64,
     pub(crate) compliance: Total,
-    /// Of those without shear.
+    /// Compliance of the samples without shear.
     pub(crate) normal: Total,
     /// Σ Δz F.
     pub(crate) work: ExactSum,
@@ -57,7 +57,7 @@ impl Total {
     }
 }
 
-/// Where a press lies.
+/// Place of a press relative to the grid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Place {
     /// Not known, or not needed.
@@ -69,7 +69,7 @@ pub(crate) enum Place {
 }
 
 impl SurfaceSums {
-    /// Adds a press from `gate_n` on.
+    /// Adds a press; one below `gate_n` is counted as gated.
     pub(crate) fn add(&mut self, press: Press, gate_n: f64, without_shear: bool, place: Place) {
         let Press { depth_mm, force_n } = press;
         if !is_valid(depth_mm) || !is_valid(force_n) {
@@ -104,7 +104,7 @@ impl SurfaceSums {
         }
     }
 
-    /// Samples that lie in a cell.
+    /// Number of samples in a cell.
     pub(crate) fn binned(&self) -> u64 {
         self.cells.values().map(|[all, _]| all.n).sum()
     }
@@ -136,7 +136,7 @@ impl SurfaceSums {
         }
     }
 
-    /// Back from a state whose grid has `bins` cells along each side.
+    /// Reads the record of a state whose grid has `bins` cells along each side.
     pub(crate) fn read_record(record: &Record, bins: u32) -> Result<SurfaceSums, String> {
         let ([n, n_invalid, gated, outside, n_normal], sums) = record.with_cells()?;
         let [compliance, work, force_squares, normal] = sums;
@@ -192,7 +192,7 @@ impl Merge for SurfaceSums {
     }
 }
 
-/// The reason for no value if nothing is in contact.
+/// Checks that some sample is in contact.
 pub(crate) fn contact(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
     match (sums.compliance.n, sums.gated) {
         (0, 0) => Err(UndefinedReason::Empty),

@@ -1,4 +1,4 @@
-//! The answer of a comparison in words, with as many digits as the width of its interval supports.
+//! Answer of a comparison in words, with the digits that the width of its interval supports.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use crate::stats::sides::{Side, Sides};
 impl Verdict {
     /// The answer in words, with the names of both sides: `GelSight better by 0.012 N (95 % 0.004…0.020, p = 0.003)`.
     ///
-    /// The p value is the adjusted one, and the interval that of the same decision.
+    /// The p value is the adjusted one, and the interval belongs to the same decision.
     pub fn words(&self, names: Sides<&str>) -> String {
         match self {
             Verdict::Differs {
@@ -75,7 +75,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// `95 %`, `99.72 %`: with as many digits as tell the rest of 100 to a twentieth of it.
+/// Confidence such as `95 %` or `99.72 %`, with enough digits to know the complement to a twentieth of it.
 fn percent(share: f64) -> String {
     let rest = 100.0 * (1.0 - share);
     let mut places = 1.0;
@@ -97,9 +97,9 @@ fn suffix(unit: Unit) -> String {
     }
 }
 
-/// The fewest decimals, up to 12, whose last is at most a tenth of the width of an interval, of one that reaches farther to one side twice the
-/// nearer distance; of one without ends, of the value. Up to three
-/// more where an end that is not 0 would print as 0: the interval would contradict what is shown.
+/// Fewest decimals, up to 12, whose last place is at most a tenth of an interval's width. For an asymmetric interval the width is twice the
+/// nearer distance, for an infinite one the magnitude of the value. Up to three more decimals if an end that is not 0 would print as 0,
+/// which would contradict the verdict.
 fn decimals(ends: &[f64; 2], value: f64) -> usize {
     let fewest = decimals_of_width(ends, value);
     let hides_an_end = |decimals: usize| {
@@ -127,7 +127,7 @@ fn decimals_of_width([low, high]: &[f64; 2], value: f64) -> usize {
     12
 }
 
-/// With a true minus sign, and none before a zero.
+/// Text of a number with a true minus sign, and none before a zero.
 fn number(value: f64, decimals: usize) -> String {
     if value.is_infinite() {
         return if value < 0.0 { "−∞" } else { "∞" }.to_owned();
@@ -141,19 +141,19 @@ fn number(value: f64, decimals: usize) -> String {
     format!("{sign}{size}")
 }
 
-/// Whether it shows no digit but zeros.
+/// True if all digits of `text` are zeros.
 fn is_zero(text: &str) -> bool {
     text.bytes().all(|byte| matches!(byte, b'0' | b'.'))
 }
 
-/// A difference: one that is not 0 has as many more decimals as show a digit of it, within however wide an interval it lies.
+/// Text of a difference. A nonzero difference gets enough decimals to show one digit, for any width of its interval.
 fn apart(value: f64, decimals: usize) -> String {
     let mut texts = (decimals..=12).map(|decimals| number(value, decimals));
     let shown = texts.find(|text| !is_zero(text));
     shown.unwrap_or_else(|| number(value, decimals))
 }
 
-/// An end of an interval: what not even `decimals` show has a power of ten.
+/// Text of an end of an interval. A value too small for `decimals` is written with a power of ten.
 fn end(value: f64, decimals: usize) -> String {
     match number(value, decimals) {
         text if value.abs() > 1e-12 && is_zero(&text) => format!("{value:.0e}").replace('-', "−"),
