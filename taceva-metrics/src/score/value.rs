@@ -265,11 +265,7 @@ impl fmt::Display for InapplicableReason {
             InapplicableReason::NoGate(unit) => write!(f, "no gate is defined for {unit}"),
             InapplicableReason::NoStep(unit) => write!(f, "no step is defined for {unit}"),
             InapplicableReason::ChannelAbsent(name) => {
-                write!(
-                    f,
-                    "nothing is scored on a channel `{}`",
-                    taceva_core::shown(name)
-                )
+                write!(f, "channel `{}` is not scored", taceva_core::shown(name))
             }
             InapplicableReason::NotOneNumber => f.write_str("not one number but many"),
         }

@@ -87,7 +87,7 @@ unsafe extern "C" fn capture(
         let length = info.byte_len().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Internal,
-                format!("frames of {info}, which no buffer can hold"),
+                format!("frames of {info} fit no buffer"),
             )
         })?;
         let room = usize::try_from(frame.buffer_length).unwrap_or(usize::MAX);

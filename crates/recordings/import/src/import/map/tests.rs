@@ -55,7 +55,7 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
         (
             "\"N\"",
             "\"mm\"",
-            "line 8: channel `Fz` is kept in N, not in mm",
+            "line 8: channel `Fz` needs the unit N, found mm",
         ),
         (
             "sign = -1",
