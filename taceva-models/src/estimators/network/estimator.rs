@@ -38,13 +38,13 @@ const EPOCHS: SettingInfo = SettingInfo {
     key: "epochs",
     accepts: "a number from 1 to 100000",
     default: "200 for cnn, 60 for the residual ones",
-    about: "how many times the network is trained on each sample",
+    about: "number of times the network is trained on each sample",
 };
 const BATCH: SettingInfo = SettingInfo {
     key: "batch",
     accepts: "a number from 2 to 4096",
     default: "32",
-    about: "how many samples a training step uses",
+    about: "number of samples per training step",
 };
 const RATE: SettingInfo = SettingInfo {
     key: "rate",
@@ -67,8 +67,8 @@ const SEED: SettingInfo = SettingInfo {
 const PATIENCE: SettingInfo = SettingInfo {
     key: "patience",
     accepts: "a number of epochs from 1 on",
-    default: "all epochs are made",
-    about: "epochs without a better one on the validation part after which training stops",
+    default: "no early stop",
+    about: "number of epochs without improvement on the validation part after which training stops",
 };
 const BRIGHTNESS: SettingInfo = SettingInfo {
     key: "brightness",

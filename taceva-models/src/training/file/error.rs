@@ -72,7 +72,7 @@ pub enum FormatError {
     },
     /// The plugin of the model is missing.
     #[error(
-        "fitted by `{key}` of the plugin `{id}`, which is not among the plugins that were found", key = taceva_core::shown(key), id = taceva_core::shown(id)
+        "fitted by `{key}` of the plugin `{id}`, which was not found", key = taceva_core::shown(key), id = taceva_core::shown(id)
     )]
     NoPlugin {
         /// Id of the plugin.

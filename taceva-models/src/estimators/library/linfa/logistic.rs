@@ -106,8 +106,8 @@ fn check(training: &TrainingSet<'_>) -> Result<(), ModelError> {
             return Err(ModelError::new(
                 ErrorKind::InvalidArgument,
                 format!(
-                    "`{channel}` takes {values} values in the training part, {NAME} has at most {VALUES_MAX} classes: for what \
-                     varies freely choose another model, such as linfa/elastic-net"
+                    "`{channel}` has {values} values in the training part, {NAME} takes at most {VALUES_MAX} classes: for continuous \
+                        labels choose another model, such as linfa/elastic-net"
                 ),
             ));
         }
