@@ -102,7 +102,7 @@ fn open(
         DriverKind::Lighting => opening.serve(|| session.lighting(driver, args)),
         DriverKind::Changer => opening.serve(|| session.changer(driver, args)),
         _ => {
-            let why = format!("devices of the kind {kind} are not known here");
+            let why = format!("this program does not know devices of the kind {kind}");
             Err(Failure::new(
                 ErrorKind::Unsupported,
                 "open the device",
