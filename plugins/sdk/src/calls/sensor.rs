@@ -139,7 +139,7 @@ unsafe extern "C" fn set_light(
         let lighting = opened.sensor.lighting().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Unsupported,
-                "the sensor does not set the light around it",
+                "the sensor does not control the light around it",
             )
         })?;
         Ok(lighting.set(scene, deadline(timeout_ns))?)
