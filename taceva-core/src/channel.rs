@@ -283,10 +283,7 @@ impl fmt::Display for ChannelError {
                 found,
             } => {
                 let name = crate::shown(name);
-                write!(
-                    f,
-                    "channel `{name}` needs the unit {expected}, found {found}"
-                )
+                write!(f, "channel `{name}` is in {expected}, found {found}")
             }
             ChannelError::Period { name, degrees } => write!(
                 f,
@@ -321,7 +318,7 @@ mod tests {
     #[test]
     fn a_force_in_millimetres_is_refused() {
         let error = Channel::named("Fz", Unit::Millimetre).expect_err("Fz is in N");
-        assert_eq!(error.to_string(), "channel `Fz` needs the unit N, found mm");
+        assert_eq!(error.to_string(), "channel `Fz` is in N, found mm");
     }
 
     #[test]

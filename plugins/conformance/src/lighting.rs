@@ -55,11 +55,7 @@ pub(crate) fn refuses_stranger<D: ?Sized>(
 ) -> Result<(), Unmet> {
     let stranger = format!("not {}", lighting.scenes().join(" nor "));
     let set = lighting.set(&stranger, tried.trial.deadline);
-    refused(
-        "setting an unknown scene",
-        set,
-        &[ErrorKind::InvalidArgument],
-    )
+    refused("an unknown scene", set, &[ErrorKind::InvalidArgument])
 }
 
 fn passed_deadline(tried: &Tried<'_, dyn Lighting>) -> Result<(), Unmet> {

@@ -49,9 +49,7 @@ fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
         near(tried, &pose, &first)?;
         last = stamp;
     }
-    let _ = tried.at_once("reading a pose without time", || {
-        robot.pose(Deadline::PASSED)
-    })?;
+    let _ = tried.at_once("a pose without time", || robot.pose(Deadline::PASSED))?;
     match facts(tried)?.workspace {
         Some(workspace) => expect(workspace.contains(&first.position), || {
             format!("its position {:?} is outside its workspace", first.position)

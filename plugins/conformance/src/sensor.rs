@@ -44,9 +44,7 @@ fn gives_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     stream::gives(tried)?;
     match facts.frame {
         Some(_) => Ok(()),
-        None => Err(skipped(format!(
-            "frames of {given}, but the driver declares no frame size"
-        ))),
+        None => Err(skipped(format!("frames of {given}, no size declared"))),
     }
 }
 

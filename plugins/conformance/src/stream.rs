@@ -229,7 +229,7 @@ pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
     };
     let (first, second) = (items()?, items()?);
     expect(first == second, || {
-        "two runs with the same arguments give different data".to_owned()
+        "two runs give different data".to_owned()
     })
 }
 

@@ -34,9 +34,7 @@ pub(crate) fn find<T: Any + Send + Sync>(handle: *const c_void) -> Result<Arc<T>
     drop(open);
     thing
         .and_then(|thing| thing.downcast().ok())
-        .ok_or_else(|| {
-            Failure::argument("the handle is not open, or belongs to a device of another kind")
-        })
+        .ok_or_else(|| Failure::argument("the handle is not open, or of another kind"))
 }
 
 /// Removes a handle and drops its object. If a call on another thread still uses the object, that call drops it.

@@ -53,9 +53,7 @@ impl FromStr for Name {
             ));
         }
         if TAKEN.split(' ').any(|taken| taken == text) {
-            return Err(refused(
-                "expected a name that neither Rust nor TacEva reserves",
-            ));
+            return Err(refused("expected a name that is not reserved"));
         }
         Ok(Name(text.to_owned()))
     }

@@ -220,7 +220,7 @@ fn opens_beside(subject: &Subject) -> Result<(), Unmet> {
     drop(first);
     expect(status.is_ok() || status == abi::Status::BUSY, || {
         format!(
-            "opening a second device gave status {}, expected 0 or BUSY",
+            "a second device gave status {}, expected 0 or BUSY",
             status.0
         )
     })?;
@@ -291,7 +291,7 @@ fn unknown_extension(subject: &Subject) -> Result<(), Unmet> {
     for id in ["", "taceva.nothing/1", "taceva.force.tare/99"] {
         let found = device.handle().extension_is_there(id);
         expect(!found, || {
-            format!("it returned a table for the unknown extension {id:?}")
+            format!("a table for the unknown extension {id:?}")
         })?;
     }
     Ok(())

@@ -96,10 +96,7 @@ fn unknown_factory(subject: &Subject) -> Result<(), Unmet> {
     ] {
         let found = factory(subject, abi::Text::from(id))?;
         expect(found == 0, || {
-            format!(
-                "it returned a factory for the unknown id {:?}",
-                &id[..id.len().min(40)]
-            )
+            format!("a factory for the unknown id {:?}", &id[..id.len().min(40)])
         })?;
     }
     let nothing = abi::Text {
@@ -107,7 +104,7 @@ fn unknown_factory(subject: &Subject) -> Result<(), Unmet> {
         length: 0,
     };
     expect(factory(subject, nothing)? == 0, || {
-        "it returned a factory for an empty text".to_owned()
+        "a factory for an empty text".to_owned()
     })
 }
 
@@ -121,9 +118,7 @@ fn stable_factories(subject: &Subject) -> Result<(), Unmet> {
     ] {
         let once = factory(subject, abi::Text::from(id))?;
         let again = factory(subject, abi::Text::from(id))?;
-        expect(once == again, || {
-            format!("the address of the factory `{id}` changes between calls")
-        })?;
+        expect(once == again, || format!("the address of `{id}` changes"))?;
     }
     Ok(())
 }
@@ -147,7 +142,7 @@ fn unknown_rig_extension(subject: &Subject) -> Result<(), Unmet> {
     // SAFETY: [owner] of an open rig, with a text that outlives the call.
     let found = unsafe { extension(rig.raw(), abi::Text::from("taceva.nothing/1")) };
     expect(found.is_null(), || {
-        "it returned a table for an unknown extension".to_owned()
+        "a table for an unknown extension".to_owned()
     })
 }
 

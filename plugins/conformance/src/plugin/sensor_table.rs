@@ -163,7 +163,7 @@ fn keeps_to_buffer(subject: &Subject) -> Result<(), Unmet> {
     sensor.capture(&mut pixels[..length], PATIENT)?;
     let beyond = pixels[length..].iter().any(|byte| *byte != CANARY);
     expect(!beyond, || {
-        "it wrote beyond the end of a buffer of the right size".to_owned()
+        "it wrote beyond a buffer of the right size".to_owned()
     })
 }
 

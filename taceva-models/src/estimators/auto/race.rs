@@ -70,9 +70,7 @@ impl Race<'_> {
         }
         if self.network_leads() {
             let network = self.network.last().map_or("", Entrant::name);
-            return Some(format!(
-                "{network} is clearly ahead of all models with less work"
-            ));
+            return Some(format!("{network} is clearly ahead of all cheaper models"));
         }
         let needed = candidate.first_s() + fit_s;
         (!self.affords(needed) && !ALWAYS.contains(&info.name)).then(|| {
