@@ -166,7 +166,7 @@ fn components_are_no_picture() {
         .expect_err("refused");
     assert_eq!(
         error.to_string(),
-        "a network reads pictures, and principal components are none"
+        "a network reads pictures, not principal components: remove `pca`"
     );
 }
 

@@ -74,19 +74,19 @@ const BRIGHTNESS: SettingInfo = SettingInfo {
     key: "brightness",
     accepts: "a number from 0 to 1",
     default: "0",
-    about: "the largest share by which training pictures are made brighter or darker, after preprocessing",
+    about: "greatest relative change of the brightness of training pictures, after preprocessing",
 };
 const CONVOLUTIONS: SettingInfo = SettingInfo {
     key: "convolutions",
     accepts: "winograd, mixed or direct",
     default: "winograd",
-    about: "the form of convolutions for predictions: winograd is fastest for batches, mixed for one picture at a time, as a sensor gives them",
+    about: "the form of convolutions for predictions: winograd is fastest for batches, mixed for single pictures, as from a sensor",
 };
 const DEVICE: SettingInfo = SettingInfo {
     key: "device",
     accepts: "cpu, cuda or wgpu",
     default: "cpu",
-    about: "the device that trains; a GPU needs a program built with the feature of that name, and gives other last digits each time",
+    about: "the device for training; a GPU needs a program built with the feature of that name, and its last digits vary between runs",
 };
 
 const SETTINGS: &[SettingInfo] = &{

@@ -50,7 +50,7 @@ pub enum FormatError {
     },
     /// The file has a format older than 1.0.
     #[error(
-        "format {format} of TacEva {taceva} is no longer read: fit the model anew with `taceva fit RECORDING --model NAME --out FILE`", format = taceva_core::shown(format), taceva = taceva_core::shown(taceva)
+        "format {format} of TacEva {taceva} is no longer read: fit the model again with `taceva fit RECORDING --model NAME --out FILE`", format = taceva_core::shown(format), taceva = taceva_core::shown(taceva)
     )]
     Earlier {
         /// Format version of the file.

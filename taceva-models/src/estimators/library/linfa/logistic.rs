@@ -28,7 +28,7 @@ const STRENGTH: Number = Number {
         key: "strength",
         accepts: "a number from 1e-6 to 1e6",
         default: "chosen for each channel",
-        about: "the penalty on squared weights, beside the summed loss of all samples",
+        about: "the penalty on squared weights, added to the summed loss of all samples",
     },
     range: [1e-6, 1e6],
     is_whole: false,
