@@ -71,7 +71,7 @@ def test_the_mean_has_no_skill_and_is_in_no_verdict(drawn: taceva.Dataset) -> No
 
 def test_features_are_those_that_our_models_see(drawn: taceva.Dataset) -> None:
     assert drawn.features([3, 1], settings={"size": "8x6"}).shape == (2, 48)
-    with pytest.raises(ValueError, match="smaller than the features"):
+    with pytest.raises(ValueError, match="smaller than the requested features"):
         drawn.features()
 
 

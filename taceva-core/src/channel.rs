@@ -273,7 +273,7 @@ impl fmt::Display for ChannelError {
         match self {
             ChannelError::Name { name } => write!(
                 f,
-                "`{}` is no channel name: a letter, then letters, digits or `_`, at most {} bytes",
+                "`{}` is not a channel name, expected a letter, then letters, digits or `_`, at most {} bytes",
                 crate::shown(name),
                 Channel::NAME_MAX
             ),
@@ -283,11 +283,11 @@ impl fmt::Display for ChannelError {
                 found,
             } => {
                 let name = crate::shown(name);
-                write!(f, "channel `{name}` is kept in {expected}, not in {found}")
+                write!(f, "channel `{name}` is in {expected}, found {found}")
             }
             ChannelError::Period { name, degrees } => write!(
                 f,
-                "channel `{}` has no period of {degrees} degrees: expected an angle, in deg or rad, and 1 to 360",
+                "channel `{}`: a period of {degrees} degrees, expected an angle in deg or rad and a period of 1 to 360 degrees",
                 crate::shown(name)
             ),
             ChannelError::Twice { name } => {
@@ -318,7 +318,7 @@ mod tests {
     #[test]
     fn a_force_in_millimetres_is_refused() {
         let error = Channel::named("Fz", Unit::Millimetre).expect_err("Fz is in N");
-        assert_eq!(error.to_string(), "channel `Fz` is kept in N, not in mm");
+        assert_eq!(error.to_string(), "channel `Fz` is in N, found mm");
     }
 
     #[test]

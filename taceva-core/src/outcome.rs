@@ -119,7 +119,7 @@ impl TryFrom<String> for PressOutcome {
         let names = || PressOutcome::ALL.map(PressOutcome::name).join(", ");
         PressOutcome::from_name(&name).ok_or_else(|| {
             format!(
-                "`{}` is no way a press ends, expected one of {}",
+                "`{}` is not an outcome of a press, expected one of {}",
                 crate::shown(&name),
                 names()
             )

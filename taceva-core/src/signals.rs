@@ -186,7 +186,7 @@ mod tests {
         let error = Signals::new(info, vec![0.0; 4]).expect_err("one too many");
         assert_eq!(
             error.to_string(),
-            "4 signals for 1×3 places of 1 in V, which are 3"
+            "4 signals for 1×3 places of 1 in V, expected 3"
         );
     }
 }

@@ -78,17 +78,13 @@ impl fmt::Display for SkipReason {
         match self {
             SkipReason::FieldAbsent(field) => write!(f, "no sample carries `{field}`"),
             SkipReason::ChannelAbsent(channel) => {
-                write!(
-                    f,
-                    "nothing is scored on a channel `{}`",
-                    crate::shown(channel)
-                )
+                write!(f, "channel `{}` is not scored", crate::shown(channel))
             }
             SkipReason::FactAbsent(fact) => write!(f, "the sensor's `{fact}` is not declared"),
             SkipReason::GelIsOpaque => {
                 f.write_str("the gel is opaque: ambient light cannot reach the camera")
             }
-            SkipReason::NothingReadsIt => f.write_str("nothing that was asked for reads it"),
+            SkipReason::NothingReadsIt => f.write_str("no requested result reads it"),
             SkipReason::NoSplit(why) => {
                 write!(
                     f,
@@ -97,7 +93,7 @@ impl fmt::Display for SkipReason {
                 )
             }
             SkipReason::NotWanted => f.write_str("not asked for"),
-            SkipReason::AlreadyThere => f.write_str("a finished one was given"),
+            SkipReason::AlreadyThere => f.write_str("a finished result was given"),
         }
     }
 }
@@ -113,13 +109,13 @@ mod tests {
             lines,
             [
                 "no sample carries `repeat`",
-                "nothing is scored on a channel `Px`",
+                "channel `Px` is not scored",
                 "the sensor's `footprint` is not declared",
                 "the gel is opaque: ambient light cannot reach the camera",
-                "nothing that was asked for reads it",
+                "no requested result reads it",
                 "the samples cannot be divided into parts: 2 points are too few",
                 "not asked for",
-                "a finished one was given",
+                "a finished result was given",
             ]
         );
     }

@@ -96,7 +96,7 @@ impl fmt::Display for MetricError {
                 reference,
             } => write!(
                 f,
-                "{estimate} estimates beside {reference} references, expected as many"
+                "{estimate} estimates and {reference} references, expected equal numbers"
             ),
             MetricError::Rows {
                 what,
@@ -104,7 +104,7 @@ impl fmt::Display for MetricError {
                 found,
             } => write!(
                 f,
-                "{found} rows of {}, expected {expected} as of the first channel",
+                "{found} rows of {}, expected {expected} as in the first channel",
                 shown(what)
             ),
             MetricError::Columns {

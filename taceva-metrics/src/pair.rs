@@ -130,7 +130,7 @@ mod tests {
         let error = Paired::try_columns(&[1.0], &[]).expect_err("one and none");
         assert_eq!(
             error.to_string(),
-            "1 estimates beside 0 references, expected as many"
+            "1 estimates and 0 references, expected equal numbers"
         );
     }
 

@@ -80,7 +80,7 @@ impl Model {
         let shape = input.features.shape();
         if input.training.features.shape() != shape {
             return Err(invalid(format!(
-                "training features of shape {:?}, asked for {:?}",
+                "training features of shape {:?}, expected {:?}",
                 input.training.features.shape(),
                 shape
             )));
@@ -297,7 +297,7 @@ impl Model {
         let (found, expected) = (features.shape(), self.card.features.shape());
         if found != expected {
             return Err(invalid(format!(
-                "signals of shape {found:?} for a model of {expected:?}"
+                "signals of shape {found:?}, expected {expected:?}"
             )));
         }
         Ok(Some(divided(features, spread)))

@@ -28,7 +28,7 @@ impl SettingInfo {
         key: "refit",
         accepts: "true or false",
         default: "true",
-        about: "whether the validation part is learnt from too, once the settings are chosen",
+        about: "whether the model is fitted on the validation part too, once the settings are chosen",
     };
 }
 

@@ -92,8 +92,8 @@ fn what_a_network_alone_sees_is_given_to_the_network_after_one_look() {
     let ridge = card.tried.iter().find(|trial| trial.model == "ridge");
     assert!(ridge.expect("tried").error > 1.5 * best.error, "{card}");
     let said = reason(&model, "random-forest");
-    assert_eq!(said, "cnn is clearly ahead of all that take less");
-    assert!(reason(&model, "resnet18").contains("fitted where it is named"));
+    assert_eq!(said, "cnn is clearly ahead of all cheaper models");
+    assert!(reason(&model, "resnet18").contains("name this model to fit it"));
     // As the preset `default` has it.
     let alone = fit("cnn", &["appearance=auto"], &recording, None);
     assert_eq!(model.regressor(), alone.regressor());

@@ -297,7 +297,7 @@ fn a_checkpoint_of_before_convolutions_had_forms_is_refused_by_its_format() {
         .expect_err("another form");
     let said = error.to_string();
     assert!(
-        said.contains("format 2, expected 3") && said.contains("remove it to begin anew"),
+        said.contains("format 2, expected 3") && said.contains("remove it to start again"),
         "{said}"
     );
     assert!(fs::read(&path).expect("there") == older);

@@ -269,7 +269,7 @@ fn settings_and_names_of_a_plugin_are_checked_with_what_would_be_accepted() {
     let error = models.find("org.example.first/frist").map(drop);
     let error = error.expect_err("a typing mistake").to_string();
     assert!(
-        error.starts_with("no plugin that was found has the model"),
+        error.starts_with("no available plugin has the model"),
         "{error}"
     );
     assert!(

@@ -116,7 +116,7 @@ fn pictures_without_spacings_and_pictures_of_another_size_are_refused() {
     for few in [&spacings[..0], &spacings[1..]] {
         let said = fit(few).expect_err("refused").to_string();
         let expected = format!(
-            "12 pictures of gratings and {} spacings, expected as many of each, at least one",
+            "12 pictures of gratings and {} spacings, expected equal numbers, at least one",
             few.len()
         );
         assert_eq!(said, expected);
@@ -124,6 +124,9 @@ fn pictures_without_spacings_and_pictures_of_another_size_are_refused() {
     let other = Features::new(FeatureShape::flat(20), vec![0.5; 20]).expect("whole");
     for fitted in [fit(&spacings), fit(&[spacings[0]; 12])] {
         let said = fitted.expect("fits").predict(&other).expect_err("refused");
-        assert_eq!(said.to_string(), "pictures of 20 features, fitted to 768");
+        assert_eq!(
+            said.to_string(),
+            "pictures of 20 features, expected 768 as in the fit"
+        );
     }
 }

@@ -79,7 +79,7 @@ proptest! {
         let input = SplitInput { rows, points: Some(&points), ..SplitInput::default() };
         let random = spec("random").assign(&input, seed).expect("enough samples");
         let by_point = spec("by-point").assign(&input, seed).expect("enough points");
-        prop_assert!(by_point.note.as_deref().is_some_and(|note| note.contains("by-point is random")));
+        prop_assert!(by_point.note.as_deref().is_some_and(|note| note.contains("by-point equals random")));
         prop_assert_eq!(by_point, Split { note: by_point_note(), ..random });
     }
 
@@ -96,7 +96,7 @@ proptest! {
 }
 
 fn by_point_note() -> Option<String> {
-    Some("every sample is a point of its own: by-point is random".into())
+    Some("every sample is its own contact point: by-point equals random".into())
 }
 
 #[test]
@@ -171,7 +171,7 @@ fn assigned_values_go_where_they_are_sent_and_others_are_counted() {
     );
     assert_eq!(
         split.note.as_deref(),
-        Some("1 samples are left out: nobody assigned their `repeat`")
+        Some("1 samples are left out: their `repeat` is assigned to no part")
     );
     let split = spec("by-column:repeat=train:1;test:2")
         .assign(&input, 0)

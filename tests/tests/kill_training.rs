@@ -212,7 +212,7 @@ fn a_checkpoint_of_another_training_stops_the_command_and_force_begins_anew() {
     let said = complaint(&refused);
     assert_eq!(refused.status.code(), Some(3), "{said}");
     assert!(
-        said.contains("is of another training, with other settings"),
+        said.contains("belongs to another training, with other settings"),
         "{said}"
     );
     assert_eq!(fs::read(&checkpoint).expect("there"), left);
@@ -233,7 +233,7 @@ fn a_training_that_breaks_names_the_step_and_keeps_its_best_epoch() {
         said.contains("step ") && said.contains("is not finite"),
         "{said}"
     );
-    assert!(said.contains("is kept in"), "{said}");
+    assert!(said.contains("is saved in"), "{said}");
     assert!(!bench.path("broken.model").exists());
     let again = output(&mut bench.fit("broken.model", &settings));
     assert_eq!(

@@ -137,7 +137,7 @@ impl Architecture {
         let features = self.pooling().features(picture) as u128;
         count += (features + 1) * self.outputs as u128;
         usize::try_from(count).map_err(|_| NetworkError::Architecture {
-            reason: format!("{count} parameters: too many"),
+            reason: format!("{count} parameters are too many"),
         })
     }
 
@@ -149,7 +149,7 @@ impl Architecture {
         let refuse = |reason: String| Err(NetworkError::Architecture { reason });
         if self.input.is_empty() || self.outputs == 0 {
             return refuse(format!(
-                "pictures of {} and {} outputs: none may be zero",
+                "pictures of {} and {} outputs, expected numbers above 0",
                 self.input, self.outputs
             ));
         }
@@ -165,7 +165,8 @@ impl Architecture {
                     || layer.stride == 0
                 {
                     return refuse(format!(
-                        "layer {position}: {} channels, kernel {}, stride {}: channels are a multiple of {PANEL}, kernels odd and at most 15, strides at least 1",
+                        "layer {position}: {} channels, kernel {}, stride {}; expected a multiple of {PANEL} channels, an odd kernel of \
+                            at most 15, a stride of at least 1",
                         layer.channels, layer.kernel, layer.stride
                     ));
                 }

@@ -13,7 +13,7 @@ pub enum NetworkError {
         reason: String,
     },
     /// A tensor of the architecture is missing.
-    #[error("no tensor `{name}`, which the architecture has", name = taceva_core::shown(name))]
+    #[error("the tensor `{name}` of the architecture is missing", name = taceva_core::shown(name))]
     MissingTensor {
         /// Name of the tensor.
         name: String,
@@ -45,7 +45,7 @@ pub enum NetworkError {
         position: usize,
     },
     /// The number of values is not a multiple of the picture size.
-    #[error("{values} numbers are no whole number of pictures of {expected}")]
+    #[error("{values} numbers, expected a multiple of a picture of {expected}")]
     Pictures {
         /// Number of values found.
         values: usize,
@@ -85,7 +85,7 @@ pub enum NetworkError {
         output: usize,
     },
     /// A class is not below the number of outputs.
-    #[error("{part} sample {sample}: class {class}, the network has 0 to {}", classes - 1)]
+    #[error("{part} sample {sample}: class {class}, expected 0 to {}", classes - 1)]
     Class {
         /// Use of the samples.
         part: SampleSet,
@@ -105,7 +105,7 @@ pub enum NetworkError {
         value: f64,
     },
     /// There are fewer samples than a batch.
-    #[error("{samples} training samples, a batch takes {batch}")]
+    #[error("{samples} training samples, fewer than a batch of {batch}")]
     FewSamples {
         /// Number of training samples.
         samples: usize,
@@ -135,7 +135,7 @@ pub enum NetworkError {
         step: u64,
     },
     /// The checkpoint belongs to another training.
-    #[error("the checkpoint is of another training: {what}")]
+    #[error("the checkpoint belongs to another training: {what}")]
     Checkpoint {
         /// The difference.
         what: String,
@@ -150,14 +150,14 @@ pub enum NetworkError {
     },
     /// Too little memory for transformed weights.
     #[error(
-        "no room in memory for {bytes} bytes of transformed weights: free some, or take a network of fewer channels"
+        "cannot allocate {bytes} bytes for transformed weights: free memory, or use a network with fewer channels"
     )]
     Memory {
         /// Bytes of the transformed weights.
         bytes: usize,
     },
     /// The buffer for results has the wrong length.
-    #[error("room for {found} numbers where {expected} are written")]
+    #[error("a buffer of {found} numbers, expected {expected}")]
     Room {
         /// Length of the buffer.
         found: usize,

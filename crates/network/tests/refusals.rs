@@ -19,7 +19,7 @@ fn samples_that_cannot_be_learnt_from_are_refused_where_they_stand() {
     let few = sums(1, 7);
     assert_eq!(
         refusal(&recipe(), values(&few)),
-        "7 training samples, a batch takes 8"
+        "7 training samples, fewer than a batch of 8"
     );
     let mut constant = good.clone();
     constant
@@ -52,7 +52,7 @@ fn samples_that_cannot_be_learnt_from_are_refused_where_they_stand() {
     let torn = (good.0[1..].to_vec(), good.1.clone());
     assert_eq!(
         refusal(&recipe(), values(&torn)),
-        "1919 numbers are no whole number of pictures of 12×10×1"
+        "1919 numbers, expected a multiple of a picture of 12×10×1"
     );
     let classes = vec![2; 16];
     let samples = Samples {
@@ -65,7 +65,7 @@ fn samples_that_cannot_be_learnt_from_are_refused_where_they_stand() {
     };
     assert_eq!(
         refusal(&entropy, samples),
-        "training sample 0: class 2, the network has 0 to 1"
+        "training sample 0: class 2, expected 0 to 1"
     );
     assert!(refusal(&recipe(), samples).starts_with("`loss`: a distance of classes"));
     assert!(refusal(&entropy, values(&good)).starts_with("`loss`: cross entropy of numbers"));
@@ -197,11 +197,11 @@ fn tensors_of_another_network_are_refused_by_name() {
     };
     assert_eq!(
         refused(|tensors| drop(tensors.remove(0))),
-        "no tensor `fc.bias`, which the architecture has"
+        "the tensor `fc.bias` of the architecture is missing"
     );
     assert_eq!(
         refused(|tensors| tensors[0].name = "fc.biass".into()),
-        "no tensor `fc.bias`, which the architecture has"
+        "the tensor `fc.bias` of the architecture is missing"
     );
     assert_eq!(
         refused(|tensors| tensors.push(NamedTensor {
@@ -239,7 +239,7 @@ fn a_checkpoint_of_another_training_is_refused() {
         Trainer::resume(checkpoint.clone(), values(&other), None).expect_err("other samples");
     assert_eq!(
         error.to_string(),
-        "the checkpoint is of another training: 16 samples, now there are 24"
+        "the checkpoint belongs to another training: 16 samples, expected 24"
     );
     let mut torn = checkpoint.clone();
     torn.tensors
@@ -247,7 +247,7 @@ fn a_checkpoint_of_another_training_is_refused() {
     let error = Trainer::resume(torn, values(&training), None).expect_err("a tensor is missing");
     assert_eq!(
         error.to_string(),
-        "the checkpoint is of another training: `moment.0.features.0.1.bias` is missing or does not have 16 numbers"
+        "the checkpoint belongs to another training: `moment.0.features.0.1.bias` is missing or does not have 16 numbers"
     );
 }
 
@@ -273,7 +273,7 @@ fn networks_that_cannot_be_built_are_refused() {
             input: nothing,
             ..architecture()
         })
-        .contains("none may be zero")
+        .contains("expected numbers above 0")
     );
     let huge = Picture {
         height: 1 << 20,

@@ -40,7 +40,7 @@ fn declared<'a>(tried: &'a Subject<'_>) -> Result<&'a [String], Unmet> {
 fn holding(tried: &Subject<'_>) -> Result<(Box<dyn Changer>, Vec<String>), Unmet> {
     let changer = tried.open()?;
     match changer.holds().to_vec() {
-        holds if holds.is_empty() => Err(skipped("with these arguments it holds nothing")),
+        holds if holds.is_empty() => Err(skipped("the changer holds nothing with these arguments")),
         holds => Ok((changer, holds)),
     }
 }
@@ -52,7 +52,7 @@ fn brings_each(tried: &Subject<'_>) -> Result<(), Unmet> {
     for name in holds.iter().chain(&holds).flat_map(|name| [name, name]) {
         let there = changer.bring(name, tried.trial.deadline)?;
         expect(there == *name, || {
-            format!("asked for `{name}`, it says that `{there}` is in place")
+            format!("asked to bring `{name}`, it reports `{there}` in place")
         })?;
     }
     Ok(())
@@ -63,7 +63,7 @@ fn refuses_others(tried: &Subject<'_>) -> Result<(), Unmet> {
     for stranger in ["", &format!("{}x", holds[0])] {
         let brought = changer.bring(stranger, tried.trial.deadline);
         let kinds = [ErrorKind::InvalidArgument];
-        refused("a name that it does not hold", brought, &kinds)?;
+        refused("bringing an unknown name", brought, &kinds)?;
     }
     Ok(())
 }
@@ -92,7 +92,7 @@ fn interrupt(tried: &Subject<'_>) -> Result<(), Unmet> {
     let at = alarm.wait()?;
     if brought.is_err() {
         let kinds = [ErrorKind::Interrupted];
-        refused("a change that was interrupted", brought, &kinds)?;
+        refused("an interrupted change", brought, &kinds)?;
         let late = ended.saturating_duration_since(at);
         was_within(
             "the change after an interrupt",

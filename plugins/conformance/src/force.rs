@@ -50,12 +50,12 @@ fn measures(tried: &Subject<'_>) -> Result<(), Unmet> {
         for (axis, value) in Axis::ALL.into_iter().zip(components(&wrench)) {
             let name = axis.name();
             expect(axes.contains(axis) || value.abs() <= 0.0, || {
-                format!("{name} is {value}, yet it is not measured")
+                format!("{name} is {value}, expected 0 on an axis that is not measured")
             })?;
             let is_force = matches!(axis, Axis::Fx | Axis::Fy | Axis::Fz);
             if let Some(most) = facts.force_max.filter(|_| is_force) {
                 expect(value.abs() < most.0, || {
-                    format!("{name} is {value} N, expected an error at or beyond {most}")
+                    format!("{name} is {value} N, expected an error from {most} on")
                 })?;
             }
         }

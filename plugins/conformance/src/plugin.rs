@@ -243,7 +243,7 @@ pub fn check(
             if let Some((why, how)) = cause {
                 match causes.entry((key.map(ToString::to_string), why)) {
                     Entry::Occupied(first) => {
-                        let why = format!("for the reason why `{}` {how}", first.get());
+                        let why = format!("same reason as `{}`, which {how}", first.get());
                         outcome = Outcome::Skipped(why);
                     }
                     Entry::Vacant(first) => {

@@ -96,17 +96,17 @@ pub(crate) fn in_order(stamps: &[Stamp]) -> Result<(), Unmet> {
     {
         expect(
             valid_s.is_finite() && received_s.is_none_or(f64::is_finite),
-            || format!("a stamp of {valid_s} s, received at {received_s:?}"),
+            || format!("valid at {valid_s} s, received at {received_s:?}, expected finite times"),
         )?;
         expect(
             received_s.is_none_or(|received| received >= *valid_s),
-            || format!("received at {received_s:?} before it was true at {valid_s} s"),
+            || format!("received at {received_s:?}, before it was valid at {valid_s} s"),
         )?;
     }
     for pair in stamps.windows(2) {
         let (before, after) = (pair[0].valid_s, pair[1].valid_s);
         expect(before < after, || {
-            format!("a stamp of {after} s after one of {before} s")
+            format!("a stamp of {after} s after one of {before} s, expected increasing stamps")
         })?;
     }
     Ok(())

@@ -44,7 +44,7 @@ fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
         let (pose, stamp) = robot.pose(tried.trial.deadline)?;
         in_order(&[stamp])?;
         expect(last.valid_s <= stamp.valid_s, || {
-            "a pose older than the one before".to_owned()
+            "a pose is older than the one before".to_owned()
         })?;
         near(tried, &pose, &first)?;
         last = stamp;
@@ -52,7 +52,7 @@ fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
     let _ = tried.at_once("a pose without time", || robot.pose(Deadline::PASSED))?;
     match facts(tried)?.workspace {
         Some(workspace) => expect(workspace.contains(&first.position), || {
-            format!("stands at {:?}, outside its workspace", first.position)
+            format!("its position {:?} is outside its workspace", first.position)
         }),
         None => Ok(()),
     }
@@ -128,7 +128,7 @@ fn refuses_too_fast(tried: &Subject<'_>) -> Result<(), Unmet> {
     let too_fast = speed(2.0 * greatest.mm_per_s())?;
     let moved = robot.move_to(course.away, too_fast, tried.trial.deadline);
     refused(
-        "moving twice as fast as it can",
+        "moving at twice its greatest speed",
         moved,
         &[ErrorKind::OutOfRange],
     )?;
@@ -180,7 +180,7 @@ fn latches_halt(tried: &Subject<'_>) -> Result<(), Unmet> {
         // A requested halt needs no acknowledgement; a fault would.
         let fault = moved.as_ref().err().and_then(DriverError::fault);
         expect(fault.is_none(), || {
-            "moving after a halt names a fault, expected one of the device alone".to_owned()
+            "moving after a requested halt names a fault, expected none".to_owned()
         })?;
         refused("moving after a halt", moved, &[ErrorKind::Interrupted])?;
     }
@@ -227,7 +227,7 @@ fn halts_from_another_thread(tried: &Subject<'_>) -> Result<(), Unmet> {
         .ok_or_else(|| broken("the halt did not return"))?;
     result?;
     match moved {
-        Ok(_) => return Err(broken("accepted a motion after it was halted")),
+        Ok(_) => return Err(broken("it accepted a motion after a halt")),
         Err((error, returned)) => {
             refused(
                 "moving while it was halted",
@@ -319,7 +319,7 @@ impl Course {
             .filter(|workspace| !workspace.contains(&away.position))
         {
             return Err(broken(format!(
-                "{} of travel away from {:?} leaves the workspace down to {:?}",
+                "{} of travel away from {:?} leaves the workspace, whose least corner is {:?}",
                 tried.trial.travel, home.position, workspace.least
             )));
         }
@@ -364,6 +364,6 @@ fn near(tried: &Subject<'_>, found: &Pose, expected: &Pose) -> Result<(), Unmet>
         .iter()
         .all(|difference| difference.abs() <= tolerance_mm);
     expect(is_near, || {
-        format!("stands at {found:?}, expected {expected:?} within {tolerance_mm} mm")
+        format!("its pose is {found:?}, expected {expected:?} within {tolerance_mm} mm")
     })
 }

@@ -34,7 +34,7 @@ fn gives_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     let facts = facts.ok_or_else(|| broken("does not declare itself a sensor"))?;
     let given = tried.open()?.frame_info();
     expect(given.byte_len().is_some_and(|length| length > 0), || {
-        format!("frames of {given}, which no buffer can hold")
+        format!("frames of {given} fit no buffer")
     })?;
     if let Some(declared) = facts.frame {
         expect(given == declared, || {
@@ -44,7 +44,7 @@ fn gives_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     stream::gives(tried)?;
     match facts.frame {
         Some(_) => Ok(()),
-        None => Err(skipped(format!("{given}, and declares no size"))),
+        None => Err(skipped(format!("frames of {given}, no size declared"))),
     }
 }
 

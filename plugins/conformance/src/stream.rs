@@ -228,7 +228,9 @@ pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
         items.collect()
     };
     let (first, second) = (items()?, items()?);
-    expect(first == second, || "two runs differ".to_owned())
+    expect(first == second, || {
+        "two runs give different data".to_owned()
+    })
 }
 
 /// Passes for an ability that is present and declared, and skips one that is neither. Breaks the promise if the two differ.
@@ -237,10 +239,10 @@ pub(crate) fn as_declared(ability: &str, declared: bool, has: bool) -> Result<()
         (true, true) => Ok(()),
         (false, false) => Err(skipped(format!("it does not {ability}"))),
         (false, true) => Err(crate::promise::broken(format!(
-            "it cannot {ability}, yet declares it"
+            "it declares that it can {ability}, but it cannot"
         ))),
         (true, false) => Err(crate::promise::broken(format!(
-            "it can {ability}, yet does not declare it"
+            "it can {ability}, but does not declare it"
         ))),
     }
 }

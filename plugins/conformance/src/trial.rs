@@ -213,6 +213,6 @@ impl Alarm {
     /// The moment of the interrupt, waited for.
     pub(crate) fn wait(&self) -> Result<Instant, Unmet> {
         let rung = self.rung.recv_timeout(Duration::from_secs(10));
-        rung.map_err(|_| broken("the interrupt itself did not return"))
+        rung.map_err(|_| broken("the interrupt did not return within 10 s"))
     }
 }

@@ -75,8 +75,7 @@ pub(crate) fn wrench(wrench: &Wrench) -> Result<AbiWrench, Failure> {
 pub(crate) fn stamp(stamp: &Stamp) -> Result<AbiStamp, Failure> {
     let is_time = |time_s: f64| time_s.is_finite() && time_s >= 0.0;
     if !is_time(stamp.valid_s) || !stamp.received_s.is_none_or(is_time) {
-        let message =
-            format!("the stamp {stamp:?} is no time of a clock that counts from its start");
+        let message = format!("the stamp {stamp:?} is not a time since the start of a clock");
         return Err(Failure::device(message));
     }
     Ok(AbiStamp {

@@ -34,7 +34,7 @@ pub(crate) fn find<T: Any + Send + Sync>(handle: *const c_void) -> Result<Arc<T>
     drop(open);
     thing
         .and_then(|thing| thing.downcast().ok())
-        .ok_or_else(|| Failure::argument("the handle is none that is open, or of another kind"))
+        .ok_or_else(|| Failure::argument("the handle is not open, or of another kind"))
 }
 
 /// Removes a handle and drops its object. If a call on another thread still uses the object, that call drops it.
@@ -84,7 +84,7 @@ impl<T> Handle<T> {
         if self.is_dead.load(Ordering::Acquire) {
             return Err(Failure::new(
                 ErrorKind::Panicked,
-                "a call before this one panicked: the device must be closed",
+                "an earlier call panicked: close the device",
             ));
         }
         let mut device = match self.device.try_lock() {
@@ -93,7 +93,7 @@ impl<T> Handle<T> {
             Err(TryLockError::WouldBlock) => {
                 return Err(Failure::new(
                     ErrorKind::Busy,
-                    "another call on the device is under way",
+                    "another call on the device is in progress",
                 ));
             }
         };

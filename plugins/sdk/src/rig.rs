@@ -121,7 +121,7 @@ fn specimen(abi: &AbiSpecimen) -> Result<Specimen, Failure> {
         AbiSpecimen::LINE => Ok(grating(GratingKind::Line)),
         AbiSpecimen::DOT => Ok(grating(GratingKind::Dot)),
         other => Err(Failure::argument(format!(
-            "a specimen of the unknown kind {other}"
+            "a specimen of unknown kind {other}"
         ))),
     }
 }

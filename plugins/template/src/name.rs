@@ -53,7 +53,7 @@ impl FromStr for Name {
             ));
         }
         if TAKEN.split(' ').any(|taken| taken == text) {
-            return Err(refused("expected a name that Rust has not taken"));
+            return Err(refused("expected a name that is not reserved"));
         }
         Ok(Name(text.to_owned()))
     }
@@ -67,7 +67,7 @@ impl fmt::Display for Name {
 
 /// Text that is no valid name of a plugin.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{text:?} is no name for a plugin, {problem}")]
+#[error("{text:?} is not a valid name for a plugin, {problem}")]
 pub struct NameError {
     text: String,
     problem: &'static str,

@@ -89,7 +89,7 @@ fn few_points_are_each_tested_on_once_and_no_frame_is_decoded_twice() {
     bench.refused(
         "evaluate data --model ridge --split 35/20/10",
         2,
-        "expected shares that come to 100",
+        "expected shares that add up to 100",
     );
 }
 

@@ -148,7 +148,7 @@ fn a_folder_that_is_there_is_left_alone_and_a_name_that_cannot_be_is_refused() {
     for name in ["../mine", "Mine", "move"] {
         let (is_done, said) = new(name);
         assert!(
-            !is_done && said.contains("is no name for a plugin"),
+            !is_done && said.contains("is not a valid name for a plugin"),
             "{said}"
         );
     }

@@ -96,7 +96,7 @@ fn an_evaluation_that_reads_no_frame_decodes_none() {
     assert_eq!(report["provenance"]["frames_decoded"], 0);
     let plan = bench.ok("evaluate data --model baseline --split by-point --explain");
     assert!(
-        plan.contains("field:frame") && plan.contains("nothing that was asked for reads it"),
+        plan.contains("field:frame") && plan.contains("no requested result reads it"),
         "{plan}"
     );
     let plan = bench.ok("evaluate data --model ridge --split by-point --explain");

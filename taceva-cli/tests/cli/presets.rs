@@ -124,7 +124,7 @@ fn a_model_left_open_says_what_was_tried_and_what_a_network_would_have_taken() {
         bench.json("evaluate data --model auto --split by-point --set budget_s=0.5 --metrics mae");
     let notes = found["provenance"]["notes"].as_array().expect("a list");
     let mut notes = notes.iter().filter_map(|note| note.as_str());
-    let note = notes.find(|note| note.starts_with("auto took "));
+    let note = notes.find(|note| note.starts_with("auto chose "));
     let note = note.expect("it says how");
     assert!(note.contains("; not tried: "), "{note}");
     assert!(note.contains("of budget_s=0.5 are left"), "{note}");

@@ -76,18 +76,18 @@ fn taxels_are_imported_checked_fitted_and_evaluated() {
     bench.refused(
         "evaluate data --model cnn",
         3,
-        "a network slides over a grid of at least 8×8 places, and this one has 2×2 places of 1 in V",
+        "a network needs a grid of at least 8×8 places, found 2×2 places of 1 in V",
     );
     bench.refused(
         "evaluate data --model ridge --set size=8",
         3,
-        "`size=8` applies to frames, and the recording has signals alone",
+        "`size=8` applies to frames, but the recording has signals alone",
     );
     bench.record("pictures", 64);
     bench.refused(
         "evaluate pictures --model ridge --set input=signals",
         3,
-        "the recording has no signals; `input=frame` would be accepted",
+        "the recording has no signals; set `input=frame`",
     );
     bench.refused(
         "evaluate pictures --with skin.safetensors",

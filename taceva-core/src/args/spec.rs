@@ -220,13 +220,13 @@ impl ArgSpec {
         }
         match (&self.unit, &self.presence) {
             (Some(unit), _) if !is_number => Some(format!(
-                "argument `{key}` is no number, yet has the unit {unit}"
+                "argument `{key}` is not a number, but has the unit {unit}"
             )),
             (Some(unit), _) if SourceUnit::parse(unit).is_err() => {
                 Some(format!("argument `{key}` has the unknown unit `{unit}`"))
             }
             (_, Presence::Default(value)) if !self.accepts(value) => Some(format!(
-                "argument `{key}` is `{value}` by default, yet expects {}",
+                "the default of argument `{key}` is `{value}`, expected {}",
                 self.expected()
             )),
             _ => None,

@@ -81,7 +81,7 @@ impl Features {
         };
         if !whole {
             let message = format!(
-                "{} values are no whole number of samples of {}",
+                "{} values, expected a multiple of the {} values of a sample",
                 values.len(),
                 shape.len()
             );
@@ -162,7 +162,7 @@ impl Features {
     pub fn followed_by(&self, other: &Features) -> Result<Features, ModelError> {
         if self.shape != other.shape {
             let message = format!(
-                "samples of {} features after samples of {}",
+                "samples of {} features, expected {} as in the samples before",
                 other.shape.len(),
                 self.shape.len()
             );

@@ -99,7 +99,7 @@ impl DescriptorSpec {
 fn sensor_fault(facts: &SensorFacts) -> Option<String> {
     if facts.opaque == Some(true) && !facts.scenes.is_empty() {
         return Some(format!(
-            "an opaque gel, yet the light around it can be set to `{}`",
+            "the gel is opaque, but the light around it can be set to `{}`",
             facts.scenes[0]
         ));
     }
@@ -107,7 +107,7 @@ fn sensor_fault(facts: &SensorFacts) -> Option<String> {
         .frame
         .filter(|frame| frame.byte_len().is_none_or(|len| len == 0))
     {
-        return Some(format!("frames of {frame}, which no buffer can hold"));
+        return Some(format!("frames of {frame} fit no buffer"));
     }
     if let Some([width, height]) = facts.camera.filter(|sides| sides.contains(&0)) {
         return Some(format!("a camera of {width}×{height} pixels"));
@@ -119,7 +119,7 @@ fn sensor_fault(facts: &SensorFacts) -> Option<String> {
         .filter(|(limit, footprint)| limit.0 > footprint.to_millimetres());
     if let Some((limit, footprint)) = beyond {
         return Some(format!(
-            "a depth limit of {limit}, yet the footprint is {footprint} deep"
+            "the depth limit is {limit}, but the footprint is {footprint} deep"
         ));
     }
     scenes_fault(&facts.scenes).or_else(|| {
@@ -136,14 +136,14 @@ fn sensor_fault(facts: &SensorFacts) -> Option<String> {
 
 fn robot_fault(facts: &RobotFacts, source: DriverSource) -> Option<String> {
     if source == DriverSource::Recorded {
-        return Some("a recorded robot, which could not be told where to move".to_owned());
+        return Some("a recorded robot cannot be moved".to_owned());
     }
     if let Some(workspace) = facts
         .workspace
         .filter(|workspace| !workspace.contains(&workspace.least))
     {
         return Some(format!(
-            "a workspace from {:?} to {:?}, which holds no place",
+            "the workspace from {:?} to {:?} is empty",
             workspace.least, workspace.greatest
         ));
     }
@@ -186,9 +186,7 @@ fn holds_fault(holds: &[String]) -> Option<String> {
     holds
         .iter()
         .find(|name| name.is_empty() || !seen.insert(*name))
-        .map(|name| {
-            format!("what it holds has the name {name:?}, which is empty or stands there twice")
-        })
+        .map(|name| format!("the name {name:?} in `holds` is empty or listed twice"))
 }
 
 fn positive(named: &[(&str, Option<f64>)]) -> Option<String> {

@@ -53,7 +53,7 @@ impl Rig {
         };
         match shared.downcast() {
             Ok(shared) => Ok(shared),
-            Err(_) => panic!("two drivers keep different things under the name `{name}`"),
+            Err(_) => panic!("two drivers share different types under the name `{name}`"),
         }
     }
 

@@ -43,7 +43,7 @@ impl fmt::Display for SignalError {
                 SignalInfo::LEN_MAX
             ),
             SignalError::Count { info, found } => {
-                write!(f, "{found} signals for {info}, which are {}", info.len())
+                write!(f, "{found} signals for {info}, expected {}", info.len())
             }
             SignalError::NotFinite { position, found } => {
                 write!(f, "signal {position} is {found}, expected a finite number")

@@ -226,10 +226,13 @@ fn a_device_that_answers_nan_or_saturates_or_stalls_is_caught() {
         (FaultKind::NotANumber, "`Fz` is NaN, expected a number"),
         (
             FaultKind::Saturation,
-            "Fz is 10 N, expected an error at or beyond 10 N",
+            "Fz is 10 N, expected an error from 10 N on",
         ),
         (FaultKind::Silence, "no answer within 1s (timeout)"),
-        (FaultKind::StaleStamp, "a stamp of 0.1 s after one of 0.1 s"),
+        (
+            FaultKind::StaleStamp,
+            "a stamp of 0.1 s after one of 0.1 s, expected increasing stamps",
+        ),
     ];
     for (kind, expected) in cases {
         let failing = Failing {

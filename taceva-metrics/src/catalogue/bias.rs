@@ -19,7 +19,7 @@ pub(crate) static BIAS: Metric = Metric {
     range: Range::Any,
     definition: "bias/1",
     reference: "mean of truth − prediction",
-    documentation: "By how much the truth exceeds the predictions on average: what a constant correction would remove.",
+    documentation: "Mean of truth − prediction: the constant that corrects the predictions on average.",
     needs: PAIR_NEEDS,
     formula: Formula(&PairFormula {
         streams: Streams::of(&[Stream::Residual]),

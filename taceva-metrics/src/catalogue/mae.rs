@@ -19,7 +19,7 @@ pub(crate) static MAE: Metric = Metric {
     range: Range::Positive,
     definition: "mae/1",
     reference: "TacEva, equation (1)",
-    documentation: "How far predictions are from the truth on average, in the unit of the channel.",
+    documentation: "Mean magnitude of the error, in the unit of the channel.",
     needs: PAIR_NEEDS,
     formula: Formula(&PairFormula {
         streams: Streams::of(&[Stream::Absolute]),

@@ -28,13 +28,13 @@ pub(crate) static NOISE_EQUIVALENT_FORCE: Metric = Metric {
     range: Range::Positive,
     definition: "noise_equivalent_force/1",
     reference: "Currie 1995, Pure and Applied Chemistry 67; ISO 11843-2, with the factor of the noncentral t distribution",
-    documentation: "The force that stands out of the noise of untouched pictures with 5 % of false alarms and 5 % of misses: \
-                    δ √(1 + 1/n) s, s the standard deviation (over n − 1) of predicted force over the n samples without \
-                    contact, |true Fz| < 0.02 N, and δ the factor for n − 1 degrees of freedom. Of forces only, and from ten such \
-                    samples on. It is no detection limit: that is not verified without light presses, which other places, \
-                    other days and the error at zero (see zero_error) make worse. `critical` is the threshold that zero \
-                    exceeds in 5 % of cases; `known_deviation` is 3.29 s, as if s were known. `independent_low` and \
-                    `independent_high` are its 95 % limits by the χ² distribution of s if samples are independent.",
+    documentation: "Least force that exceeds the noise of untouched pictures with 5 % of false alarms and 5 % of misses: δ √(1 + 1/n) s. \
+                    Here s is the standard deviation (over n − 1) of predicted force over the n samples without contact, |true Fz| < \
+                    0.02 N; δ is the factor for n − 1 degrees of freedom. Forces only, from ten such samples on. It is not a detection \
+                    limit: only light presses can verify one, and other places, other days and the error at zero (see zero_error) \
+                    increase it. `critical` is the threshold that zero exceeds in 5 % of cases; `known_deviation` is 3.29 s, as if s \
+                    were known. `independent_low` and `independent_high` are its 95 % limits by the χ² distribution of s if samples are \
+                    independent.",
     needs: IDLE_NEEDS,
     forces_only: true,
     constants: gate,

@@ -20,9 +20,8 @@ pub(crate) static R2: Metric = Metric {
     range: Range::BelowOne,
     definition: "r2/1",
     reference: "TacEva, equation (2)",
-    documentation: "Which share of the truth's spread the predictions explain: 1 is perfect, 0 is no better than always \
-                    predicting the mean of the evaluated truth, and below 0 is worse. Never clipped; undefined where the truth \
-                    does not vary.",
+    documentation: "Share of the variance of the truth that the predictions explain: 1 is perfect, 0 is no better than the mean of the \
+                    evaluated truth as a constant prediction, and below 0 is worse. Never clipped; undefined if the truth does not vary.",
     needs: PAIR_NEEDS.with_least_samples(2),
     formula: Formula(&PairFormula {
         streams: Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]),

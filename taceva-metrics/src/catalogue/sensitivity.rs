@@ -22,9 +22,10 @@ pub(crate) static SENSITIVITY: Metric = Metric {
     range: Range::Any,
     definition: "sensitivity/1",
     reference: "TacEva, equation (5)",
-    documentation: "A softer gel yields more, which is no merit by itself: the score describes. How far the gel yields per newton of normal force: the mean of indentation over force of all samples in \
-                    contact, those with shear too. slope is the line through the origin, which does not explode as the force \
-                    nears the gate; normal_only leaves out what has shear; map is the mean in each cell of the footprint.",
+    documentation: "Indentation of the gel per newton of normal force: the mean of indentation over force of all samples in contact, \
+                    with or without shear. The score is descriptive: a softer gel yields more, but is not better. `slope` is the slope \
+                    of the line through the origin, which stays finite as the force approaches the gate. `normal_only` omits samples \
+                    with shear; `map` is the mean in each cell of the footprint.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
         .with_channels(&["Pz", "Fz"])
         .with_least_samples(1),

@@ -20,12 +20,13 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     unit: ScoreUnit::One,
     range: Range::Positive,
     definition: "signal_to_repeatability/2",
-    reference: "standard deviation of the cells' means, less what s_r gives them, over the pooled repeatability standard deviation s_r of ISO 5725",
-    documentation: "How many times larger the differences between presses are than those between repeats of one press, less \
-                    what these give the means of so many repeats: sensors that were pressed twice and ten times score alike. A \
-                    sensor whose predictions never change repeats perfectly and has no signal: its value is 0. Undefined where \
-                    repeats do not differ at all although presses do. Where labels differ less from press to press than predictions of one press \
-                    do, the score is flagged `low stimulus` and takes part in no verdict: what predictions differ by is no signal.",
+    reference: "standard deviation of the cells' means, without the part that s_r explains, over s_r, the pooled repeatability standard \
+        deviation of ISO 5725",
+    documentation: "Ratio of the differences between presses to those between repeats of one press. The part that repeats explain is \
+                    subtracted first, so sensors pressed twice and ten times score alike. A sensor whose predictions never change \
+                    repeats perfectly but has no signal: its value is 0. Undefined if repeats are equal although presses differ. If \
+                    labels differ less between presses than predictions of one press do, the score is flagged `low stimulus` and takes \
+                    part in no verdict.",
     // Without labels it is not known whether there was a signal.
     needs: Needs::new(REPEAT_NEEDS.fields.with(Field::Truth)).with_least_samples(2),
     formula: Formula(&RepeatFormula {

@@ -26,11 +26,11 @@ pub(crate) static SKILL: Metric = Metric {
     range: Range::BelowOne,
     definition: "skill/1",
     reference: "mean squared error skill score: Murphy 1988, Monthly Weather Review 116",
-    documentation: "How much of the squared error of the best constant prediction the model takes away: 1 − MSE of the model / MSE of \
-                    the constant, 1 being perfect and 0 no better than the constant. The constant is the mean of the labels that \
-                    the model was fitted on; where those are not known, it is the mean of the evaluated truth, and the score is \
-                    flagged. In a plane both are squared distances, the constant a point. A channel whose interval of 95 % does \
-                    not lie above zero takes part in no verdict.",
+    documentation: "Share of the squared error of the best constant prediction that the model removes: 1 − MSE of the model / MSE of the \
+                    constant. 1 is perfect, and 0 is no better than the constant. The constant is the mean of the training labels. If \
+                    those are unknown, it is the mean of the evaluated truth, and the score is flagged. In a plane, both errors are \
+                    squared distances and the constant is a point. A channel takes part in verdicts only if its 95 % interval is above \
+                    zero.",
     needs: PAIR_NEEDS,
     verdict: VerdictRule::Skill,
     formula: Formula(&PairFormula {

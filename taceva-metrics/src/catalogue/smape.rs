@@ -23,9 +23,9 @@ pub(crate) static SMAPE: Metric = Metric {
     range: Range::BelowTwo,
     definition: "smape/1",
     reference: "TacEva, equation (3)",
-    documentation: "Errors relative to the mean magnitude of truth and prediction, as a fraction from 0 to 2 (the printer \
-                    multiplies by 100 where it writes %). ε is absolute, so that the value depends on the unit, which is \
-                    fixed to mm and N. Channels of both signs saturate towards 2 near zero: see smape_gated.",
+    documentation: "Error relative to the mean magnitude of truth and prediction, as a fraction from 0 to 2; output in % is multiplied \
+                    by 100. ε is absolute, so the value depends on the unit, which is fixed to mm and N. Channels of both signs saturate \
+                    towards 2 near zero: see smape_gated.",
     needs: PAIR_NEEDS,
     constants: epsilon,
     formula: Formula(&PairFormula {

@@ -25,7 +25,7 @@ pub(crate) static SMAPE_GATED: Metric = Metric {
     range: Range::BelowTwo,
     definition: "smape_gated/1",
     reference: "TacEva, equation (3), for |truth| ≥ 0.02 N or 0.02 mm",
-    documentation: "Like smape, of those samples only whose truth reaches the gate; n says how many those are.",
+    documentation: "Like smape, but only over samples whose truth reaches the gate; n is their number.",
     needs: PAIR_NEEDS,
     constants: epsilon_and_gate,
     formula: Formula(&PairFormula {

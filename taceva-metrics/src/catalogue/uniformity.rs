@@ -28,11 +28,10 @@ pub(crate) static UNIFORMITY: Metric = Metric {
     range: Range::Ratio,
     definition: "uniformity/2",
     reference: "TacEva, equation (6)",
-    documentation: "How alike the gel yields everywhere: 1 / (1 + σ/|μ|) of the mean sensitivities of the cells of the \
-                    footprint; 1 is the same everywhere. Few samples per cell look like a surface that is not uniform: debiased \
-                    takes that part away, and verdicts go by it: a surface that is not shown to differ from place to place \
-                    takes part in none. n_min_5 leaves out cells with fewer than five samples. normal_only leaves out what \
-                    has shear; mean and deviation are μ and σ.",
+    documentation: "Uniformity of the sensitivity of the gel: 1 / (1 + σ/|μ|) of the mean sensitivities of the cells of the footprint; 1 \
+                    is the same everywhere. With few samples per cell, noise makes a uniform surface look uneven. `debiased` removes \
+                    that part, and verdicts use it. A surface that is not shown to differ between places takes part in none. `n_min_5` \
+                    omits cells with fewer than five samples, `normal_only` samples with shear; `mean` and `deviation` are μ and σ.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
         .with_channels(&["Px", "Py", "Pz", "Fz"])
         .with_least_samples(1),

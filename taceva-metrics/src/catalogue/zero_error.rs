@@ -22,8 +22,8 @@ pub(crate) static ZERO_ERROR: Metric = Metric {
     range: Range::Any,
     definition: "zero_error/1",
     reference: "VIM 4.28, zero error: the measurement error where the value is zero",
-    documentation: "The force that is predicted on average where nothing is touched, |true Fz| < 0.02 N: what a tare would take \
-                    away. Of forces only, and from ten such samples on. It may exceed the noise-equivalent force.",
+    documentation: "Mean force that is predicted without contact, |true Fz| < 0.02 N; a tare removes it. Forces only, from ten such \
+                    samples on. It may exceed the noise-equivalent force.",
     needs: IDLE_NEEDS,
     forces_only: true,
     constants: gate,

@@ -22,7 +22,7 @@ use crate::stats::IntervalMethod;
 /// use taceva_metrics::{MetricPlan, catalogue};
 /// let channels = Channels::new([Channel::FZ])?;
 /// let plan = MetricPlan::new(&catalogue::ALL, channels, FieldSet::PAIRS);
-/// assert_eq!(plan.skipped()[0].reason.to_string(), "nothing is scored on a channel `Px`");
+/// assert_eq!(plan.skipped()[0].reason.to_string(), "channel `Px` is not scored");
 /// # Ok::<(), taceva_core::ChannelError>(())
 /// ```
 #[derive(Clone, Debug)]

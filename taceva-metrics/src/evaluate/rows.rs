@@ -91,7 +91,7 @@ impl Rows {
     /// let channels = Channels::new([Channel::FZ])?;
     /// let rows = Rows::new().pairs(Channel::FZ, &[0.25, 0.5], &[0.25]);
     /// let error = rows.into_batch(&channels).unwrap_err();
-    /// assert_eq!(error.to_string(), "1 estimates beside 2 references, expected as many");
+    /// assert_eq!(error.to_string(), "1 estimates and 2 references, expected equal numbers");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn into_batch(self, channels: &Channels) -> Result<Batch, MetricError> {

@@ -39,7 +39,7 @@ impl Record {
         &self,
     ) -> Result<(&[u64; C], &[ExactSum; S]), String> {
         if !self.values.is_empty() || !self.cells.is_empty() {
-            return Err("values or cells in a record that has none".to_owned());
+            return Err("the record has values or cells, expected none".to_owned());
         }
         self.with_cells()
     }
@@ -71,10 +71,10 @@ impl Record {
     ) -> Result<SortedMap<K, T>, String> {
         let mut cells = SortedMap::default();
         for (name, record) in &self.cells {
-            let key = parse(name).ok_or_else(|| format!("`{name}` is no key of a cell"))?;
+            let key = parse(name).ok_or_else(|| format!("`{name}` is not a key of a cell"))?;
             let sums = read(record).map_err(|what| format!("cell `{name}`: {what}"))?;
             if !cells.insert(key, sums) {
-                return Err(format!("cell `{name}` comes twice"));
+                return Err(format!("cell `{name}` occurs twice"));
             }
         }
         Ok(cells)

@@ -32,12 +32,12 @@ pub(crate) static CROSSTALK: Metric = Metric {
     range: Range::Greatest,
     definition: "crosstalk/1",
     reference: "joint least-squares slopes of each prediction on all truths, as shares of full scale",
-    documentation: "How far the prediction of one channel moves, as a share of its full scale, when another channel alone moves \
-                    over all of its own; full scale is the range of the truth. The score is the greatest magnitude between two \
-                    different channels; `matrix` has a row for each predicted and a column for each true channel, its diagonal \
-                    being 1 for a sensor without gain error. Where truths are so alike that no joint fit separates them, each \
-                    slope is that on its own truth alone, and the score is flagged. Of samples with all six channels, or all \
-                    of them that there are. A greatest value has no interval.",
+    documentation: "Change of the prediction of one channel, as a share of its full scale, when another channel alone moves over its \
+                    full scale; full scale is the range of the truth. The score is the greatest magnitude between two different \
+                    channels. `matrix` has a row for each predicted and a column for each true channel; its diagonal is 1 for a sensor \
+                    without gain error. If no joint fit separates the truths, each slope is fitted on its own truth alone, and the score \
+                    is flagged. Computed over samples with all six channels, or with all available ones. A greatest value has no \
+                    interval.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(3),
     ..Metric::of(&KIND)

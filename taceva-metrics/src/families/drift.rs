@@ -26,9 +26,8 @@ pub(crate) static DRIFT: Metric = Metric {
     range: Range::Any,
     definition: "drift/1",
     reference: "least-squares slope of truth − prediction over time",
-    documentation: "By how much the mean error changes an hour: the slope of the line that fits truth − prediction over time best. \
-                    Of positions and forces only. Where presses grow deeper as time goes by, an error that depends on depth \
-                    looks like drift.",
+    documentation: "Change of the mean error per hour: the slope of the line that best fits truth − prediction over time. Positions and \
+                    forces only. If presses get deeper over time, an error that depends on depth looks like drift.",
     needs: Needs::new(
         FieldSet::EMPTY
             .with(Field::Truth)

@@ -23,12 +23,12 @@ pub(crate) static HYSTERESIS: Metric = Metric {
     range: Range::Positive,
     definition: "hysteresis/1",
     reference: "TacEva, project page",
-    documentation: "The area between force over depth on the way in and on the way out, averaged over points; 1 N mm is 1 mJ. At \
-                    each point the branches are sorted by depth, forces at equal depths averaged, and both taken as straight \
-                    between their corners, over the depths that both reach; where they cross the area is split. \
-                    `signed_area` lets stretches in which the gel pushes harder on the way out count negative; `ratio` is the \
-                    area over the work of loading; `greatest_difference` the greatest distance of the branches as a share of \
-                    full scale, the greatest force of loading; `map` the area by place.",
+    documentation: "Area between the curves of force over depth of loading and unloading, averaged over points; 1 N mm is 1 mJ. At each \
+                    point, the branches are sorted by depth, forces at equal depths averaged, and the depths that both reach compared. \
+                    Both branches are interpolated linearly; where they cross, the area is split. `signed_area` counts stretches as \
+                    negative where the force of unloading is greater. `ratio` is the area over the work of loading. \
+                    `greatest_difference` is the greatest distance of the branches as a share of full scale, the greatest force of \
+                    loading. `map` is the area by place.",
     needs: Needs::new(
         FieldSet::EMPTY
             .with(Field::Truth)

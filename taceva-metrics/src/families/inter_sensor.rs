@@ -33,12 +33,12 @@ pub(crate) static INTER_SENSOR: Metric = Metric {
     range: Range::Positive,
     definition: "inter_sensor/1",
     reference: "TacEva, project page",
-    documentation: "How far apart the untouched surfaces of two units are once one is laid onto the other, averaged over all pairs \
-                    of units. A surface is the true Px, Py and the channel `surface_z` in mm where the indenter first met it, by \
-                    unit_id. Units are laid onto each other by points of the same point_id where three or more are shared, by 50 \
-                    steps of iterative closest point otherwise; the gap is the mean of both directions' mean distance to the \
-                    nearest point, over the points that lie in the hull of the other unit seen from above. `forward` is the \
-                    direction from the unit whose name comes first, `backward` the other; `matrix` has the gap of each pair.",
+    documentation: "Distance between the untouched surfaces of two aligned units, averaged over all pairs of units. The surface of a \
+                    unit_id is the true Px, Py and the channel `surface_z` in mm at first contact. Two units are aligned by their common \
+                    point_id if they share three or more, otherwise by 50 steps of iterative closest point. The gap is the mean distance \
+                    to the nearest point of the other unit, averaged over both directions. It uses points inside the hull of the other \
+                    unit, seen from above. `forward` starts from the unit whose name comes first, `backward` from the other; `matrix` \
+                    has the gap of each pair.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::UnitId))
         .with_channels(&["Px", "Py", SURFACE_CHANNEL])
         .with_least_samples(2),

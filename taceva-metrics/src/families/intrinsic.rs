@@ -29,13 +29,13 @@ pub(crate) static INTRINSIC: Metric = Metric {
     range: Range::NotNegative,
     definition: "intrinsic/2",
     reference: "TacEva, intrinsic properties; measured from the recording",
-    documentation: "`frame_rate`: one over the median interval between successive times; samples at one time are one frame; where \
-                    that interval is above 1 s, single pictures were taken, and rate, jitter and gaps are not defined. \
-                    `jitter`: standard deviation (over n − 1) of the intervals that are no gap. `dropped`: share of intervals that \
-                    are a gap, longer than 1.5 medians. `duplicated`: share of frames that are bit for bit the one before. \
-                    `field_of_view`: area of the convex hull of the true places with |true Fz| ≥ 0.02 N, or with true Pz > 0 \
-                    where no force is measured. `resolution`: pixels of a picture, as declared. They describe the recording: \
-                    presses that were never made at the rim are no part of the field of view, and pauses are gaps.",
+    documentation: "`frame_rate`: one over the median interval between successive times; samples at one time are one frame. If that \
+                    interval exceeds 1 s, these are single pictures, and rate, jitter and gaps are undefined. `jitter`: standard \
+                    deviation (over n − 1) of the intervals without gaps. `dropped`: share of intervals that are a gap, longer than 1.5 \
+                    medians. `duplicated`: share of frames that equal the one before, bit for bit. `field_of_view`: area of the convex \
+                    hull of the true places with |true Fz| ≥ 0.02 N, or with true Pz > 0 if no force is measured. `resolution`: pixels \
+                    of a picture, as declared. They describe the recording: the field of view omits a rim that was never pressed, and \
+                    pauses count as gaps.",
     needs: Needs::new(FieldSet::EMPTY),
     ..Metric::of(&KIND)
 };

@@ -27,10 +27,9 @@ pub(crate) static LINEARITY: Metric = Metric {
     range: Range::Greatest,
     definition: "linearity/1",
     reference: "independent linearity: greatest deviation from the least-squares line, as a share of full scale",
-    documentation: "The greatest distance of a prediction from the line that fits predictions to the truth best, as a share of \
-                    full scale, the range of the truth. The line's own error is no part of it: `slope` and `offset` say what a \
-                    recalibration would remove. It is set by single samples and grows with their number, so \
-                    that it has no interval.",
+    documentation: "Greatest distance of a prediction from the line that best fits predictions to the truth, as a share of full scale, \
+                    the range of the truth. It excludes the error of the line: `slope` and `offset` show what a recalibration would \
+                    remove. Single samples determine it and it grows with their number, so it has no interval.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(LEAST_SAMPLES),
     ..Metric::of(&KIND)

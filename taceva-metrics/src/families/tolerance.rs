@@ -33,11 +33,11 @@ pub(crate) static TOLERANCE: Metric = Metric {
     range: Range::Share,
     definition: "tolerance/1",
     reference: "distribution of |truth − prediction|",
-    documentation: "Which share of predictions is within 0.05 mm or 0.05 N of the truth, 0.5 for degrees and N mm; `curve` has the \
-                    share for tolerances from 0.01 to 2, or 0.1 to 20. Truth and prediction are rounded to a millionth of the \
-                    unit first, so that 0.40 is within 0.05 of 0.35; an error as large as the tolerance is within it. `of_constant` is the \
-                    share that the constant of the skill score reaches, where the training part is known: a score whose interval \
-                    does not lie above it takes part in no verdict.",
+    documentation: "Share of predictions within 0.05 mm or 0.05 N of the truth, 0.5 for degrees and N mm; `curve` has the share for \
+                    tolerances from 0.01 to 2, or 0.1 to 20. Truth and prediction are first rounded to a millionth of the unit, so 0.40 \
+                    is within 0.05 of 0.35; an error equal to the tolerance is within it. `of_constant` is the share that the constant \
+                    of the skill score reaches, if the training part is known. A score takes part in verdicts only if its interval is \
+                    above that share.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(1),
     constants: headline,
@@ -224,7 +224,7 @@ impl Channelwise for Tolerances {
         let is_possible = within.is_some_and(|within| within <= n)
             && of_constant.is_none_or(|of_constant| of_constant.met <= n);
         if !is_possible {
-            return Err(format!("more than {n} errors in classes"));
+            return Err(format!("classes hold more than {n} errors"));
         }
         Ok(ErrorCounts {
             n,

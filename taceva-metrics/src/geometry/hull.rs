@@ -47,7 +47,7 @@ impl Hull {
         let whole = values.len().is_multiple_of(2) && values.iter().all(|value| is_valid(*value));
         let hull = whole.then(|| Hull::of(corners.iter().copied()));
         let same = hull.filter(|hull| hull.corners == corners);
-        same.ok_or_else(|| "the corners of a hull are not those of one, anticlockwise".to_owned())
+        same.ok_or_else(|| "expected the corners of a convex hull, anticlockwise".to_owned())
     }
 
     /// The corners in order.

@@ -91,22 +91,23 @@ impl Standing {
         match self {
             Standing::Counts | Standing::SkillUnknown => None,
             Standing::Bounded => {
-                Some("bounded: more than 5 % of its predictions lie beyond the bounds of the model")
+                Some("bounded: more than 5 % of its predictions exceed the bounds of the model")
             }
             Standing::Neighbours => Some(
-                "neighbours in training: tested samples resemble neighbours that the model was fitted on, so the score flatters",
+                "neighbours in training: tested samples resemble training samples, so the score is too good",
             ),
             Standing::LowStimulus => Some(
-                "low stimulus: what it is formed from, the light of some scene or the labels of repeated presses, hardly changed",
+                "low stimulus: the light of some scene, or the labels of repeated presses, hardly changed",
             ),
             Standing::NotAboveNoiseFloor => Some(
-                "not above its noise floor: the differences between places are not shown to be more than chance gives so many samples",
+                "not above its noise floor: with this number of samples, the differences between places may be chance",
             ),
             Standing::NotAboveConstant => Some(
-                "not above the constant: its interval does not lie above the share that the constant of the skill, the mean of the labels that the model was fitted on, reaches",
+                "not above the constant: its interval is not above the share that the constant of the skill, the mean of the training \
+                    labels, reaches",
             ),
             Standing::NoInterval => Some(
-                "skill not known: no interval, since too few contact points were scored or nothing varied between them",
+                "skill not known: no interval, because too few contact points were scored or nothing varied between them",
             ),
             Standing::NoSkill => {
                 Some("no skill: the model is not shown to do better than a constant")

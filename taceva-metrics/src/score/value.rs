@@ -192,16 +192,18 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::EqualRepeats => f.write_str("repeats do not differ"),
             UndefinedReason::ShortBranch => f.write_str("no point has two depths on both branches"),
             UndefinedReason::NoOverlap => f.write_str("no common range"),
-            UndefinedReason::NoForce => f.write_str("no force was met"),
+            UndefinedReason::NoForce => f.write_str("no force was measured"),
             UndefinedReason::NoIdleSamples => f.write_str("no sample is without contact"),
-            UndefinedReason::NoContact => f.write_str("no sample in contact says where"),
+            UndefinedReason::NoContact => f.write_str("no sample in contact has a place"),
             UndefinedReason::OneChannel => f.write_str("one channel, two are needed"),
             UndefinedReason::OneUnit => f.write_str("one unit, two are needed"),
-            UndefinedReason::OpenTurn => f.write_str("points on one line leave a turn open"),
+            UndefinedReason::OpenTurn => {
+                f.write_str("points on one line do not determine a rotation")
+            }
             UndefinedReason::NoTimes => f.write_str("no time stamps"),
             UndefinedReason::EqualTimes => f.write_str("equal time stamps"),
             UndefinedReason::NoStream => {
-                f.write_str("single pictures and no stream: the median interval is above 1 s")
+                f.write_str("single pictures, not a stream: the median interval exceeds 1 s")
             }
             UndefinedReason::NoDigests => f.write_str("no successive digests of frames"),
             UndefinedReason::NotDeclared(fact) => {
@@ -209,7 +211,7 @@ impl fmt::Display for UndefinedReason {
             }
             UndefinedReason::NoInterval => f.write_str("no interval is defined"),
             UndefinedReason::Greatest => {
-                f.write_str("a greatest value, of which no interval can be trusted")
+                f.write_str("the interval of a greatest value is unreliable")
             }
             UndefinedReason::AtEnd => f.write_str("at the end of its range in every cluster"),
             UndefinedReason::ZeroMean => f.write_str("the mean is zero"),
@@ -219,7 +221,7 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::ZeroBaseline => f.write_str("the reference scene has no error"),
             UndefinedReason::NoChange => f.write_str("neither light nor error changed"),
             UndefinedReason::NoMillionths => {
-                f.write_str("no value is a number that is told to a millionth of its unit")
+                f.write_str("no value is known to a millionth of its unit")
             }
             UndefinedReason::Overflow => f.write_str("beyond the range of binary64"),
             UndefinedReason::TooFewClusters { have } => {
@@ -263,11 +265,7 @@ impl fmt::Display for InapplicableReason {
             InapplicableReason::NoGate(unit) => write!(f, "no gate is defined for {unit}"),
             InapplicableReason::NoStep(unit) => write!(f, "no step is defined for {unit}"),
             InapplicableReason::ChannelAbsent(name) => {
-                write!(
-                    f,
-                    "nothing is scored on a channel `{}`",
-                    taceva_core::shown(name)
-                )
+                write!(f, "channel `{}` is not scored", taceva_core::shown(name))
             }
             InapplicableReason::NotOneNumber => f.write_str("not one number but many"),
         }

@@ -102,7 +102,7 @@ impl fmt::Display for ComparisonError {
                 write!(f, "the difference has no interval: {reason}")
             }
             ComparisonError::Meaning(Sides { a, b }) => {
-                write!(f, "A is `{a}` and B is `{b}`, expected one meaning")
+                write!(f, "A is `{a}` and B is `{b}`, expected the same quantity")
             }
             ComparisonError::Unpaired { side, cluster } => {
                 let cluster = taceva_core::shown(cluster);
@@ -145,9 +145,9 @@ impl fmt::Display for ComparisonError {
                 ends: [low, high],
             } => write!(
                 f,
-                "interval {low}…{high} of score {value}, expected finite ends that hold it"
+                "interval {low}…{high} of score {value}, expected finite ends that enclose the score"
             ),
-            ComparisonError::NoSpread => f.write_str("no cluster moves either score"),
+            ComparisonError::NoSpread => f.write_str("neither score varies between clusters"),
             ComparisonError::Margin(value) => {
                 write!(f, "margin {value}, expected a finite number above 0")
             }

@@ -88,11 +88,11 @@ fn intervals_that_cannot_be_are_refused() {
     };
     assert_eq!(
         said(0.5, [0.6, 0.7], 11.0),
-        "interval 0.6…0.7 of score 0.5, expected finite ends that hold it"
+        "interval 0.6…0.7 of score 0.5, expected finite ends that enclose the score"
     );
     assert_eq!(
         said(0.5, [0.4, f64::INFINITY], 11.0),
-        "interval 0.4…inf of score 0.5, expected finite ends that hold it"
+        "interval 0.4…inf of score 0.5, expected finite ends that enclose the score"
     );
     assert_eq!(
         said(0.5, [0.4, 0.6], 0.5),
@@ -258,7 +258,7 @@ fn what_cannot_be_compared_says_why() {
     );
     assert_eq!(
         said(score("mae"), score("rmse")),
-        "no answer: A is `mae/1 in N` and B is `rmse/2 in N`, expected one meaning"
+        "no answer: A is `mae/1 in N` and B is `rmse/2 in N`, expected the same quantity"
     );
     let few = evaluate(&rows[..4]);
     assert_eq!(
@@ -270,7 +270,7 @@ fn what_cannot_be_compared_says_why() {
     let constant = same.score("mae", "Fx").expect("a score");
     assert_eq!(
         said(constant, constant),
-        "no answer: no cluster moves either score"
+        "no answer: neither score varies between clusters"
     );
     assert_eq!(
         Estimate::try_new(1.0, -0.5, 9)

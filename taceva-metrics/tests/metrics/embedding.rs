@@ -163,9 +163,9 @@ fn rows_that_do_not_fit_are_refused_and_nothing_is_taken_in() {
     assert_eq!(
         errors,
         [
-            "1 estimates beside 2 references, expected as many",
-            "2 rows of `Fz`, expected 1 as of the first channel",
-            "2 rows of contact points, expected 1 as of the first channel",
+            "1 estimates and 2 references, expected equal numbers",
+            "2 rows of `Fz`, expected 1 as in the first channel",
+            "2 rows of contact points, expected 1 as in the first channel",
             "channels Px [mm], expected Fx [N], Fz [N]",
             "channels Fz [N] twice, expected Fx [N], Fz [N]",
         ]

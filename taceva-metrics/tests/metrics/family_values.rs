@@ -150,7 +150,7 @@ fn shear_that_nobody_measures_leaves_no_normal_presses_to_select() {
         .expect("the plan's channels");
     assert_eq!(
         variant_said(&evaluation, "sensitivity", "Fz", "normal_only"),
-        "nothing is scored on a channel `Fx`"
+        "channel `Fx` is not scored"
     );
     assert_eq!(
         evaluation

@@ -113,7 +113,7 @@ fn values_that_are_too_large_for_a_millionth_are_said_to_be_so_and_not_to_be_abs
         let taceva_metrics::Value::Undefined(reason) = score.value else {
             panic!("{metric}: {:?}", score.value);
         };
-        let said = "no value is a number that is told to a millionth of its unit";
+        let said = "no value is known to a millionth of its unit";
         assert_eq!(reason.to_string(), said, "{metric}");
     }
 }

@@ -56,15 +56,15 @@ const BUDGET: SettingInfo = SettingInfo {
     key: "budget_s",
     accepts: "a number from 0 to 1e6",
     default: "1800",
-    about: "work to spend on trying models and fitting the one that is taken, in seconds of a core of a thousand million multiplications each: \
-            by docs/models.md about processor seconds; with 1800 a network of some thousand frames can be taken",
+    about: "budget of work for trying models and fitting the chosen one, in seconds of a core at a thousand million multiplications per \
+            second: about processor seconds, see docs/models.md; 1800 allows a network on some thousand frames",
 };
 
 impl Auto {
     /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "auto",
-        about: "whichever of the others but the residual networks does best on samples left out, within a budget of work",
+        about: "the best of the other models on held-out samples, residual networks excluded, within a budget of work",
         settings: &[BUDGET],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Auto::from_settings(settings)?)),
@@ -147,14 +147,14 @@ impl ModelEstimator for Auto {
         let samples = training.features.samples();
         if samples < FOLDS {
             return Err(invalid(format!(
-                "{samples} training samples, at least {FOLDS} are needed to try models on"
+                "{samples} training samples, expected at least {FOLDS} to try models"
             )));
         }
         let mut pictures = *training;
         pictures.features = closer.unwrap_or(training.features);
         if pictures.features.samples() != samples {
             return Err(invalid(format!(
-                "{samples} training samples, of which {} are seen closer",
+                "{samples} training samples, but finer features of {}",
                 pictures.features.samples()
             )));
         }

@@ -93,8 +93,8 @@ impl Levels {
 
 fn too_many(channel: &Channel, values: usize) -> ModelError {
     invalid(format!(
-        "`{channel}` takes {values} values in the training part, discriminants have at most {VALUES_MAX} classes: for what varies freely \
-         choose another model, such as ridge"
+        "`{channel}` has {values} values in the training part, discriminants take at most {VALUES_MAX} classes: for continuous labels \
+            choose another model, such as ridge"
     ))
 }
 
@@ -110,7 +110,7 @@ impl ModelEstimator for LinearDiscriminant {
         let width = training.features.shape().len();
         if width > FEATURES_MAX {
             return Err(invalid(format!(
-                "{width} features, discriminants take at most {FEATURES_MAX}: a smaller `size` or `pca` would be accepted"
+                "{width} features, discriminants take at most {FEATURES_MAX}: set a smaller `size` or `pca`"
             )));
         }
         let design = Design::new(training.features, self.scale);

@@ -38,13 +38,13 @@ const STRENGTH: SettingInfo = SettingInfo {
     key: "strength",
     accepts: "a number from 1e-6 to 1",
     default: "chosen for each channel",
-    about: "the penalty on weights, relative to the least at which every weight is 0",
+    about: "the penalty on weights, relative to the least penalty that sets every weight to 0",
 };
 const MIX: SettingInfo = SettingInfo {
     key: "mix",
     accepts: "a number from 0.01 to 1",
     default: "0.5",
-    about: "the share of the penalty that is on absolute values rather than squares: 1 is the lasso",
+    about: "the share of the penalty on absolute values instead of squares: 1 is the lasso",
 };
 
 /// Weights of one channel at each strength.

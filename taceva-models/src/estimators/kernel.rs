@@ -29,13 +29,13 @@ const LENGTH: SettingInfo = SettingInfo {
     key: "length",
     accepts: "a number from 0.01 to 1000",
     default: "chosen, one for all channels",
-    about: "how far the kernel reaches, in typical distances of a sample from the mean",
+    about: "length scale of the kernel, in typical distances of a sample from the mean",
 };
 const LANDMARKS: SettingInfo = SettingInfo {
     key: "landmarks",
     accepts: "a number from 1 to 5000",
     default: "500",
-    about: "how many training samples are landmarks at most, with which all samples are compared",
+    about: "greatest number of landmarks: training samples with which all samples are compared",
 };
 
 /// Kernel lengths to try, the plainest last.

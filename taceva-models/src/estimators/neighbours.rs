@@ -40,7 +40,7 @@ const COUNT: SettingInfo = SettingInfo {
     key: "neighbours",
     accepts: "a number from 1 to 1000",
     default: "chosen for each channel",
-    about: "how many training samples a prediction is the mean of",
+    about: "number of training samples whose mean is the prediction",
 };
 
 /// Numbers to try; more neighbours are plainer.
@@ -50,7 +50,7 @@ impl Neighbours {
     /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "knn",
-        about: "the mean of the training samples that look most alike: nothing is assumed, nothing extrapolated",
+        about: "the mean of the most similar training samples: assumes nothing and never extrapolates",
         settings: &[FeatureScale::SETTING, COUNT, SettingInfo::REFIT],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Neighbours::from_settings(settings)?)),

@@ -15,4 +15,4 @@ pub use regressor::NetworkRegressor;
 pub use spacing::{SpacingNetwork, SpacingOutput};
 
 /// Error for features without picture shape.
-const NO_PICTURE: &str = "a network reads pictures, and principal components are none";
+const NO_PICTURE: &str = "a network reads pictures, not principal components: remove `pca`";

@@ -36,13 +36,13 @@ const COMPONENTS: SettingInfo = SettingInfo {
     key: "components",
     accepts: "a number from 1 to 1000",
     default: "chosen for each channel",
-    about: "how many directions are used",
+    about: "number of directions",
 };
 const MOST: SettingInfo = SettingInfo {
     key: "most",
     accepts: "a number from 1 to 1000",
     default: "60",
-    about: "how many directions are tried at most where their number is chosen",
+    about: "greatest number of directions to try, if their number is chosen",
 };
 
 impl Default for Pls {
@@ -60,7 +60,7 @@ impl Pls {
     /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "pls",
-        about: "partial least squares: few directions, each the one that goes best with the labels",
+        about: "partial least squares: few directions, each with the greatest covariance with the labels",
         settings: &[FeatureScale::SETTING, COMPONENTS, MOST, SettingInfo::REFIT],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Pls::from_settings(settings)?)),

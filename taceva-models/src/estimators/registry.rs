@@ -92,7 +92,7 @@ impl fmt::Display for UnknownModel {
             );
         }
         let what = match (library_of(&self.name), self.name.contains('/')) {
-            (None, true) => "no plugin that was found has the model",
+            (None, true) => "no available plugin has the model",
             _ => "no model is called",
         };
         write!(f, "{what} `{name}`, {}", self.suggestion)

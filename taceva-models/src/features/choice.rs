@@ -218,8 +218,8 @@ impl fmt::Display for FeatureChoice {
         };
         write!(
             f,
-            "features {}: the plainest within a standard error of the least on {} samples of {} groups left out; errors relative to the \
-             deviation of labels:",
+            "features {}: the simplest within a standard error of the least error on {} held-out samples of {} groups; errors relative \
+                to the standard deviation of labels:",
             chosen.features, self.samples, self.groups
         )?;
         for (position, trial) in self.tried.iter().enumerate() {
@@ -269,8 +269,8 @@ mod tests {
         let text = of_sides([(8, [0.25; 6]), (16, [0.04; 6]), (32, [0.04; 6])]).to_string();
         assert_eq!(
             text,
-            "features 16×16 gray: the plainest within a standard error of the least on 6 samples of 3 groups left out; errors relative to \
-             the deviation of labels: 8×8 gray 0.500; 16×16 gray 0.200; 32×32 gray 0.200"
+            "features 16×16 gray: the simplest within a standard error of the least error on 6 held-out samples of 3 groups; errors \
+             relative to the standard deviation of labels: 8×8 gray 0.500; 16×16 gray 0.200; 32×32 gray 0.200"
         );
     }
 

@@ -11,7 +11,7 @@ use super::spec::FeatureSpec;
 pub enum FeatureError {
     /// The frame has fewer pixels than the features have cells.
     #[error(
-        "frames of {info} are smaller than the features asked for, {spec}; `size={}x{}` would be accepted",
+        "frames of {info} are smaller than the requested features, {spec}; set `size={}x{}`",
         info.width.min(spec.width),
         info.height.min(spec.height)
     )]
@@ -42,36 +42,36 @@ pub enum FeatureError {
         height: u32,
     },
     /// Colour was requested, but frames are gray.
-    #[error("frames of {info} have no colour; `color=gray` would be accepted")]
+    #[error("frames of {info} have no colour; set `color=gray`")]
     Colorless {
         /// Frame size and format.
         info: FrameInfo,
     },
     /// Slopes were requested, but gray frames do not distinguish the lamps.
     #[error(
-        "frames of {info} have no colour, by which `features=gradients` distinguishes three lamps"
+        "frames of {info} have no colour, but `features=gradients` distinguishes three lamps by their colours"
     )]
     Lampless {
         /// Frame size and format.
         info: FrameInfo,
     },
     /// A reference frame is needed, but the recording names none.
-    #[error("`{asked}` needs a no-contact reference frame, and the recording names none")]
+    #[error("`{asked}` needs a no-contact reference frame, but the recording names none")]
     NoReference {
         /// Setting that needs it.
         asked: &'static str,
     },
     /// Markers were requested, but the reference frame shows none.
     #[error(
-        "`features=markers` needs a grid of markers, and the no-contact reference frame shows {}",
-        match found { 0 => "no spot that stands out".to_owned(), count => format!("{count} spots at uneven distances") }
+        "`features=markers` needs a grid of markers, but the no-contact reference frame shows {}",
+        match found { 0 => "no distinct spot".to_owned(), count => format!("{count} spots at uneven distances") }
     )]
     NoMarkers {
         /// Number of significant spots outside any grid.
         found: usize,
     },
     /// The frame has another size or format than earlier frames or the model's.
-    #[error("a frame of {found} where {expected} is expected")]
+    #[error("a frame of {found}, expected {expected}")]
     Kind {
         /// Expected size and format.
         expected: FrameInfo,
@@ -87,7 +87,7 @@ pub enum FeatureError {
         found: InputInfo,
     },
     /// The features and the signals have different grids.
-    #[error("signals of {info} for features of {spec}")]
+    #[error("signals of {info} do not fit features of {spec}")]
     OtherGrid {
         /// Grid of the signals.
         info: SignalInfo,
@@ -96,11 +96,11 @@ pub enum FeatureError {
     },
     /// Differences of signals were requested, but no contact-free signals are named.
     #[error(
-        "`difference=true` needs rows without contact, and the recording names none; `rest` of `[signals]` names them"
+        "`difference=true` needs rows without contact, but the recording names none; name them with `rest` of `[signals]`"
     )]
     NoRest,
     /// Frames are needed, but not available.
-    #[error("`{asked}` applies to frames, and the recording has {has}")]
+    #[error("`{asked}` applies to frames, but the recording has {has}")]
     NoFrames {
         /// Setting that needs frames.
         asked: String,
@@ -108,16 +108,14 @@ pub enum FeatureError {
         has: &'static str,
     },
     /// Signals are needed, but not available.
-    #[error("the recording has no signals; `input=frame` would be accepted")]
+    #[error("the recording has no signals; set `input=frame`")]
     NoSignals,
     /// The recording has frames and signals, and no setting selects one of them.
-    #[error(
-        "the recording has frames and signals: `input=frame` or `input=signals` says what the model looks at"
-    )]
+    #[error("the recording has frames and signals: set `input=frame` or `input=signals`")]
     TwoInputs,
     /// The grid of taxels is too small for a network.
     #[error(
-        "a network slides over a grid of at least {least}×{least} places, and this one has {info}; every other model takes it"
+        "a network needs a grid of at least {least}×{least} places, found {info}; every other model accepts it"
     )]
     NarrowGrid {
         /// Grid of the signals.

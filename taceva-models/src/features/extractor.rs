@@ -287,7 +287,7 @@ mod tests {
         let error = Extractor::new(FeatureSpec::default(), gray.info(), None).expect_err("small");
         assert_eq!(
             error.to_string(),
-            "frames of 20×20 gray8 are smaller than the features asked for, 32×32 gray; `size=20x20` would be accepted"
+            "frames of 20×20 gray8 are smaller than the requested features, 32×32 gray; set `size=20x20`"
         );
         let error =
             Extractor::new(spec(4, 4, Color::Rgb), gray.info(), None).expect_err("no colour");
@@ -310,7 +310,7 @@ mod tests {
             .expect_err("another size");
         assert_eq!(
             error.to_string(),
-            "a frame of 20×21 gray8 where 20×20 gray8 is expected"
+            "a frame of 20×21 gray8, expected 20×20 gray8"
         );
         assert!(matches!(
             extractor.extract(&gray, &mut [0.0; 15]),

@@ -175,6 +175,6 @@ mod tests {
         let reduction = FrameReduction::new(own, [4, 3]).expect("smaller");
         let other = noise(8, 6, PixelFormat::Rgb8, 7);
         let error = reduction.reduce(&other).expect_err("colour").to_string();
-        assert_eq!(error, "a frame of 8×6 rgb8 where 8×6 gray8 is expected");
+        assert_eq!(error, "a frame of 8×6 rgb8, expected 8×6 gray8");
     }
 }

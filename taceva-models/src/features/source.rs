@@ -50,7 +50,7 @@ impl FeatureSpec {
                         asked,
                         has: match frame {
                             None => "signals alone",
-                            Some(_) => "signals, which were asked for",
+                            Some(_) => "signals, which were requested",
                         },
                     }),
                 }

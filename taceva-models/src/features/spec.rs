@@ -67,39 +67,40 @@ impl Default for FeatureSpec {
 pub(super) const INPUT: SettingInfo = SettingInfo {
     key: "input",
     accepts: "frame or signals",
-    default: "what the recording has; it must be said where it has both",
-    about: "what the model looks at: the frames of a camera, or the signals of taxels",
+    default: "the input of the recording; required if it has both",
+    about: "the input of the model: the frames of a camera, or the signals of taxels",
 };
 pub(super) const KINDS: SettingInfo = SettingInfo {
     key: "features",
     accepts: "pixels, markers, gradients, statistics, or several joined by +",
     default: "pixels",
-    about: "what is taken of every cell: brightness, displacements of markers, slopes by three lamps, or mean, spread and quantiles",
+    about: "the values of every cell: brightness, displacements of markers, slopes by three lamps, or mean, spread and quantiles",
 };
 pub(crate) const SIZE: SettingInfo = SettingInfo {
     key: "size",
     accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024; up-to-64x48 or auto in fit, evaluate and models of scenes",
     default: "32x32, 128x96 for networks; 16x16 with markers, 8x8 with statistics",
-    about: "how many cells every frame is divided into; auto tries grids from a quarter as fine to twice as fine, and takes the coarsest whose error is within a standard error of the least; up-to is no more than a frame has pixels",
+    about: "number of cells of every frame; auto tries grids from a quarter as fine to twice as fine, and takes the coarsest whose error \
+            is within a standard error of the least; up-to is limited to the pixels of a frame",
 };
 pub(super) const COLOR: SettingInfo = SettingInfo {
     key: "color",
     accepts: "gray or rgb; auto in fit, evaluate and models of scenes",
     default: "gray",
-    about: "whether colour is kept; auto keeps it where frames have it",
+    about: "whether colour is kept; auto keeps it if frames have it",
 };
 pub(crate) const DIFFERENCE: SettingInfo = SettingInfo {
     key: "difference",
     accepts: "true or false; auto or in-color in fit, evaluate and models of scenes",
     default: "false",
-    about: "whether the no-contact reference frame is subtracted from pixels and statistics; markers and gradients always compare with it; in-color subtracts it from frames in \
-            colour where there is one",
+    about: "whether the no-contact reference frame is subtracted from pixels and statistics; markers and gradients always compare with \
+            it; in-color subtracts it from frames in colour if it exists",
 };
 const PCA: SettingInfo = SettingInfo {
     key: "pca",
     accepts: "a number of components from 1 to 65536",
     default: "all pixels",
-    about: "how many principal components of the training part replace the numbers of all cells",
+    about: "number of principal components of the training part that replace the values of all cells",
 };
 
 impl FeatureSpec {

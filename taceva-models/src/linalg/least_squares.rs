@@ -58,13 +58,13 @@ pub(crate) fn least_squares(
     let (rows, columns) = (matrix.high.nrows(), matrix.high.ncols());
     if rows < columns {
         return Err(invalid(format!(
-            "{rows} samples for {columns} weights: least squares needs as many, `strength` above 0 fewer"
+            "{rows} samples for {columns} weights: least squares needs at least as many; set `strength` above 0 for fewer"
         )));
     }
     let decomposition = Householder::new(matrix.high.clone());
     if let Some(column) = decomposition.dependent() {
         return Err(invalid(format!(
-            "column {column} is a combination of those before: a `strength` above 0 would be accepted"
+            "column {column} is a linear combination of earlier columns: set `strength` above 0"
         )));
     }
     let solve = |target: usize| solve(matrix, &decomposition, targets.col_as_slice(target));

@@ -30,7 +30,7 @@ impl Model {
     ) -> Result<Model, ModelError> {
         if input.validation.is_some() != closer.validation.is_some() {
             return Err(invalid(
-                "finer features of the training part, or of the validation part, alone",
+                "finer features of one part, expected them for both training and validation",
             ));
         }
         let chosen = input

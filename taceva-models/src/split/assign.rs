@@ -98,8 +98,9 @@ impl SplitSpec {
                 let points = input.points.ok_or(SplitError::NoPoints)?;
                 by_cluster(points, input, self.fractions, seed, "points").map(|mut split| {
                     if points.iter().collect::<BTreeSet<_>>().len() == input.rows {
-                        split.note =
-                            Some("every sample is a point of its own: by-point is random".into());
+                        split.note = Some(
+                            "every sample is its own contact point: by-point equals random".into(),
+                        );
                     }
                     split
                 })
@@ -118,7 +119,7 @@ impl SplitSpec {
             SplitKind::Declared => declared(input),
             SplitKind::All => Ok(Split {
                 train: (0..input.rows).collect(),
-                note: Some("every sample is learnt from: nothing is left to test on".to_owned()),
+                note: Some("every sample is used for training: none is left for a test".to_owned()),
                 ..Split::default()
             }),
         }?;
@@ -240,7 +241,7 @@ fn by_recording(
     let mut assigned = Split::of(recordings.iter().map(|name| parts.get(name).copied()));
     if !assigned.left_out.is_empty() {
         assigned.note = Some(format!(
-            "{} samples are left out: nobody assigned their recording",
+            "{} samples are left out: their recording is assigned to no part",
             assigned.left_out.len()
         ));
     }
@@ -324,7 +325,7 @@ fn by_column(
     let mut assigned = Split::of(values.iter().map(|value| split.parts.get(value).copied()));
     if !assigned.left_out.is_empty() {
         assigned.note = Some(format!(
-            "{} samples are left out: nobody assigned their `{name}`",
+            "{} samples are left out: their `{name}` is assigned to no part",
             assigned.left_out.len()
         ));
     }

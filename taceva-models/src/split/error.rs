@@ -50,7 +50,7 @@ pub enum SplitError {
         by: FoldGroups,
     },
     /// The shares do not add up to 100 or 1.
-    #[error("`{found}` comes to {sum}: expected shares that come to 100, such as 70/20/10", found = taceva_core::shown(found))]
+    #[error("`{found}` adds up to {sum}: expected shares that add up to 100, such as 70/20/10", found = taceva_core::shown(found))]
     Sum {
         /// Shares as given.
         found: String,
@@ -59,7 +59,8 @@ pub enum SplitError {
     },
     /// Blocks of time are unavailable: samples have no order in time, or are too few.
     #[error(
-        "split by-block: the recording has too few samples in a row for blocks of time; use random, or name a column with by-column:NAME"
+        "split by-block: the recording has too few consecutive samples for blocks of time; use random, or name a column with \
+            by-column:NAME"
     )]
     NoBlocks,
     /// The shares are invalid.
@@ -138,8 +139,8 @@ pub enum SplitError {
     },
     /// The split has several folds, but a single one is needed.
     #[error(
-        "split {split} fits a model for each fold: `evaluate` does, and `fit` where it validates; one model is fitted with `all`, or with a \
-         split that keeps a test part"
+        "split {split} fits a model for each fold, which `evaluate` does, and `fit` for validation; to fit one model, use `all` or a \
+            split with a test part"
     )]
     ManyFolds {
         /// Name of the split.

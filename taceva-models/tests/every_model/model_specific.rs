@@ -105,7 +105,7 @@ fn a_choice_among_models_says_what_was_tried_and_keeps_the_one_it_took() {
     let reason = &unaffordable.expect("untried").reason;
     assert!(reason.starts_with("beyond the budget: "), "{reason}");
     let said = auto.to_string();
-    assert!(said.starts_with("auto took ridge; error "), "{said}");
+    assert!(said.starts_with("auto chose ridge; error "), "{said}");
     let alone = case_of("ridge").model(&training, None);
     assert_eq!(model.regressor(), alone.regressor());
 }
@@ -134,7 +134,7 @@ fn levels_are_predicted_as_classes_and_too_many_are_refused() {
     let said = case_of("lda").refusal(&recording(257, 37), None);
     assert_eq!(
         said,
-        "`Px` takes 257 values in the training part, discriminants have at most 256 classes: for what varies freely choose another \
-         model, such as ridge"
+        "`Px` has 257 values in the training part, discriminants take at most 256 classes: for continuous labels choose another model, \
+         such as ridge"
     );
 }

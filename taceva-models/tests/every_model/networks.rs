@@ -74,7 +74,7 @@ fn fewer_samples_than_a_batch_are_refused() {
     for name in NETWORKS {
         let few = estimator(name, &["batch=17"]).fit_model(&training.set(), None, &SilentProgress);
         let said = few.expect_err("too few").to_string();
-        assert_eq!(said, "16 training samples, a batch takes 17");
+        assert_eq!(said, "16 training samples, fewer than a batch of 17");
     }
 }
 
@@ -166,7 +166,7 @@ fn components_are_no_picture() {
         .expect_err("refused");
     assert_eq!(
         error.to_string(),
-        "a network reads pictures, and principal components are none"
+        "a network reads pictures, not principal components: remove `pca`"
     );
 }
 

@@ -113,7 +113,7 @@ fn one_sample_is_refused_by_all_and_two_by_those_that_need_more() {
 fn more_features_than_samples_are_learnt_from_by_all_but_one_which_says_so() {
     let refused = fit_all(&data(WIDTH - 1, 2), None);
     assert_eq!(refused.len(), 1, "{refused:?}");
-    let said = "smartcore/svr: 5 training samples, smartcore/svr needs at least as many as features, of which there are 6: ";
+    let said = "smartcore/svr: 5 training samples, smartcore/svr needs at least as many as there are features, 6: ";
     assert!(refused[0].starts_with(said), "{refused:?}");
 }
 

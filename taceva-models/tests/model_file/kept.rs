@@ -157,7 +157,7 @@ fn frames_of_another_kind_are_refused() {
     assert!(matches!(error, FeatureError::Kind { .. }));
     assert_eq!(
         error.to_string(),
-        "a frame of 21×15 rgb8 where 20×15 rgb8 is expected"
+        "a frame of 21×15 rgb8, expected 20×15 rgb8"
     );
 }
 

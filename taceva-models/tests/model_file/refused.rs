@@ -125,7 +125,7 @@ fn files_of_earlier_formats_are_refused_with_the_command_that_makes_them_anew() 
     let error = Model::from_bytes(&earlier).expect_err("earlier");
     assert_eq!(
         error.to_string(),
-        "format 1.2 of TacEva 0.1.0 is no longer read: fit the model anew with `taceva fit RECORDING --model NAME --out FILE`"
+        "format 1.2 of TacEva 0.1.0 is no longer read: fit the model again with `taceva fit RECORDING --model NAME --out FILE`"
     );
 }
 

@@ -119,13 +119,10 @@ impl<'a> Trainer<'a> {
         let mut trainer = Trainer::from_snapshot(&snapshot, form, recipe, training, validation)?;
         let samples = trainer.summary().samples;
         if samples != summary.samples {
-            return refuse(format!(
-                "{} samples, now there are {samples}",
-                summary.samples
-            ));
+            return refuse(format!("{} samples, expected {samples}", summary.samples));
         }
         if summary.state.best.is_some() != best.is_some() {
-            return refuse("the best epoch is named without its tensors, or the reverse".into());
+            return refuse("the best epoch and its tensors must occur together".into());
         }
         trainer.best = best;
         trainer.state = summary.state;

@@ -63,7 +63,7 @@ mod tests {
             .push(Skipped::new("field:frame", SkipReason::NothingReadsIt));
         assert_eq!(
             plan.to_string(),
-            "read     400 samples\nskip     field:frame  nothing that was asked for reads it\n"
+            "read     400 samples\nskip     field:frame  no requested result reads it\n"
         );
     }
 }

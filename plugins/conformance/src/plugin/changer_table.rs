@@ -32,7 +32,7 @@ fn holds(subject: &Subject) -> Result<Vec<String>, Unmet> {
     let session = &subject.session;
     let changer = subject.opened(session.changer(subject.key()?, &subject.args()?))?;
     match changer.holds().to_vec() {
-        holds if holds.is_empty() => Err(skipped("with these arguments it holds nothing")),
+        holds if holds.is_empty() => Err(skipped("the changer holds nothing with these arguments")),
         holds => Ok(holds),
     }
 }
@@ -67,7 +67,7 @@ fn refuses_others(subject: &Subject) -> Result<(), Unmet> {
     ] {
         let answer = bare_bring(&changer, name, Some(take));
         let kinds = [ErrorKind::InvalidArgument];
-        refused("a name that it does not hold", answer, &kinds)?;
+        refused("bringing an unknown name", answer, &kinds)?;
     }
     Ok(())
 }
@@ -78,5 +78,5 @@ fn nobody_takes(subject: &Subject) -> Result<(), Unmet> {
     let changer: Bare = subject.open()?;
     let answer = bare_bring(&changer, abi::Text::from(&holds[0]), None);
     let kinds = [ErrorKind::InvalidArgument];
-    refused("nobody who takes the name", answer, &kinds)
+    refused("bringing without a callback for the name", answer, &kinds)
 }

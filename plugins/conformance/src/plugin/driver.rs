@@ -73,7 +73,7 @@ fn opened(subject: &Subject) -> Result<Device, Unmet> {
         DriverKind::Lighting => Ok(Device::Lighting(subject.open()?)),
         DriverKind::Changer => Ok(Device::Changer(subject.open()?)),
         kind => Err(Unmet::Skipped(format!(
-            "devices of the kind {kind} are not known here"
+            "this program does not know devices of the kind {kind}"
         ))),
     }
 }
@@ -86,7 +86,7 @@ fn factory(subject: &Subject) -> Result<abi::Factory, Unmet> {
 fn describes_twice(subject: &Subject) -> Result<(), Unmet> {
     let [once, again] = [subject.said()?, subject.said()?];
     expect(once == again, || {
-        "it describes itself otherwise the second time".to_owned()
+        "the second description of itself differs from the first".to_owned()
     })
 }
 
@@ -193,7 +193,7 @@ fn open_of_none(subject: &Subject) -> Result<(), Unmet> {
         let mut error = abi::Error::new();
         let (status, _) = raw_open(subject, number, &list.args(), &raw mut error)?;
         expect(!status.is_ok(), || {
-            format!("driver {number} opened, which it does not have")
+            format!("driver {number} opened, but the plugin has no such driver")
         })?;
     }
     Ok(())
@@ -219,7 +219,10 @@ fn opens_beside(subject: &Subject) -> Result<(), Unmet> {
     )?;
     drop(first);
     expect(status.is_ok() || status == abi::Status::BUSY, || {
-        format!("a second one gave status {}, expected 0 or BUSY", status.0)
+        format!(
+            "a second device gave status {}, expected 0 or BUSY",
+            status.0
+        )
     })?;
     opened(subject).map(drop)
 }
@@ -266,11 +269,11 @@ fn keeps_to_error(subject: &Subject) -> Result<(), Unmet> {
     let drivers = factory(subject)?.drivers;
     let (status, _) = raw_open(subject, drivers, &list.args(), &raw mut error)?;
     expect(!status.is_ok(), || {
-        "a driver that it does not have opened".to_owned()
+        "a driver opened that the plugin does not have".to_owned()
     })?;
     let written = error.message[ROOM..].iter().any(|byte| *byte != CANARY);
     expect(!written, || {
-        format!("a message went beyond the {ROOM} bytes that its `taceva_error` had")
+        format!("a message exceeded the {ROOM} bytes of its `taceva_error`")
     })?;
     // A host of minor 0 has no room for a fault.
     const NONE: abi::FaultNumber = abi::FaultNumber(0x5a5a);
@@ -279,7 +282,7 @@ fn keeps_to_error(subject: &Subject) -> Result<(), Unmet> {
     error.fault = NONE;
     raw_open(subject, drivers, &list.args(), &raw mut error)?;
     expect(error.fault == NONE, || {
-        "a fault was written to a `taceva_error` that ends before it".to_owned()
+        "a fault was written beyond the end of a `taceva_error`".to_owned()
     })
 }
 
@@ -287,7 +290,9 @@ fn unknown_extension(subject: &Subject) -> Result<(), Unmet> {
     let device = opened(subject)?;
     for id in ["", "taceva.nothing/1", "taceva.force.tare/99"] {
         let found = device.handle().extension_is_there(id);
-        expect(!found, || format!("a table for the extension {id:?}"))?;
+        expect(!found, || {
+            format!("a table for the unknown extension {id:?}")
+        })?;
     }
     Ok(())
 }
@@ -339,7 +344,7 @@ fn discovers(subject: &Subject) -> Result<(), Unmet> {
         let read = subject.descriptor()?.args(&device.arguments);
         read.map_err(|error| {
             Unmet::Broken(format!(
-                "it found `{}`, which it would not open: {error}",
+                "it found `{}`, but rejects these arguments: {error}",
                 device.arguments
             ))
         })?;
@@ -363,7 +368,7 @@ fn memory(subject: &Subject) -> Result<(), Unmet> {
     let grown = writable_memory()?.saturating_sub(before);
     expect(grown < 1 << 20, || {
         format!(
-            "9900 openings left {} KiB behind, expected less than 1024",
+            "9900 openings leaked {} KiB, expected less than 1024",
             grown >> 10
         )
     })

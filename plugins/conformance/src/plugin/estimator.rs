@@ -71,7 +71,7 @@ fn fit(
     let settings = subject.args().map_err(|_| {
         ModelError::new(
             ErrorKind::InvalidArgument,
-            "it needs settings that are not given",
+            "it needs settings that were not given",
         )
     })?;
     let training = TrainingSet::new(
@@ -102,7 +102,7 @@ fn same_twice(subject: &Subject) -> Result<(), Unmet> {
     let one = predicted(&*fit(subject, &samples, &SilentProgress)?, &samples)?;
     let other = predicted(&*fit(subject, &samples, &SilentProgress)?, &samples)?;
     expect(one == other, || {
-        "two fits on the same samples predict otherwise".to_owned()
+        "two fits on the same samples give different predictions".to_owned()
     })
 }
 
@@ -124,15 +124,15 @@ fn keeps(subject: &Subject) -> Result<(), Unmet> {
     let before = predicted(&*model, &samples)?;
     let bytes = model.save()?;
     expect(bytes == model.save()?, || {
-        "it saves otherwise the second time".to_owned()
+        "saving it twice gives different bytes".to_owned()
     })?;
     drop(model);
     let again = load(subject, &samples, &bytes)?;
     expect(predicted(&*again, &samples)? == before, || {
-        "loaded again it predicts otherwise".to_owned()
+        "the loaded model gives different predictions".to_owned()
     })?;
     expect(again.save()? == bytes, || {
-        "loaded again it saves otherwise".to_owned()
+        "saving the loaded model gives different bytes".to_owned()
     })
 }
 
@@ -148,12 +148,12 @@ fn hostile(subject: &Subject) -> Result<(), Unmet> {
             ErrorKind::InvalidArgument,
             ErrorKind::OutOfRange,
         ];
-        refused(&format!("{length} bytes of rubbish"), answer, &kinds)?;
+        refused(&format!("loading {length} random bytes"), answer, &kinds)?;
     }
     for cut in 0..bytes.len().min(200) {
         let answer = load(subject, &samples, &bytes[..cut]);
         expect(answer.is_err(), || {
-            format!("the first {cut} bytes of a model were taken for one")
+            format!("the first {cut} bytes of a model were loaded as a model")
         })?;
     }
     for _ in 0..500 {
@@ -216,7 +216,7 @@ fn threads(subject: &Subject) -> Result<(), Unmet> {
             .all(|thread| thread.join().unwrap_or(false))
     });
     expect(same, || {
-        "four threads got other predictions than one".to_owned()
+        "four threads got different predictions from one thread".to_owned()
     })
 }
 
@@ -230,7 +230,7 @@ fn memory(subject: &Subject) -> Result<(), Unmet> {
     let grown = writable_memory()?.saturating_sub(before);
     expect(grown < 1 << 20, || {
         format!(
-            "900 models left {} KiB behind, expected less than 1024",
+            "900 models leaked {} KiB, expected less than 1024",
             grown >> 10
         )
     })

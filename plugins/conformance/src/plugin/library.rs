@@ -65,7 +65,7 @@ fn needs(subject: &Subject) -> Result<(), Unmet> {
     let offer = subject.library.offer();
     let offer = offer.map_err(|problem| Unmet::Broken(problem.to_string()))?;
     if offer.needs.is_empty() {
-        let why = "it does not say what it needs";
+        let why = "the library states no needs";
         return Err(Unmet::Skipped(why.to_owned()));
     }
     let written = &subject.manifest.needs;
@@ -73,7 +73,7 @@ fn needs(subject: &Subject) -> Result<(), Unmet> {
     match offer.needs.iter().find(is_missing) {
         None => Ok(()),
         Some(need) => Err(Unmet::Broken(format!(
-            "it needs {need:?}, and its manifest does not say so; `taceva plugin manifest --write` writes it there"
+            "it needs {need:?}, but its manifest does not say so; add it with `taceva plugin manifest --write`"
         ))),
     }
 }
@@ -96,7 +96,7 @@ fn unknown_factory(subject: &Subject) -> Result<(), Unmet> {
     ] {
         let found = factory(subject, abi::Text::from(id))?;
         expect(found == 0, || {
-            format!("a factory for {:?}", &id[..id.len().min(40)])
+            format!("a factory for the unknown id {:?}", &id[..id.len().min(40)])
         })?;
     }
     let nothing = abi::Text {
@@ -104,7 +104,7 @@ fn unknown_factory(subject: &Subject) -> Result<(), Unmet> {
         length: 0,
     };
     expect(factory(subject, nothing)? == 0, || {
-        "a factory for no text".to_owned()
+        "a factory for an empty text".to_owned()
     })
 }
 
@@ -119,7 +119,7 @@ fn stable_factories(subject: &Subject) -> Result<(), Unmet> {
     ] {
         let once = factory(subject, abi::Text::from(id))?;
         let again = factory(subject, abi::Text::from(id))?;
-        expect(once == again, || format!("`{id}` moves from call to call"))?;
+        expect(once == again, || format!("the address of `{id}` changes"))?;
     }
     Ok(())
 }
@@ -143,7 +143,7 @@ fn unknown_rig_extension(subject: &Subject) -> Result<(), Unmet> {
     // SAFETY: [owner] of an open rig, with a text that outlives the call.
     let found = unsafe { extension(rig.raw(), abi::Text::from("taceva.nothing/1")) };
     expect(found.is_null(), || {
-        "a table for an extension that nobody knows".to_owned()
+        "a table for an unknown extension".to_owned()
     })
 }
 
@@ -153,7 +153,7 @@ fn keeps_surroundings(subject: &Subject) -> Result<(), Unmet> {
     let (before, now) = (&subject.before, Surroundings::now());
     let is_kept = before.folder == now.folder && before.variables == now.variables;
     expect(is_kept, || {
-        "the working directory or the environment is another than before".to_owned()
+        "the working directory or the environment has changed".to_owned()
     })
 }
 
@@ -164,7 +164,7 @@ fn keeps_signals(subject: &Subject) -> Result<(), Unmet> {
     match pairs.position(|(before, now)| before != now) {
         None => Ok(()),
         Some(place) => Err(Unmet::Broken(format!(
-            "signal {} has another handler than before",
+            "the handler of signal {} has changed",
             place + 1
         ))),
     }

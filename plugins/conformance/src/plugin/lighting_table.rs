@@ -36,7 +36,7 @@ fn set(lamp: &Lamp, scene: abi::Text, within: u64) -> Result<(), taceva_core::Dr
 fn scenes(subject: &Subject) -> Result<Vec<String>, Unmet> {
     match subject.said()?.facts() {
         Facts::Lighting(facts) => Ok(facts.scenes.clone()),
-        _ => Err(broken("it says it is no lighting")),
+        _ => Err(broken("it does not describe itself as lighting")),
     }
 }
 
@@ -58,7 +58,7 @@ fn refuses_others(subject: &Subject) -> Result<(), Unmet> {
     ] {
         let answer = set(&lamp, scene, timeout(PATIENT));
         refused(
-            "a scene that it does not have",
+            "setting an unknown scene",
             answer,
             &[ErrorKind::InvalidArgument],
         )?;
@@ -66,7 +66,7 @@ fn refuses_others(subject: &Subject) -> Result<(), Unmet> {
     if !scenes(subject)?.iter().any(|scene| scene == shorter) {
         let answer = set(&lamp, abi::Text::from(shorter), timeout(PATIENT));
         refused(
-            "the beginning of a scene",
+            "setting the beginning of the name of a scene",
             answer,
             &[ErrorKind::InvalidArgument],
         )?;

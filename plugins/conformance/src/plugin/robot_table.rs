@@ -88,7 +88,7 @@ fn no_targets(subject: &Subject) -> Result<(), Unmet> {
     for target in targets {
         let answer = bare_move(&robot, target, 0.001);
         refused(
-            "a target that is none",
+            "moving to an invalid target",
             answer,
             &[ErrorKind::InvalidArgument],
         )?;
@@ -122,7 +122,7 @@ fn outside(subject: &Subject) -> Result<(), Unmet> {
         };
         let answer = bare_move(&robot, target, 0.001);
         refused(
-            &format!("a target at x = {x_mm} mm"),
+            &format!("moving to x = {x_mm} mm"),
             answer,
             &[ErrorKind::OutOfRange],
         )?;
@@ -142,7 +142,7 @@ fn wait_without(subject: &Subject) -> Result<(), Unmet> {
             })
         });
         expect(took < SOON + SOON, || {
-            format!("waiting for no motion took {took:?}")
+            format!("waiting for an unknown motion took {took:?}")
         })?;
     }
     Ok(())

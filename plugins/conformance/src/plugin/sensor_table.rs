@@ -58,7 +58,7 @@ impl Bare {
         let said = subject.said()?;
         let info = said.sensor().and_then(|facts| facts.frame);
         let length = info.and_then(|info| info.byte_len());
-        let length = length.ok_or_else(|| broken("it does not say how large its frames are"))?;
+        let length = length.ok_or_else(|| broken("it does not declare the size of its frames"))?;
         let opened: Opened<abi::SensorCalls> = subject.open()?;
         if let Some(start) = opened.calls.start {
             opened.handle.call("start the sensor", |raw, error| {
@@ -107,7 +107,7 @@ impl Bare {
         }
         let lent = self.capture(&mut [], PATIENT)?;
         expect(lent.0.release.is_some() && !lent.0.data.is_null(), || {
-            "without a buffer it gave a frame that is not lent".to_owned()
+            "without a buffer, it returned a frame that is not lent".to_owned()
         })?;
         Ok(lent)
     }
@@ -121,7 +121,7 @@ fn counts(subject: &Subject) -> Result<(), Unmet> {
         let frame = sensor.capture(&mut pixels, PATIENT)?;
         let sequence = frame.0.sequence;
         expect(last.is_none_or(|last| sequence > last), || {
-            format!("frame {sequence} after frame {last:?}")
+            format!("frame {sequence} after frame {last:?}, expected increasing numbers")
         })?;
         last = Some(sequence);
     }
@@ -143,12 +143,12 @@ fn keeps_to_buffer(subject: &Subject) -> Result<(), Unmet> {
         match captured {
             Ok(frame) => expect(frame.0.release.is_some(), || {
                 format!(
-                    "it says that a frame of {} bytes is in {room}",
+                    "it claims that a frame of {} bytes is in a buffer of {room} bytes",
                     sensor.length
                 )
             })?,
             Err(error) => refused::<(), _>(
-                "a buffer that is too short",
+                "capturing into a buffer that is too short",
                 Err(error),
                 &[
                     ErrorKind::InvalidArgument,
@@ -162,17 +162,19 @@ fn keeps_to_buffer(subject: &Subject) -> Result<(), Unmet> {
     let length = sensor.length;
     sensor.capture(&mut pixels[..length], PATIENT)?;
     let beyond = pixels[length..].iter().any(|byte| *byte != CANARY);
-    expect(!beyond, || "it wrote beyond a buffer that fits".to_owned())
+    expect(!beyond, || {
+        "it wrote beyond a buffer of the right size".to_owned()
+    })
 }
 
 fn no_buffer(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     match sensor.capture(&mut [], PATIENT) {
         Ok(frame) => expect(frame.0.release.is_some() && !frame.0.data.is_null(), || {
-            "a frame without a buffer that is not lent".to_owned()
+            "without a buffer, it returned a frame that is not lent".to_owned()
         }),
         Err(error) => refused::<(), _>(
-            "no buffer",
+            "capturing without a buffer",
             Err(error),
             &[
                 ErrorKind::InvalidArgument,
@@ -218,7 +220,7 @@ fn releases_elsewhere(subject: &Subject) -> Result<(), Unmet> {
             elsewhere.join()
         });
         expect(given_back.is_ok(), || {
-            "giving a frame back panicked".to_owned()
+            "releasing a frame in another thread panicked".to_owned()
         })?;
     }
     Ok(())

@@ -63,21 +63,21 @@ impl Subject {
 
     /// The key of the driver or estimator.
     pub(super) fn key(&self) -> Result<&DriverKey, Unmet> {
-        let none = || broken("this check is of a driver");
+        let none = || broken("this check needs a driver");
         self.key.as_ref().ok_or_else(none)
     }
 
     pub(super) fn entry(&self) -> Result<&Entry, Unmet> {
         let key = self.key()?;
         let entry = self.library.any(key);
-        entry.ok_or_else(|| Unmet::Broken(format!("`{key}` is not there")))
+        entry.ok_or_else(|| Unmet::Broken(format!("the library does not provide `{key}`")))
     }
 
     /// Description of the driver in the manifest.
     pub(super) fn descriptor(&self) -> Result<&Descriptor, Unmet> {
         match &self.entry()?.provided {
             Provided::Driver { descriptor, .. } => Ok(descriptor),
-            _ => Err(broken("it is no driver")),
+            _ => Err(broken("it is not a driver")),
         }
     }
 
@@ -174,7 +174,7 @@ impl Subject {
     /// `why`, with the argument of the command that names a device.
     fn with_place(&self, why: &str) -> String {
         let key = &self.probe.driver;
-        format!("{why}; `--with {key}:…` says where one is")
+        format!("{why}; name a device with `--with {key}:…`")
     }
 }
 

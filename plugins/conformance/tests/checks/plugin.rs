@@ -99,16 +99,16 @@ fn every_kind_of_mistake_is_found_by_a_check() {
         (&["RATE_HZ=\"60\""], "library/loads", "rate_hz"),
         (&["PRINTS"], "library/quiet", "hello"),
         (&["TAKES_SIGNALS"], "library/keeps-signals", "signal 10"),
-        (&["LEAKS"], "driver/memory", "left"),
+        (&["LEAKS"], "driver/memory", "leaked"),
         (
             &["ANY_DRIVER"],
             "driver/open-of-no-driver",
-            "which it does not have",
+            "but the plugin has no such driver",
         ),
         (
             &["LONG_ERRORS"],
             "driver/keeps-to-the-callers-error",
-            "went beyond",
+            "a message exceeded",
         ),
         (
             &["ANY_EXTENSION"],

@@ -77,7 +77,7 @@ impl PluginDevice for PluginSensor {
             handle.failed(ErrorKind::Abi, OPENING, why)
         })?;
         let length = info.byte_len().ok_or_else(|| {
-            let why = format!("frames of {info}, which no buffer can hold");
+            let why = format!("frames of {info} fit no buffer");
             handle.failed(ErrorKind::Abi, OPENING, why)
         })?;
         let lighting = if facts.scenes.is_empty() {

@@ -259,8 +259,8 @@ fn whatever_cannot_be_meant_is_refused_where_it_stands() {
         ("\"Fx\", \"Fy\"", "\"Fx\", \"Fx\"", "at most once"),
         ("Pz_max_mm = 3.0", "Pz_max_mm = 4.0", "3.5 mm deep"),
         ("radius_mm = 17.0", "half_x_mm = 17.0", "a disc has"),
-        ("opaque = false", "opaque = true", "an opaque gel"),
-        ("default = 0\n", "default = 10\n", "by default"),
+        ("opaque = false", "opaque = true", "the gel is opaque"),
+        ("default = 0\n", "default = 10\n", "the default of"),
         ("range = [0, 9]", "range = [0.5, 9]", "two whole numbers"),
         (
             "type = \"path\"",

@@ -113,7 +113,7 @@ unsafe extern "C" fn zero(handle: *mut c_void, timeout_ns: u64, error: *mut Erro
         let tare = opened.force.tare().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Unsupported,
-                "the transducer cannot call a load zero",
+                "the transducer does not support taring",
             )
         })?;
         Ok(tare.zero(deadline(timeout_ns))?)
@@ -130,7 +130,7 @@ unsafe extern "C" fn sequence(
     let work = |opened: &mut Opened| {
         // SAFETY: the host's place for the number.
         let place = unsafe { memory::place("sequence", sequence) }?;
-        let none = || Failure::new(ErrorKind::NotFound, "no reading has a number yet");
+        let none = || Failure::new(ErrorKind::NotFound, "no numbered reading yet");
         *place = opened.force.sequence().ok_or_else(none)?;
         Ok(())
     };

@@ -61,7 +61,7 @@ impl Opened {
         let Point { x, y, z } = target.position;
         match (self.limits.workspace, self.limits.speed_max) {
             (Some(workspace), _) if !workspace.contains(&target.position) => {
-                refused(format!("{x}, {y}, {z} lies outside the workspace"))
+                refused(format!("{x}, {y}, {z} is outside the workspace"))
             }
             (_, Some(most)) if speed > most => refused(format!("{speed}, expected at most {most}")),
             _ => Ok((target, speed)),
@@ -161,7 +161,7 @@ unsafe extern "C" fn wait(
         let accepted = opened.accepted.take_if(|(accepted, ..)| *accepted == token);
         let (_, target, speed) = accepted.ok_or_else(|| {
             Failure::argument(format!(
-                "no motion {token} was accepted, or it was waited for"
+                "motion {token} was never accepted, or its end was reported already"
             ))
         })?;
         let arrived = opened.robot.move_to(target, speed, deadline(timeout_ns))?;

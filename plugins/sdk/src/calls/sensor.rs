@@ -87,7 +87,7 @@ unsafe extern "C" fn capture(
         let length = info.byte_len().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Internal,
-                format!("frames of {info}, which no buffer can hold"),
+                format!("frames of {info} fit no buffer"),
             )
         })?;
         let room = usize::try_from(frame.buffer_length).unwrap_or(usize::MAX);
@@ -139,7 +139,7 @@ unsafe extern "C" fn set_light(
         let lighting = opened.sensor.lighting().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Unsupported,
-                "the sensor does not set the light around it",
+                "the sensor does not control the light around it",
             )
         })?;
         Ok(lighting.set(scene, deadline(timeout_ns))?)

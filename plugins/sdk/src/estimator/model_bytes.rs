@@ -35,12 +35,7 @@ pub(super) fn read<R>(
     bytes: &[u8],
     load: impl FnOnce(&Saved<'_>) -> Result<R, Failure>,
 ) -> Result<R, Failure> {
-    let foreign = || {
-        Failure::new(
-            ErrorKind::Protocol,
-            "these are not the bytes of a fitted model",
-        )
-    };
+    let foreign = || Failure::new(ErrorKind::Protocol, "the bytes are not a fitted model");
     let mut rest = Rest(bytes);
     if rest.take(MAGIC.len()) != Some(MAGIC) {
         return Err(foreign());

@@ -168,7 +168,7 @@ unsafe extern "C" fn predict(
         let given = times(samples, channels)?;
         if whole(features_length)? != taken || whole(into_length)? != given {
             return Err(Failure::argument(format!(
-                "{features_length} features and room for {into_length} numbers, expected {taken} and {given}"
+                "{features_length} features and a buffer of {into_length} numbers, expected {taken} and {given}"
             )));
         }
         // SAFETY: the host lends features and memory of the stated lengths.
@@ -201,7 +201,7 @@ unsafe extern "C" fn save(
         let bytes = model_bytes::write(&**regressor)?;
         *length = bytes.len() as u64;
         if room < bytes.len() {
-            let message = format!("{room} bytes of room, expected {}", bytes.len());
+            let message = format!("a buffer of {room} bytes, expected {}", bytes.len());
             return Err(Failure::new(ErrorKind::OutOfRange, message));
         }
         // SAFETY: the host states that there is so much room.
@@ -262,7 +262,7 @@ impl Set {
             Channels::new(list.clone()).map_err(|error| Failure::argument(error.to_string()))?;
         if channels.as_slice() != list {
             let message =
-                "the channels stand in another order than `Px Py Pz Fx Fy Fz`, then by name";
+                "the channels are in another order, expected `Px Py Pz Fx Fy Fz`, then by name";
             return Err(Failure::argument(message));
         }
         let shape = FeatureShape {

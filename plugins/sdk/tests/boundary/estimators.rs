@@ -204,7 +204,7 @@ fn sets_that_cannot_be_meant_are_refused() {
         (["Px", "Fz"], spoilt, "not finite"),
         (["Fz", "Px"], TARGETS, "another order"),
         (["Fz", "Fz"], TARGETS, "given twice"),
-        (["F z", "Px"], TARGETS, "no channel name"),
+        (["F z", "Px"], TARGETS, "not a channel name"),
     ] {
         let (status, message) = fit(names, targets, None).err().expect("refused");
         assert_eq!(status, Status::INVALID_ARGUMENT);

@@ -55,7 +55,7 @@ fn a_panic_kills_its_handle_and_no_other() {
     );
     let (status, message) = captured(&dead);
     assert_eq!(status, Status::PANICKED);
-    assert!(message.contains("must be closed"), "{message}");
+    assert!(message.contains("an earlier call panicked"), "{message}");
     assert!(dead.extension::<u32>("taceva.sensor.lighting/1").is_none());
     dead.interrupt();
     dead.close();
@@ -106,7 +106,7 @@ fn handles_that_are_closed_of_another_kind_or_made_up_are_refused_unfollowed() {
         let (status, message) =
             ended(|error| unsafe { calls.start.expect("a function")(handle, 1, error) });
         assert_eq!(status, Status::INVALID_ARGUMENT);
-        assert!(message.contains("the handle is none"), "{message}");
+        assert!(message.contains("the handle is not open"), "{message}");
     }
     assert_eq!(read(&force).0, Status::OK);
 }
@@ -162,7 +162,7 @@ fn numbers_that_are_not_finite_go_neither_way() {
     let sensor = Open::new(SENSOR_FACTORY, "nan");
     let (status, message) = captured(&sensor);
     assert_eq!(status, Status::DEVICE_FAULT);
-    assert!(message.contains("is no time"), "{message}");
+    assert!(message.contains("is not a time"), "{message}");
     let (status, wrench) = read(&Open::new(FORCE_FACTORY, "nan"));
     assert_eq!((status, wrench), (Status::DEVICE_FAULT, Wrench::default()));
     let robot = Open::new(ROBOT_FACTORY, "nan");

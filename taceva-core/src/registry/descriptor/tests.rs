@@ -27,14 +27,14 @@ fn facts_that_contradict_each_other_are_refused_when_built() {
         .with_scenes(vec!["S1".to_owned()]);
     assert_eq!(
         sensor(opaque).expect_err("opaque"),
-        "the driver `test/device` contradicts itself: an opaque gel, yet the light around it can be set to `S1`"
+        "the driver `test/device` contradicts itself: the gel is opaque, but the light around it can be set to `S1`"
     );
     let deep = SensorFacts::default()
         .with_footprint(Footprint::disc(17.0, Some(3.5)).expect("lengths"))
         .with_depth_max(Millimetre(4.0));
     assert_eq!(
         sensor(deep).expect_err("deep"),
-        "the driver `test/device` contradicts itself: a depth limit of 4 mm, yet the footprint is 3.5 mm deep"
+        "the driver `test/device` contradicts itself: the depth limit is 4 mm, but the footprint is 3.5 mm deep"
     );
     let recorded = check(DriverSource::Recorded, Facts::Robot(RobotFacts::default()));
     assert!(recorded.expect_err("a film").contains("a recorded robot"));

@@ -181,7 +181,7 @@ impl Family for Pairs {
         let expected = (2 + gated, self.streams.iter().count() + gated);
         let found = (record.counts.len(), record.sums.len());
         if !record.values.is_empty() || !record.cells.is_empty() {
-            return Err("values or cells in a record that has none".to_owned());
+            return Err("the record has values or cells, expected none".to_owned());
         }
         if found != expected {
             return Err(format!(

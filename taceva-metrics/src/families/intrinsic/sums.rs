@@ -157,7 +157,7 @@ impl IntrinsicSums {
                 && part.cells.is_empty()
                 && part.values.iter().all(|time| is_valid(*time));
             if !whole {
-                return Err(format!("frames `{name}` are no times with their digests"));
+                return Err(format!("frames `{name}`: expected times with digests"));
             }
             for (row, time) in part.values.iter().enumerate() {
                 let digest = part.counts.get(row).copied();

@@ -27,10 +27,10 @@ pub(crate) static R_LIGHT: Metric = Metric {
     range: Range::Ratio,
     definition: "r_light/1",
     reference: "TacEva, equation (8)",
-    documentation: "How little the error changes when the light does: the change of brightness over the changes of brightness \
-                    and error together, each relative to the reference scene; the mean over the scenes that determine it. An \
-                    error that shrinks counts like one that grows: plus counts growth only. scenes holds the ratios of each \
-                    scene; a scene whose light hardly changed says little.",
+    documentation: "Robustness of the error to light: the change of brightness over the sum of the changes of brightness and error, each \
+                    relative to the reference scene; the mean over the scenes that determine it. A decrease of the error counts like an \
+                    increase; `plus` counts increases only. `scenes` has the ratios of each scene; a scene whose light hardly changed \
+                    says little.",
     needs: Needs::new(
         FieldSet::EMPTY
             .with(Field::Truth)

@@ -95,7 +95,7 @@ impl Histogram {
     /// Reads the record of a state.
     pub(super) fn read_record(record: &Record) -> Result<Histogram, String> {
         if !(record.sums.is_empty() && record.values.is_empty()) {
-            return Err("sums or values beside counts".to_owned());
+            return Err("the record has sums or values, expected counts only".to_owned());
         }
         let Some((&n_invalid, counts)) = record.counts.split_first() else {
             return Err("no counts, expected at least one".to_owned());
@@ -104,7 +104,7 @@ impl Histogram {
         for (name, cell) in &record.cells {
             let is_bare = cell.sums.is_empty() && cell.values.is_empty() && cell.cells.is_empty();
             if name != TRUTHS || !is_bare {
-                return Err(format!("`{name}` is no cell of counts of true spacings"));
+                return Err(format!("cell `{name}`, expected counts of true spacings"));
             }
             truths = read_counts(&cell.counts, "spacing")?;
         }
@@ -126,7 +126,7 @@ fn read_counts(counts: &[u64], what: &str) -> Result<BTreeMap<u64, u64>, String>
         let last = read.last_key_value();
         if count == 0 || last.is_some_and(|(&last, _)| last >= number) {
             return Err(format!(
-                "{what} {number} with {count} samples, expected ascending ones that came"
+                "{what} {number} with {count} samples, expected ascending numbers and counts from 1"
             ));
         }
         read.insert(number, count);

@@ -26,12 +26,12 @@ pub(crate) static SR: Metric = Metric {
     range: Range::Share,
     definition: "sr/1",
     reference: "TacEva, equation (4)",
-    documentation: "Which share of gratings is recognised to within 0.05 mm of their spacing, lines and dots apart. Spacings \
-                    are compared in whole nanometres, because 0.40 − 0.35 ≤ 0.05 is false in binary64. exact is the share \
-                    without any error, curve the share for every tolerance up to 1 mm; wilson says how narrow an interval of \
-                    independent samples would be, which presses of one board are not. Where samples name no point_id, kind and spacing of their board \
-                    stand for it. of_constant is what the best constant prediction would reach: a classifier whose interval does \
-                    not lie above it takes part in no verdict.",
+    documentation: "Share of gratings whose spacing is predicted to within 0.05 mm, for lines and dots separately. Spacings are compared \
+                    in whole nanometres, because 0.40 − 0.35 ≤ 0.05 is false in binary64. `exact` is the share without any error, \
+                    `curve` the share for every tolerance up to 1 mm. `wilson` is the narrower interval of independent samples; presses \
+                    of one board depend on each other. Samples without point_id are grouped by kind and spacing of their board. \
+                    `of_constant` is the share of the best constant prediction. A classifier takes part in verdicts only if its interval \
+                    is above that share.",
     needs: Needs::new(
         FieldSet::EMPTY
             .with(Field::Kind)

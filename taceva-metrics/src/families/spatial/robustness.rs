@@ -29,12 +29,12 @@ pub(crate) static R_SPATIAL: Metric = Metric {
     range: Range::Positive,
     definition: "r_spatial/2",
     reference: "TacEva, equation (7)",
-    documentation: "How much the mean absolute error differs between places: the standard deviation of the means of a hundred \
-                    bins of distance from the axis, and of depth, and the mean of both. Bins with few samples differ by chance: \
-                    noise_floor says how much; excess is what remains where samples of one contact point are alike, and verdicts \
-                    go by it: a score whose excess is not shown to be above 0 takes part in none. n_min_5 leaves out bins with \
-                    fewer than five samples. smooth is finished from the rolling mean that plots show; within is the other reading of the paper, the mean \
-                    of the deviations within the bins.",
+    documentation: "Variation of the mean absolute error between places: the standard deviation of the means of a hundred bins of \
+                    distance from the axis, and of depth, and the mean of both. Bins with few samples differ by chance; `noise_floor` is \
+                    the size of that difference. `excess` is the remainder, where samples of one contact point are dependent, and \
+                    verdicts use it. A score takes part in them only if its excess is shown to exceed 0. `n_min_5` omits bins with fewer \
+                    than five samples. `smooth` uses the rolling mean that plots show. `within` is the other reading of the paper: the \
+                    mean of the deviations within the bins.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_channels(&["Px", "Py", "Pz"])
         .with_least_samples(1),

@@ -52,6 +52,6 @@ fn without_times_or_with_equal_ones_there_is_no_rate() {
     );
     assert_eq!(
         said(&equal, "field_of_view"),
-        "no sample in contact says where"
+        "no sample in contact has a place"
     );
 }

@@ -59,6 +59,6 @@ fn a_single_unit_or_a_line_of_points_has_no_gap_to_measure() {
     let lines = evaluate("inter_sensor", &channels, &lines);
     assert_eq!(
         said(&lines, "inter_sensor", "surface_z"),
-        "points on one line leave a turn open"
+        "points on one line do not determine a rotation"
     );
 }

@@ -65,12 +65,12 @@ impl Race<'_> {
         let Candidate { info, fit_s, .. } = *candidate;
         if candidate.is_named_only() {
             return Some(format!(
-                "fitting it takes {fit_s:.0} s of work: it is fitted where it is named"
+                "fitting it takes {fit_s:.0} s of work: name this model to fit it"
             ));
         }
         if self.network_leads() {
             let network = self.network.last().map_or("", Entrant::name);
-            return Some(format!("{network} is clearly ahead of all that take less"));
+            return Some(format!("{network} is clearly ahead of all cheaper models"));
         }
         let needed = candidate.first_s() + fit_s;
         (!self.affords(needed) && !ALWAYS.contains(&info.name)).then(|| {

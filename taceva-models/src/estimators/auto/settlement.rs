@@ -155,9 +155,7 @@ impl Race<'_> {
         if let (Some(taken), Some(network)) = (taken, self.network.last_mut()) {
             let ahead = || {
                 let taken = taken.info.name;
-                format!(
-                    "not ahead of {taken} beyond chance and by a twentieth of its squared error"
-                )
+                format!("not ahead of {taken} by more than chance and 5 % of its squared error")
             };
             network.left.get_or_insert_with(ahead);
         }
@@ -265,7 +263,7 @@ mod tests {
             let left = race.network[0].left.as_deref();
             assert_eq!(
                 left,
-                Some("not ahead of ridge beyond chance and by a twentieth of its squared error")
+                Some("not ahead of ridge by more than chance and 5 % of its squared error")
             );
         });
     }

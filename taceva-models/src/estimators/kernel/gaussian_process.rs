@@ -40,7 +40,7 @@ impl GaussianProcess {
     /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "gaussian-process",
-        about: "a Gaussian process on landmarks: says how sure it is of every prediction",
+        about: "a Gaussian process on landmarks: predicts the uncertainty of every prediction",
         settings: Kernel::SETTINGS,
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(GaussianProcess::from_settings(settings)?)),

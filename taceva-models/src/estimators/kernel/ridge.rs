@@ -32,7 +32,7 @@ impl KernelRidge {
     /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "kernel-ridge",
-        about: "ridge regression of a kernel: follows labels that are no linear function of the picture",
+        about: "kernel ridge regression: fits labels that are not a linear function of the picture",
         settings: Kernel::SETTINGS,
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(KernelRidge::from_settings(settings)?)),

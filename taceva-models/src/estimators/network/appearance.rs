@@ -65,21 +65,21 @@ pub(super) struct Preparation {
 const APPEARANCE: SettingInfo = SettingInfo {
     key: "appearance",
     accepts: "markers, light or auto",
-    default: "as local_mean, contrast, jitter and noise say of themselves",
-    about: "what of a picture is the signal, and so what those four are where they are not set: markers that move (a local mean of 6 and a jitter of 3 per 128 columns), or light and \
-            place (0, false, 0 and 0); auto is light of pictures in colour",
+    default: "the defaults of local_mean, contrast, jitter and noise",
+    about: "which part of a picture is the signal; it sets the defaults of those four: markers that move (a local mean of 6 and a jitter \
+            of 3 per 128 columns), or light and place (0, false, 0 and 0); auto is light for pictures in colour",
 };
 const JITTER: SettingInfo = SettingInfo {
     key: "jitter",
     accepts: "a number of pixels from 0 to 100",
     default: "3, 0 of signals",
-    about: "how far training pictures are shifted at most",
+    about: "greatest shift of training pictures",
 };
 const NOISE: SettingInfo = SettingInfo {
     key: "noise",
     accepts: "a number from 0 to 10",
     default: "0.1",
-    about: "the standard deviation of what is added to training pictures, after preprocessing",
+    about: "the standard deviation of the noise added to training pictures, after preprocessing",
 };
 const LOCAL_MEAN: SettingInfo = SettingInfo {
     key: "local_mean",

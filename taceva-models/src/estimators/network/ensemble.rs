@@ -25,7 +25,7 @@ const MEMBERS: SettingInfo = SettingInfo {
     key: "members",
     accepts: "a number from 2 to 16",
     default: "2",
-    about: "how many networks are fitted, with the seeds from seed on; fitting and predicting take as much longer",
+    about: "number of networks, with consecutive seeds from seed on; fitting and predicting take that many times longer",
 };
 
 const OF_EACH: &[SettingInfo] = NetworkEstimator::CNN.settings;
@@ -92,7 +92,7 @@ impl ModelEstimator for NetworkEnsemble {
             let fit = member.fit_model(training, validation, progress)?;
             let network = fit.regressor.get::<NetworkRegressor>();
             let network =
-                network.ok_or_else(|| invalid("a member of the ensemble is no network"))?;
+                network.ok_or_else(|| invalid("a member of the ensemble is not a network"))?;
             networks.push(network.clone());
             last = Some(fit);
         }

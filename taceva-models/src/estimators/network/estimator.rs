@@ -38,13 +38,13 @@ const EPOCHS: SettingInfo = SettingInfo {
     key: "epochs",
     accepts: "a number from 1 to 100000",
     default: "200 for cnn, 60 for the residual ones",
-    about: "how many times the network is trained on each sample",
+    about: "number of times the network is trained on each sample",
 };
 const BATCH: SettingInfo = SettingInfo {
     key: "batch",
     accepts: "a number from 2 to 4096",
     default: "32",
-    about: "how many samples a training step uses",
+    about: "number of samples per training step",
 };
 const RATE: SettingInfo = SettingInfo {
     key: "rate",
@@ -67,26 +67,26 @@ const SEED: SettingInfo = SettingInfo {
 const PATIENCE: SettingInfo = SettingInfo {
     key: "patience",
     accepts: "a number of epochs from 1 on",
-    default: "all epochs are made",
-    about: "epochs without a better one on the validation part after which training stops",
+    default: "no early stop",
+    about: "number of epochs without improvement on the validation part after which training stops",
 };
 const BRIGHTNESS: SettingInfo = SettingInfo {
     key: "brightness",
     accepts: "a number from 0 to 1",
     default: "0",
-    about: "the largest share by which training pictures are made brighter or darker, after preprocessing",
+    about: "greatest relative change of the brightness of training pictures, after preprocessing",
 };
 const CONVOLUTIONS: SettingInfo = SettingInfo {
     key: "convolutions",
     accepts: "winograd, mixed or direct",
     default: "winograd",
-    about: "the form of convolutions for predictions: winograd is fastest for batches, mixed for one picture at a time, as a sensor gives them",
+    about: "the form of convolutions for predictions: winograd is fastest for batches, mixed for single pictures, as from a sensor",
 };
 const DEVICE: SettingInfo = SettingInfo {
     key: "device",
     accepts: "cpu, cuda or wgpu",
     default: "cpu",
-    about: "the device that trains; a GPU needs a program built with the feature of that name, and gives other last digits each time",
+    about: "the device for training; a GPU needs a program built with the feature of that name, and its last digits vary between runs",
 };
 
 const SETTINGS: &[SettingInfo] = &{

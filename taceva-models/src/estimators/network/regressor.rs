@@ -48,7 +48,7 @@ impl NetworkRegressor {
             || network.architecture() != &card.architecture
         {
             return Err(invalid(
-                "the card of the network is of other channels than its outputs",
+                "the channels of the card differ from the outputs of the network",
             ));
         }
         let numbers = card.scale.offset.iter().chain(&card.scale.span);
@@ -213,7 +213,7 @@ impl Regressor for NetworkRegressor {
         let channels = self.channels.len();
         if features.shape() != self.shape() {
             return Err(invalid(format!(
-                "features of shape {:?} for a model of {:?}",
+                "features of shape {:?}, expected {:?}",
                 features.shape(),
                 self.shape()
             )));

@@ -47,7 +47,7 @@ impl NetworkEstimator {
         let shape = pictures.shape();
         if spacings.is_empty() || pictures.samples() != spacings.len() {
             return Err(invalid(format!(
-                "{} pictures of gratings and {} spacings, expected as many of each, at least one",
+                "{} pictures of gratings and {} spacings, expected equal numbers, at least one",
                 pictures.samples(),
                 spacings.len()
             )));
@@ -136,7 +136,7 @@ impl SpacingNetwork {
     pub fn predict(&self, pictures: &Features) -> Result<Vec<Nanometre>, ModelError> {
         if pictures.shape() != self.shape {
             return Err(invalid(format!(
-                "pictures of {} features, fitted to {}",
+                "pictures of {} features, expected {} as in the fit",
                 pictures.shape().len(),
                 self.shape.len()
             )));
@@ -159,7 +159,7 @@ impl SpacingNetwork {
             });
         found
             .collect::<Option<_>>()
-            .ok_or_else(|| invalid("a predicted spacing is no length"))
+            .ok_or_else(|| invalid("a predicted spacing is not a length"))
     }
 }
 

@@ -67,7 +67,7 @@ impl<'a> Training<'a> {
         let found = shelf.map(Shelf::take).transpose()?.flatten();
         let (name, trainer) = match found {
             Some(found) => (
-                "training goes on",
+                "training resumed",
                 Trainer::resume(found, samples, validation),
             ),
             None => (
@@ -95,8 +95,8 @@ fn broken(error: NetworkError, trainer: &Trainer<'_>, shelf: Option<Shelf<'_>>) 
     };
     let epoch = format!("the best epoch until then, {},", best + 1);
     let kept = match shelf.put(trainer) {
-        Ok(()) => format!("{epoch} is kept in {}", shown(&shelf.path())),
-        Err(problem) => format!("{epoch} could not be kept: {problem}"),
+        Ok(()) => format!("{epoch} is saved in {}", shown(&shelf.path())),
+        Err(problem) => format!("{epoch} could not be saved: {problem}"),
     };
     ModelError::new(refusal.kind(), format!("{refusal}; {kept}")).because(refusal)
 }

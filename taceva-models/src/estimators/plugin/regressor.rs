@@ -21,7 +21,7 @@ use crate::training::regressor::{FittedModel, ModelRegressor};
 const TENSOR: &str = "plugin";
 
 /// Error for a plugin model on principal components.
-const OPAQUE: &str = "the model of a plugin reads pixels; it cannot be joined with principal components, and may find its own";
+const OPAQUE: &str = "the model of a plugin reads pixels: remove `pca`; the plugin may compute its own principal components";
 
 /// Fitted model of a plugin. The plugin predicts; this type stores its bytes.
 #[derive(Clone)]

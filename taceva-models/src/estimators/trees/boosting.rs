@@ -47,13 +47,13 @@ const MOST: SettingInfo = SettingInfo {
     key: "most",
     accepts: "a number from 1 to 10000",
     default: "300",
-    about: "how many trees of a channel are tried at most where their number is chosen",
+    about: "greatest number of trees of a channel to try, if their number is chosen",
 };
 const TREES: SettingInfo = SettingInfo {
     key: "trees",
     accepts: "a number from 1 to 10000",
     default: "chosen for each channel",
-    about: "how many trees each channel has",
+    about: "number of trees of each channel",
 };
 const RATE: SettingInfo = SettingInfo {
     key: "rate",
@@ -90,7 +90,7 @@ impl GradientBoosting {
     /// Registry entry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "gradient-boosting",
-        about: "trees that are each fitted to the errors of those before",
+        about: "gradient boosting: trees that are each fitted to the errors of earlier trees",
         settings: &[
             TREES,
             MOST,

@@ -40,7 +40,7 @@ const TREES: SettingInfo = SettingInfo {
     key: "trees",
     accepts: "a number from 1 to 10000",
     default: "100",
-    about: "how many trees each channel has",
+    about: "number of trees of each channel",
 };
 const SHARE: SettingInfo = SettingInfo {
     key: "share",

@@ -85,7 +85,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Origin, Checkpoint), String> {
     let Format { format } = serde_json::from_str(text).map_err(|error| error.to_string())?;
     if format != FORMAT {
         return Err(format!(
-            "format {}, expected {FORMAT}: of a training by another version of this program, whose results differ in last digits",
+            "format {}, expected {FORMAT}: written by another version of this program, whose results differ in the last digits",
             taceva_core::shown(&format)
         ));
     }
@@ -117,7 +117,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Origin, Checkpoint), String> {
     };
     match digest(&checkpoint) {
         Ok(digest) if digest == card.digest => Ok((card.of, checkpoint)),
-        _ => Err("its numbers are not those that were written".to_owned()),
+        _ => Err("its numbers do not match their digest".to_owned()),
     }
 }
 

@@ -12,7 +12,7 @@ use taceva_network::NetworkError;
 pub enum CheckpointError {
     /// The file cannot be written.
     #[error(
-        "cannot write checkpoint {}: {source}; what was there before stands, and the same training goes on from it",
+        "cannot write checkpoint {}: {source}; the earlier checkpoint is unchanged, and the same training resumes from it",
         taceva_core::shown(path)
     )]
     Write {
@@ -22,7 +22,7 @@ pub enum CheckpointError {
         source: io::Error,
     },
     /// The training device does not return its weights.
-    #[error("cannot take the weights of the training for a checkpoint: {0}")]
+    #[error("cannot copy the weights of the training into a checkpoint: {0}")]
     Unread(NetworkError),
     /// The file cannot be read.
     #[error("cannot read checkpoint {}: {source}", taceva_core::shown(path))]
@@ -34,7 +34,7 @@ pub enum CheckpointError {
     },
     /// The file is damaged.
     #[error(
-        "checkpoint {}: {problem}; remove it to begin anew",
+        "checkpoint {}: {problem}; remove it to start again",
         taceva_core::shown(path)
     )]
     Damaged {
@@ -45,7 +45,7 @@ pub enum CheckpointError {
     },
     /// The file belongs to another training.
     #[error(
-        "checkpoint {} is of another training, with other {what}; remove it to begin anew",
+        "checkpoint {} belongs to another training, with other {what}; remove it to start again",
         taceva_core::shown(path)
     )]
     Foreign {

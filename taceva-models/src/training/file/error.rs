@@ -50,7 +50,7 @@ pub enum FormatError {
     },
     /// The file has a format older than 1.0.
     #[error(
-        "format {format} of TacEva {taceva} is no longer read: fit the model anew with `taceva fit RECORDING --model NAME --out FILE`", format = taceva_core::shown(format), taceva = taceva_core::shown(taceva)
+        "format {format} of TacEva {taceva} is no longer read: fit the model again with `taceva fit RECORDING --model NAME --out FILE`", format = taceva_core::shown(format), taceva = taceva_core::shown(taceva)
     )]
     Earlier {
         /// Format version of the file.
@@ -72,7 +72,7 @@ pub enum FormatError {
     },
     /// The plugin of the model is missing.
     #[error(
-        "fitted by `{key}` of the plugin `{id}`, which is not among the plugins that were found", key = taceva_core::shown(key), id = taceva_core::shown(id)
+        "fitted by `{key}` of the plugin `{id}`, which was not found", key = taceva_core::shown(key), id = taceva_core::shown(id)
     )]
     NoPlugin {
         /// Id of the plugin.

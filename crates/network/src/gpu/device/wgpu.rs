@@ -45,7 +45,7 @@ pub(crate) fn find() -> Result<Device, GpuError> {
 
 const fn looked_for(backend: Backend) -> &'static str {
     match backend {
-        Backend::Vulkan => "a driver of Vulkan (libvulkan and a file in vulkan/icd.d)",
+        Backend::Vulkan => "a Vulkan driver (libvulkan and a file in vulkan/icd.d)",
         Backend::Metal => "a device of Metal",
         Backend::Dx12 => "a device of DirectX 12",
         _ => "a graphics adapter",

@@ -287,7 +287,7 @@ fn fewer_groups_than_folds_and_parts_of_folds_are_refused() {
     assert!(part.contains("scores every sample"), "{part}");
     assert!(refused("cv:3 by-point", None).contains("names no `point_id`"));
     assert!(refused("cv:3 by-column:clip", None).contains("no column `clip`"));
-    assert!(refused("random 35/20/10", None).contains("comes to 65"));
+    assert!(refused("random 35/20/10", None).contains("adds up to 65"));
     // A part is asked of one division, which is the default then.
     let request = EvaluateRequest {
         part: Some(DataPart::Test),

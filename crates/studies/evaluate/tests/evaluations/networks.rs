@@ -96,7 +96,7 @@ fn a_grid_that_is_too_narrow_for_a_network_is_refused_with_its_size_and_auto_say
     let message = evaluated(&dataset, "cnn", &[])
         .expect_err("refused")
         .to_string();
-    let said = "a network slides over a grid of at least 8×8 places, and this one has 5×1 places of 3 in uT; every other model takes it";
+    let said = "a network needs a grid of at least 8×8 places, found 5×1 places of 3 in uT; every other model accepts it";
     assert_eq!(message, said);
     let fitted = fit(&dataset, &request("auto", &[]), None, WORK).expect("fitted");
     let auto = fitted.model.card().auto.clone().expect("a choice");

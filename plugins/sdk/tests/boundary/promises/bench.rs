@@ -42,7 +42,7 @@ fn a_bench_is_reached_through_the_rig_in_which_its_devices_were_opened() {
             9,
             (
                 Status::INVALID_ARGUMENT,
-                "a specimen of the unknown kind 9".to_owned(),
+                "a specimen of unknown kind 9".to_owned(),
             ),
         ),
     ] {

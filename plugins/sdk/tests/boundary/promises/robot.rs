@@ -72,7 +72,7 @@ fn a_motion_beyond_what_the_robot_says_of_itself_is_refused_before_it_begins() {
     let refused = |asked: Motion| robot.move_to(&asked).expect_err("refused");
     let (status, message) = refused(motion(0.9));
     assert_eq!(status, Status::OUT_OF_RANGE);
-    assert_eq!(message, "0 mm, 0 mm, 900 mm lies outside the workspace");
+    assert_eq!(message, "0 mm, 0 mm, 900 mm is outside the workspace");
     let fast = Motion {
         speed_m_per_s: 0.2,
         ..motion(0.0)

@@ -25,7 +25,7 @@ const STRENGTH: Number = Number {
         key: "strength",
         accepts: "a number from 1e-4 to 1",
         default: "chosen for each channel",
-        about: "the penalty on weights, relative to the least at which every weight is 0",
+        about: "the penalty on weights, relative to the least penalty that sets every weight to 0",
     },
     range: [1e-4, 1.0],
     is_whole: false,

@@ -27,7 +27,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
             NAME,
-            "linfa: least squares without a penalty; follows noise where samples are few",
+            "linfa: least squares without a penalty; fits noise if samples are few",
             &[LibrarySettings::SCALE, LibrarySettings::REFIT],
             |settings| ADAPTER.estimator(settings),
         ),

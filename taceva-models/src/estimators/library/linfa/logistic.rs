@@ -28,7 +28,7 @@ const STRENGTH: Number = Number {
         key: "strength",
         accepts: "a number from 1e-6 to 1e6",
         default: "chosen for each channel",
-        about: "the penalty on squared weights, beside the summed loss of all samples",
+        about: "the penalty on squared weights, added to the summed loss of all samples",
     },
     range: [1e-6, 1e6],
     is_whole: false,
@@ -106,8 +106,8 @@ fn check(training: &TrainingSet<'_>) -> Result<(), ModelError> {
             return Err(ModelError::new(
                 ErrorKind::InvalidArgument,
                 format!(
-                    "`{channel}` takes {values} values in the training part, {NAME} has at most {VALUES_MAX} classes: for what \
-                     varies freely choose another model, such as linfa/elastic-net"
+                    "`{channel}` has {values} values in the training part, {NAME} takes at most {VALUES_MAX} classes: for continuous \
+                        labels choose another model, such as linfa/elastic-net"
                 ),
             ));
         }

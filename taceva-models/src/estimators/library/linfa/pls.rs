@@ -25,7 +25,7 @@ const COMPONENTS: Number = Number {
         key: "components",
         accepts: "a whole number from 1 to 200",
         default: "chosen for each channel",
-        about: "how many directions of features are kept",
+        about: "number of directions of features that are kept",
     },
     range: [1.0, 200.0],
     is_whole: true,

@@ -25,7 +25,7 @@ const COST: Number = Number {
         key: "cost",
         accepts: "a number from 1e-3 to 1e6",
         default: "chosen for each channel",
-        about: "what an error beyond the tube costs, labels scaled to 0..1",
+        about: "cost of an error beyond the tube, for labels scaled to 0..1",
     },
     range: [1e-3, 1e6],
     is_whole: false,

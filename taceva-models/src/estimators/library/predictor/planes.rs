@@ -50,7 +50,7 @@ impl Planes {
         let sum: u64 = counts.iter().map(|&count| u64::from(count)).sum();
         if sum != total as u64 || counts.contains(&0) {
             return Err(damaged(
-                "the classes of a target are not those of its planes",
+                "the classes of a target differ from those of its planes",
             ));
         }
         let labels = tensors.doubles(LABELS, &[total])?;

@@ -80,7 +80,7 @@ impl Trees {
         let places = tensors.integers(PLACES, &[total, 3])?;
         let sum = |list: &[u32]| list.iter().map(|&one| u64::from(one)).sum::<u64>();
         if sum(&counts) != lengths.len() as u64 || sum(&lengths) != total as u64 {
-            return Err(damaged("trees of other sizes than there are nodes"));
+            return Err(damaged("the sizes of trees do not add up to the nodes"));
         }
         let mut rest = nodes
             .as_chunks::<2>()

@@ -23,7 +23,7 @@ const TREES: Number = Number {
         key: "trees",
         accepts: "a whole number from 1 to 1000",
         default: "50",
-        about: "how many trees there are",
+        about: "number of trees",
     },
     range: [1.0, 1000.0],
     is_whole: true,
@@ -164,7 +164,7 @@ fn fit(set: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
         let grown = fitted.get("regressors").and_then(Value::as_array);
         let trees: Option<Vec<Tree>> = grown.and_then(|trees| trees.iter().map(tree).collect());
         let trees = trees.ok_or_else(|| {
-            let why = format!("{NAME}: the library grew a tree that cannot be kept");
+            let why = format!("{NAME}: the library grew a tree that cannot be stored");
             ModelError::new(ErrorKind::OutOfRange, why)
         })?;
         Ok((0.0, rate, trees))

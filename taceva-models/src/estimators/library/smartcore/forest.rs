@@ -27,7 +27,7 @@ const TREES: Number = Number {
         key: "trees",
         accepts: "a whole number from 1 to 1000",
         default: "100",
-        about: "how many trees there are",
+        about: "number of trees",
     },
     range: [1.0, 1000.0],
     is_whole: true,
@@ -215,7 +215,7 @@ fn fit(
         let labels = task.target(target);
         let grown = guarded(name, || grow(set, &records, &labels, among.max(1)))?;
         let trees = trees(&grown).ok_or_else(|| {
-            let why = format!("{name}: the library grew a tree that cannot be kept");
+            let why = format!("{name}: the library grew a tree that cannot be stored");
             ModelError::new(ErrorKind::OutOfRange, why)
         })?;
         Ok((0.0, 1.0 / trees.len().max(1) as f64, trees))

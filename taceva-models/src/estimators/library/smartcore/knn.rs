@@ -23,7 +23,7 @@ const COUNT: Number = Number {
         key: "neighbours",
         accepts: "a whole number from 1 to 1000",
         default: "chosen for each channel",
-        about: "how many of the nearest training samples a prediction is the mean of",
+        about: "number of nearest training samples whose mean is the prediction",
     },
     range: [1.0, 1000.0],
     is_whole: true,

@@ -25,7 +25,7 @@ const COST: Number = Number {
         key: "cost",
         accepts: "a number from 1e-3 to 1e6",
         default: "10",
-        about: "what an error beyond the tube costs, labels scaled to 0..1",
+        about: "cost of an error beyond the tube, for labels scaled to 0..1",
     },
     range: [1e-3, 1e6],
     is_whole: false,
@@ -96,8 +96,8 @@ fn check(training: &TrainingSet<'_>) -> Result<(), ModelError> {
     Err(ModelError::new(
         ErrorKind::InvalidArgument,
         format!(
-            "{samples} training samples, {NAME} needs at least as many as features, of which there are {features}: smartcore 0.7.0 \
-             cuts each sample to as many numbers as there are samples; a smaller `size`, `pca` or linfa/svr would be accepted"
+            "{samples} training samples, {NAME} needs at least as many as there are features, {features}: smartcore 0.7.0 truncates each \
+                sample to that number of values; set a smaller `size` or `pca`, or use linfa/svr"
         ),
     ))
 }

@@ -34,7 +34,7 @@ impl EnsembleRegressor {
         };
         if !(2..=MEMBERS_MOST).contains(&members.len()) || !members.iter().all(is_like) {
             return Err(invalid(format!(
-                "an ensemble of {} networks: 2 to {MEMBERS_MOST} of the same channels and features are expected",
+                "an ensemble of {} networks, expected 2 to {MEMBERS_MOST} with the same channels and features",
                 members.len()
             )));
         }

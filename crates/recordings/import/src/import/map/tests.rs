@@ -52,11 +52,7 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
             "\"newton\"",
             "line 8: unknown unit `newton`, expected one of mm",
         ),
-        (
-            "\"N\"",
-            "\"mm\"",
-            "line 8: channel `Fz` is kept in N, not in mm",
-        ),
+        ("\"N\"", "\"mm\"", "line 8: channel `Fz` is in N, found mm"),
         (
             "sign = -1",
             "sign = 2",

@@ -21,13 +21,17 @@ fn angles_of_tables_that_wrap_are_scored_by_their_period() {
 fn a_period_of_a_length_or_of_no_column_is_refused() {
     let table = "sample,Pz,yaw\na,1,1\nb,2,2\n";
     for (name, period, expected) in [
-        ("Pz", 360, "channel `Pz` has no period of 360 degrees"),
+        ("Pz", 360, "channel `Pz`: a period of 360 degrees"),
         (
             "roll",
             360,
             "a period is given for `roll`, which is no column of the predictions",
         ),
-        ("yaw", 720, "expected an angle, in deg or rad, and 1 to 360"),
+        (
+            "yaw",
+            720,
+            "expected an angle in deg or rad and a period of 1 to 360 degrees",
+        ),
     ] {
         let mut tables = Tables::new(table, table);
         tables.request.periods = vec![(name.to_owned(), period)];

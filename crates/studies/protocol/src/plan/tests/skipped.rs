@@ -91,7 +91,7 @@ fn a_finished_model_is_not_fitted_again_and_predicts_no_spacing() {
         .iter()
         .find(|skip| skip.subject == fit)
         .expect("said");
-    assert_eq!(skip.reason.to_string(), "a finished one was given");
+    assert_eq!(skip.reason.to_string(), "a finished result was given");
 }
 
 #[test]
@@ -167,10 +167,7 @@ fn a_recording_is_planned_by_what_it_holds() {
     let plan = planned_as(&text, SourceInfo::Recording(recording), &paper_metrics());
     assert_eq!(ids(&plan), ["mae", "intrinsic"]);
     assert_eq!(reason(&plan, "hysteresis"), "no sample carries `phase`");
-    assert_eq!(
-        reason(&plan, "sensitivity"),
-        "nothing is scored on a channel `Px`"
-    );
+    assert_eq!(reason(&plan, "sensitivity"), "channel `Px` is not scored");
     assert!(plan.phases.is_empty() && plan.presses.is_empty());
     assert_eq!(plan.fits.len(), 1);
 }
