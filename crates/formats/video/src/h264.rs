@@ -138,7 +138,10 @@ impl H264Clip {
         if sequence.is_too_large() {
             return Err(self
                 .source
-                .damaged(offset, "more reference frames than any level allows")
+                .damaged(
+                    offset,
+                    "larger frames or more reference frames than any level allows",
+                )
                 .into());
         }
         match sequence.foreign() {

@@ -11,7 +11,7 @@ use super::wire::{Answer, Greeting, Unit, plane_bytes};
 #[non_exhaustive]
 pub enum ServeError {
     /// The parent cannot be read from or written to, or is another program.
-    #[error("the AV1 decoder lost its parent process: {0}")]
+    #[error("the AV1 decoder cannot communicate with its parent process: {0}")]
     Parent(#[from] io::Error),
     /// The process could not be confined; nothing was decoded.
     #[error("the AV1 decoder cannot be confined: {0}")]

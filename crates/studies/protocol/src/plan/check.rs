@@ -75,7 +75,7 @@ fn fault(collected: &Collected, facts: &StudyFacts<'_>) -> Option<String> {
         };
         let press = collected.presses.iter().find(beyond)?;
         Some(format!(
-            "press {} is outside the footprint or below the depth limit",
+            "press {} is outside the footprint or deeper than its limit",
             press.id
         ))
     })
