@@ -152,7 +152,7 @@ impl Parameters {
         if depth_max_mm > greatest {
             return Err(self.contradiction("probing", "depth_max_mm", || {
                 format!(
-                    "at most {greatest:.3}: what the force law holds for with a ball of {GREATEST_INDENTER_MM} mm on a layer of {} mm",
+                    "at most {greatest:.3}, the greatest depth of the force law for a ball of {GREATEST_INDENTER_MM} mm on a layer of {} mm",
                     layer.thickness_mm
                 )
             }));

@@ -45,7 +45,7 @@ fn tapped(on: &OnTheWire, options: &[&str]) -> Value {
             return serde_json::from_slice(&output.stdout).expect("JSON");
         }
         said = String::from_utf8_lossy(&output.stderr).into_owned();
-        let is_busy = ["is spread over", "ms late", "ms old", "heard"];
+        let is_busy = ["varies by", "ms late", "ms old", "arrived"];
         assert!(is_busy.iter().any(|words| said.contains(words)), "{said}");
     }
     panic!("{said}");

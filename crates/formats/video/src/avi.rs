@@ -128,7 +128,7 @@ impl Walk<'_> {
         if part.size == 0 {
             return Err(self.source.damaged(
                 part.at,
-                "the size of the recording is 0: it was never closed; `ffmpeg -i OLD -c copy NEW` writes what is there as a whole file",
+                "the size of the recording is 0: it was never closed; `ffmpeg -i OLD -c copy NEW` recovers its frames",
             ));
         }
         let first_packet = self.packets.len();
@@ -147,7 +147,7 @@ impl Walk<'_> {
                 (b"idx1", _) => {
                     let base = packets_at.ok_or_else(|| {
                         self.source
-                            .damaged(chunk.at, "an index before the frames that it lists")
+                            .damaged(chunk.at, "the index precedes its frames")
                     })?;
                     let number = self.stream.as_ref().map_or(0, |stream| stream.number);
                     let packets = &self.packets[first_packet..];
@@ -164,7 +164,7 @@ impl Walk<'_> {
         let Some(number) = self.stream.as_ref().map(|stream| stream.number) else {
             return Err(self
                 .source
-                .damaged(list.at, "frames before the description of their stream"));
+                .damaged(list.at, "frames precede the header of their stream"));
         };
         let mut chunks = list.list(self.source)?;
         while let Some(chunk) = chunks.next()? {

@@ -37,7 +37,7 @@ pub enum VideoError {
     },
     /// The index of the container contradicts its frames.
     #[error(
-        "the index of {} is broken at byte {offset}: {problem}; `ffmpeg -i OLD -c copy NEW` writes it anew",
+        "the index of {} is broken at byte {offset}: {problem}; `ffmpeg -i OLD -c copy NEW` rebuilds it",
         shown(path)
     )]
     Index {
@@ -72,7 +72,7 @@ pub enum VideoError {
     },
     /// Requested frames are not strictly ascending.
     #[error(
-        "{}: frame {index} is asked for after frame {after}, expected rising numbers",
+        "{}: frame {index} is requested after frame {after}, expected ascending numbers",
         shown(path)
     )]
     Unsorted {
@@ -85,7 +85,7 @@ pub enum VideoError {
     },
     /// The size of a frame differs from that of the first.
     #[error(
-        "{}: frame {frame} is {found}, expected {expected} as at the beginning: cut the clip where its size changes",
+        "{}: frame {frame} is {found}, expected {expected} as in the first frame: split the clip where its size changes",
         shown(path)
     )]
     ChangedSize {
@@ -99,7 +99,7 @@ pub enum VideoError {
         expected: String,
     },
     /// No available decoder supports the clip.
-    #[error("{}: nothing at hand decodes {codec}: {remedy}", shown(path))]
+    #[error("{}: no available decoder supports {codec}: {remedy}", shown(path))]
     NoDecoder {
         /// The clip.
         path: PathBuf,
@@ -110,7 +110,7 @@ pub enum VideoError {
     },
     /// The clip has no luma plane.
     #[error(
-        "{}: pixels are {pixel_format}, which have no luma plane: ask for colours",
+        "{}: pixel format {pixel_format} has no luma plane: request colours",
         shown(path)
     )]
     NoLuma {
@@ -121,7 +121,7 @@ pub enum VideoError {
     },
     /// The colour matrix of the clip is not supported.
     #[error(
-        "{}: colours are coded by matrix {matrix} of ITU-T H.273, which is not converted: ask for luma, or write the clip anew by another",
+        "{}: colours use matrix {matrix} of ITU-T H.273, which is not supported: request luma, or re-encode the clip with another matrix",
         shown(path)
     )]
     Colours {

@@ -58,7 +58,7 @@ impl Known {
         let codec = self
             .codec
             .as_deref()
-            .unwrap_or("the codec of a container that is not known here");
+            .unwrap_or("the codec of an unknown container");
         [codec, &self.why].join(" ").trim().to_owned()
     }
 
@@ -99,7 +99,8 @@ impl ForeignClip {
             return Err(VideoError::NoDecoder {
                 path: path.to_owned(),
                 codec: format!("{} with pixels as {pixel_format}", known.codec()),
-                remedy: "write it anew in a format that is read, as `ffmpeg -i OLD -pix_fmt bgr0 -c:v ffv1 NEW.mkv` does".to_owned(),
+                remedy: "convert it, such as with `ffmpeg -i OLD -pix_fmt bgr0 -c:v ffv1 NEW.mkv`"
+                    .to_owned(),
             });
         };
         if frame_bytes as u64 > limits::FRAME_BYTES {
@@ -212,7 +213,7 @@ impl ForeignClip {
                 path: self.path.clone(),
                 program: self.program.display().to_string(),
                 problem: format!(
-                    "it gave {next} frames, expected the {} that it found before",
+                    "it returned {next} frames, expected the {} of its first pass",
                     self.frames
                 ),
             }),

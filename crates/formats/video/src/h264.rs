@@ -127,7 +127,7 @@ impl H264Clip {
         let Some(sequence) = Sequence::read(unit) else {
             return Err(self
                 .source
-                .damaged(offset, "a sequence of no known layout")
+                .damaged(offset, "a sequence parameter set of unknown layout")
                 .into());
         };
         if (sequence.width, sequence.height) != self.size() {
@@ -138,7 +138,10 @@ impl H264Clip {
         if sequence.is_too_large() {
             return Err(self
                 .source
-                .damaged(offset, "more frames to be kept than any level admits")
+                .damaged(
+                    offset,
+                    "larger frames or more reference frames than any level allows",
+                )
                 .into());
         }
         match sequence.foreign() {
@@ -165,7 +168,7 @@ impl H264Clip {
                 path: self.source.path().to_owned(),
                 decoder: DECODER,
                 frame,
-                problem: format!("planes that are not those of {width}×{height} pixels"),
+                problem: format!("the planes do not match {width}×{height} pixels"),
             });
         }
         let samples = match colours {
@@ -237,7 +240,7 @@ impl SampleDecoder for Session<'_> {
         let refusal = |error: DecodeError| match error {
             DecodeError::Unsupported(tool) => Refusal::Tool(format!("with {tool}")),
             other => {
-                let problem = format!("on the way to frame {}: {other}", towards.frame);
+                let problem = format!("before frame {}: {other}", towards.frame);
                 Refusal::Video(source.damaged(offset, problem))
             }
         };
@@ -267,7 +270,7 @@ impl SampleDecoder for Session<'_> {
             return Ok(None);
         }
         let Some(picture) = picture else {
-            let problem = format!("no whole picture for frame {}", towards.frame);
+            let problem = format!("no complete picture for frame {}", towards.frame);
             return Err(source.damaged(offset, problem).into());
         };
         let decoded = Decoded {
@@ -306,7 +309,7 @@ fn first_sequence(
         .ok_or_else(|| {
             source.damaged(
                 first.offset,
-                "the stream does not say how large its frames are",
+                "the stream does not state the size of its frames",
             )
         })
 }

@@ -53,9 +53,7 @@ pub(crate) fn read_header(bytes: &[u8]) -> Result<JpegHeader, (usize, String)> {
             0xda => break,
             0xc4 => has_tables = true,
             0xc0..=0xcf if !matches!(marker, 0xc8 | 0xcc) => {
-                frame = Some(
-                    read_frame(segment).ok_or((at, "a frame header that is none".to_owned()))?,
-                );
+                frame = Some(read_frame(segment).ok_or((at, "invalid frame header".to_owned()))?);
             }
             _ => {}
         }

@@ -121,7 +121,7 @@ fn read_track(
     if has_fragments {
         let number = track_number(source, &track.need(source, b"tkhd")?)?;
         if !fragments::append(source, movie, number, &mut samples)? {
-            return elsewhere("in fragments that do not state the place or time of their frames");
+            return elsewhere("in fragments without offsets or times of their frames");
         }
     }
     let (presented, times_s) = present(&samples, edit, ticks_per_s, movie_ticks_per_s);

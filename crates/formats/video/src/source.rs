@@ -46,7 +46,7 @@ impl Source {
         let end = offset.checked_add(into.len() as u64);
         if end.is_none_or(|end| end > self.length) {
             let problem = format!(
-                "{} bytes are expected here, the file ends after {}",
+                "expected {} bytes here, but the file ends after {}",
                 into.len(),
                 self.length
             );
@@ -77,7 +77,7 @@ impl Source {
             return Err(self.damaged(
                 offset.min(self.length),
                 format!(
-                    "{what} of the file are cut: it ends after {} bytes",
+                    "{what} are missing: the file ends after {} bytes",
                     self.length
                 ),
             ));

@@ -157,7 +157,7 @@ impl Video {
                 path: self.path.clone(),
                 program: program.display().to_string(),
                 problem: format!(
-                    "finds {} frames of {}×{}, the container says {} of {}×{}",
+                    "finds {} frames of {}×{}, but the container states {} of {}×{}",
                     found.2, found.0, found.1, expected.2, expected.0, expected.1
                 ),
             });

@@ -48,7 +48,7 @@ pub enum AcquireError {
     OpenLive(Box<OpenError>),
     /// A device failed during a capture; the frames before are a whole recording.
     #[error(
-        "{source}; the {frames} frames before are a whole recording in {}",
+        "{source}; the {frames} frames before it are a complete recording in {}",
         taceva_core::shown(path)
     )]
     CaptureEnded {
@@ -108,9 +108,9 @@ pub enum AcquireError {
 fn kept(path: &Path, frames: u64, is_whole: bool) -> String {
     let path = taceva_core::shown(path);
     match is_whole {
-        true => format!("the {frames} frames before are a whole recording in {path}"),
+        true => format!("the {frames} frames before it are a complete recording in {path}"),
         false => format!(
-            "the {frames} frames before are kept: make room, then run taceva capture {path} --close"
+            "the {frames} frames before it are stored: free disk space, then run taceva capture {path} --close"
         ),
     }
 }

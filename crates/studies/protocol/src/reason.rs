@@ -136,7 +136,7 @@ impl fmt::Display for Cause {
             Cause::NoAxis => "a force transducer that measures it: this one does not",
             Cause::NoModel => "a model: none chosen",
             Cause::NoEstimator => {
-                "a model that is fitted: a finished one predicts its own labels only"
+                "a model that can be fitted: a model file predicts its own labels only"
             }
             Cause::NoLighting => "light that can be set: the scene has none",
             Cause::OneLight => "two scenes of light: there is one",
@@ -179,12 +179,12 @@ impl fmt::Display for PlanReason {
             PlanReason::Unmeasured { channel, cause } => {
                 write!(f, "needs `{channel}` ← needs {cause}")
             }
-            PlanReason::NoMarkers => {
-                f.write_str("the gel has no markers, and how well shear repeats is asked of gels with markers alone")
-            }
+            PlanReason::NoMarkers => f.write_str(
+                "shear repeatability applies only to gels with markers, and this gel has none",
+            ),
             PlanReason::NoMetricNeeds => f.write_str("no kept metric needs it"),
             PlanReason::VisitedBy { phase, presses } => {
-                write!(f, "{presses} presses are those of {phase}: visited once")
+                write!(f, "{presses} presses are shared with {phase}: made once")
             }
         }
     }

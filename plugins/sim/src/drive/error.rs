@@ -9,7 +9,7 @@ pub(super) const ROBOT: DriverKey = DriverKey::fixed("sim/robot");
 pub(super) fn rig_argument() -> ArgSpec {
     ArgSpec::text("rig")
         .default(ArgValue::Text("bench".to_owned()))
-        .help("the name of the bench; devices of one name work on one gel")
+        .help("name of the bench; devices with the same name share one gel")
 }
 
 /// Name of the bench in `args`.

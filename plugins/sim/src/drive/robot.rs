@@ -62,7 +62,7 @@ impl Factory<dyn Robot> for RobotFactory {
             let mut state = rig.state();
             if state.sensor_is_open {
                 let why = format!(
-                    "`gel={gel}`: the bench `{}` holds a sensor, whose gel it presses",
+                    "`gel={gel}`: the bench `{}` already has a sensor, and the robot presses its gel: remove `gel`",
                     rig_name(args)
                 );
                 return Err(failed(
@@ -89,10 +89,10 @@ fn arguments() -> [ArgSpec; 3] {
         rig_argument(),
         ArgSpec::choice("gel", gels)
             .optional()
-            .help("the gel under the tip, where the sensor is none of this bench"),
+            .help("gel under the tip, if the sensor is outside this bench"),
         ArgSpec::whole("seed", 0, i64::MAX)
             .default(ArgValue::Whole(0))
-            .help("what the noise of that gel is drawn from"),
+            .help("seed of the noise of that gel"),
     ]
 }
 
@@ -138,7 +138,7 @@ impl SimulatedRobot {
         let Point { x, y, z } = target.position;
         if !workspace().contains(&target.position) {
             let why = format!(
-                "{x}, {y}, {z} lies outside the workspace from {LEAST_MM:?} to {GREATEST_MM:?} mm"
+                "{x}, {y}, {z} is outside the workspace from {LEAST_MM:?} to {GREATEST_MM:?} mm"
             );
             return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
         }

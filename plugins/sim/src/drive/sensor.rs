@@ -90,7 +90,7 @@ impl Factory<dyn Sensor> for SensorFactory {
         {
             let mut state = rig.state();
             if state.sensor_is_open {
-                let why = format!("the bench `{}` holds a sensor already", rig_name(args));
+                let why = format!("the bench `{}` already has a sensor", rig_name(args));
                 return Err(failed(ErrorKind::Busy, &driver, doing, why));
             }
             state.install(Bench::new(parameters, unit, seed));

@@ -137,7 +137,7 @@ fn a_size_below_the_cells_that_a_model_looks_at_is_refused_before_a_folder_is_ma
     for size in ["7x36", "40x7"] {
         bench.write("small.toml", &small(size));
         let message = format!(
-            "small.toml, line 10: `frames` is `{size}`, but model `ridge` of study `small` looks at 8×8 cells of each: expected at least `8x8`"
+            "small.toml, line 10: `frames` is `{size}`, but model `ridge` of study `small` divides each frame into 8×8 cells: expected at least `8x8`"
         );
         bench.refused("run small.toml --out r", 3, &message);
         assert!(!bench.path("r").exists());
@@ -148,7 +148,7 @@ fn a_size_below_the_cells_that_a_model_looks_at_is_refused_before_a_folder_is_ma
     bench.refused(
         "run small.toml --out r",
         3,
-        "but the classifier of gratings of study `small` looks at 16×16 cells of each: expected at least `16x16`",
+        "but the classifier of gratings of study `small` divides each frame into 16×16 cells: expected at least `16x16`",
     );
 }
 

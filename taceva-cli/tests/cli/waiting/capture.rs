@@ -113,7 +113,7 @@ fn simulated_and_recorded_sensors_are_captured_in_their_own_time() {
             emulated.force()
         ),
         2,
-        "leave --force out",
+        "omit --force",
     );
 }
 

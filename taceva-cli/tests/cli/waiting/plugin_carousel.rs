@@ -143,7 +143,7 @@ fn run(bench: &Bench) -> Ran {
         let once = bench.run(&format!(
             "run scene.toml --rig lab.toml --out r {FOLDER}{resume}"
         ));
-        let signs = ["ms old", "halted", "frames come late"];
+        let signs = ["ms old", "halted", "frames are late"];
         let is_late = signs.iter().any(|sign| once.err.contains(sign));
         ran = Some(once);
         if !is_late {
@@ -203,7 +203,7 @@ fn a_carousel_changes_what_an_emulated_bench_presses_with_and_its_failures_lose_
         (Mood::Stuck, "the motor is hot"),
         (
             Mood::BringsAnother,
-            "it says that `sphere of radius 2 mm` is in place, expected `line grating of ",
+            "it reports that `sphere of radius 2 mm` is in place, expected `line grating of ",
         ),
         (Mood::Silent, "it has not arrived"),
         (Mood::Gone, "it closed the connection"),

@@ -222,7 +222,7 @@ fn a_unit_that_the_plan_does_not_name_is_refused() {
         .expect_err("unknown");
     assert_eq!(
         error.to_string(),
-        "the plan needs unit `9`, which it does not name"
+        "the plan needs unit `9` in its list of units"
     );
 }
 
@@ -281,7 +281,10 @@ fn a_transducer_that_stays_silent_leaves_the_tip_where_it_is() {
     assert!(matches!(error.cause, StopCause::Tripped(_)), "{error}");
     assert_eq!(error.left, Left::InPlace);
     assert!(bench.shared.world().halted, "nobody moves blind");
-    assert!(error.to_string().contains("left where it stood"), "{error}");
+    assert!(
+        error.to_string().contains("the tip stays in place"),
+        "{error}"
+    );
 }
 
 struct NoBoards;

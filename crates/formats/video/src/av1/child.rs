@@ -11,13 +11,13 @@ use super::wire::{Answer, Greeting, Unit, plane_bytes};
 #[non_exhaustive]
 pub enum ServeError {
     /// The parent cannot be read from or written to, or is another program.
-    #[error("the parent of the decoder of AV1: {0}")]
+    #[error("the AV1 decoder cannot communicate with its parent process: {0}")]
     Parent(#[from] io::Error),
     /// The process could not be confined; nothing was decoded.
-    #[error("the decoder of AV1 cannot be confined: {0}")]
+    #[error("the AV1 decoder cannot be confined: {0}")]
     Confinement(String),
     /// The decoder could not be created.
-    #[error("the decoder of AV1 does not start: error {0}")]
+    #[error("the AV1 decoder does not start: error {0}")]
     Start(i32),
 }
 

@@ -161,7 +161,7 @@ struct Session<'a> {
 impl<'a> Session<'a> {
     fn start(clip: &'a Av1Clip, colours: Colours) -> Result<Session<'a>, VideoError> {
         let Some((program, arguments)) = clip.program.split_first() else {
-            return Err(clip.failed("no program is named for the child that decodes AV1"));
+            return Err(clip.failed("no program is set for the AV1 decoder process"));
         };
         let mut command = Command::new(program);
         command.args(arguments).stdin(Stdio::piped());
@@ -197,15 +197,16 @@ impl<'a> Session<'a> {
                 Ok(Piece::Line(_)) => {}
                 Ok(Piece::Block(block)) if is_sent => {
                     let answer = Answer::parse(block);
-                    return answer
-                        .ok_or_else(|| self.clip.failed("does not answer as the decoder of AV1"));
+                    return answer.ok_or_else(|| {
+                        self.clip
+                            .failed("its answer does not follow the protocol of the AV1 decoder")
+                    });
                 }
                 Ok(Piece::Block(_)) => {}
                 Err(ended) => {
                     let said = taceva_core::shown(&self.said);
-                    let problem = format!(
-                        "the child that decodes AV1 {ended} on the way to frame {frame}: {said}"
-                    );
+                    let problem =
+                        format!("the AV1 decoder process {ended} before frame {frame}: {said}");
                     return Err(self.clip.failed(problem.trim_end_matches(": ")));
                 }
             }

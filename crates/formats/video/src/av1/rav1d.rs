@@ -80,7 +80,7 @@ impl Decoder {
                 picture = Some(next);
             }
             if packet.0.sz == before && picture.is_some() == had {
-                return Err(Refused::Kind("a packet that is not taken"));
+                return Err(Refused::Kind("the decoder accepts no more of the packet"));
             }
         }
         while let Some(next) = self.next()? {
@@ -146,9 +146,7 @@ impl Shown {
         let picture = &self.0;
         let is_gray = picture.p.layout == DAV1D_PIXEL_LAYOUT_I400;
         if picture.p.bpc != 8 || !(is_gray || picture.p.layout == DAV1D_PIXEL_LAYOUT_I420) {
-            return Err(Refused::Kind(
-                "pixels of other than 8 bits, or other than 4:2:0",
-            ));
+            return Err(Refused::Kind("pixels that are not 8-bit 4:2:0"));
         }
         let sides = u32::try_from(picture.p.w)
             .ok()
@@ -162,7 +160,7 @@ impl Shown {
         }
         let header = picture
             .seq_hdr
-            .ok_or(Refused::Kind("a picture without a sequence"))?;
+            .ok_or(Refused::Kind("a picture without a sequence header"))?;
         // SAFETY: the picture keeps its header alive.
         let header = unsafe { header.as_ref() };
         Ok(Yuv {

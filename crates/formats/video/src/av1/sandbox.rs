@@ -48,8 +48,9 @@ mod linux {
 
     pub(in super::super) fn confine(memory: u64) -> Result<(), String> {
         // If the parent has already exited, the closed input ends the child too.
-        set_parent_process_death_signal(Some(Signal::KILL))
-            .map_err(|error| format!("it cannot end with its parent: {error}"))?;
+        set_parent_process_death_signal(Some(Signal::KILL)).map_err(|error| {
+            format!("the signal at the end of its parent cannot be set: {error}")
+        })?;
         for (resource, most, name) in [
             (Resource::As, memory, "memory"),
             (Resource::Fsize, 0, "the size of files"),

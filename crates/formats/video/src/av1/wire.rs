@@ -77,7 +77,7 @@ impl Greeting {
     #[cfg(feature = "av1")]
     pub(super) fn read(from: &mut impl Read) -> io::Result<Greeting> {
         if take::<8>(from)? != LETTERS {
-            return Err(wrong("the other end is another program or version"));
+            return Err(wrong("the other process is a different program or version"));
         }
         let (width, height) = (
             u32::from_le_bytes(take(from)?),
@@ -88,7 +88,7 @@ impl Greeting {
             || !is_side(height)
             || plane_bytes(width, height, false) > limits::FRAME_BYTES
         {
-            return Err(wrong("frames of a size that is not accepted"));
+            return Err(wrong("frame size out of range"));
         }
         Ok(Greeting { width, height })
     }
@@ -96,8 +96,7 @@ impl Greeting {
 
 impl Unit {
     pub(super) fn write(&self, to: &mut impl Write) -> io::Result<()> {
-        let size =
-            u32::try_from(self.bytes.len()).map_err(|_| wrong("a packet that is too large"))?;
+        let size = u32::try_from(self.bytes.len()).map_err(|_| wrong("packet too large"))?;
         to.write_all(&size.to_le_bytes())?;
         to.write_all(&[u8::from(self.is_restart) | u8::from(self.is_wanted) << 1])?;
         to.write_all(&self.bytes)
@@ -114,7 +113,7 @@ impl Unit {
         let size = u32::from_le_bytes([first[0], b, c, d]);
         // A packet preceded by the settings of its stream.
         if u64::from(size) > limits::PACKET_BYTES + limits::HEADER_BYTES {
-            return Err(wrong("a packet that is too large"));
+            return Err(wrong("packet too large"));
         }
         let [flags] = take(from)?;
         let mut bytes = vec![0; size as usize];

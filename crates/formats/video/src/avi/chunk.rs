@@ -63,7 +63,7 @@ impl Chunk {
     /// Iterates over the chunks of a list.
     pub(super) fn list<'a>(&self, source: &'a Source) -> Result<Chunks<'a>, VideoError> {
         if self.size < 4 {
-            return Err(source.damaged(self.at, "a list without its four letters"));
+            return Err(source.damaged(self.at, "a list without its type of four letters"));
         }
         // The end was checked when the chunk was found.
         Ok(Chunks::new(source, self.body + 4, self.body + self.size))
@@ -127,14 +127,11 @@ impl<'a> Chunks<'a> {
         let [a, b, c, d, size @ ..] = self.head()?;
         let (id, size) = (ChunkId([a, b, c, d]), u64::from(u32::from_le_bytes(size)));
         if !id.0.iter().all(|letter| (b' '..=b'~').contains(letter)) {
-            let problem = format!("a chunk called {id}, expected four letters");
+            let problem = format!("chunk id {id}, expected four letters");
             return Err(self.source.damaged(self.at, problem));
         }
         if size > left - 8 {
-            let problem = format!(
-                "the chunk {id} says that it has {size} bytes, {} are left",
-                left - 8
-            );
+            let problem = format!("chunk {id} states {size} bytes, but {} are left", left - 8);
             return Err(self.source.damaged(self.at, problem));
         }
         let chunk = Chunk {

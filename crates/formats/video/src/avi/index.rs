@@ -22,7 +22,7 @@ impl Index {
         };
         // Layout: two integers for each entry, the second of which is a size.
         if head[..2] != [2, 0] || head[3] != 1 {
-            return Err(wrong("of an unknown layout".to_owned()));
+            return Err(wrong("unknown layout".to_owned()));
         }
         let count = number(&head[4..8]);
         let base = number(&head[12..16]) | number(&head[16..20]) << 32;
@@ -30,13 +30,12 @@ impl Index {
             .chunks_exact(8)
             .take(usize::try_from(count).unwrap_or(usize::MAX));
         if listed.len() as u64 != count {
-            return Err(wrong(format!(
-                "{count} entries are more than it has room for"
-            )));
+            return Err(wrong(format!("{count} entries do not fit into it")));
         }
         for (at, entry) in (chunk.body + 24..).step_by(8).zip(listed) {
             let offset = base.checked_add(number(&entry[..4]));
-            let offset = offset.ok_or_else(|| wrong("an entry beyond any file".to_owned()))?;
+            let offset =
+                offset.ok_or_else(|| wrong("the offset of an entry overflows".to_owned()))?;
             // The highest bit marks a frame that is no key frame.
             let size = number(&entry[4..]) & 0x7fff_ffff;
             self.entries.push((at, Packet { offset, size }));
@@ -98,7 +97,7 @@ fn check_entry(source: &Source, at: u64, listed: Packet, found: Packet) -> Resul
         return Ok(());
     }
     let problem = format!(
-        "{} bytes at {} are listed, {} bytes at {} are there",
+        "it lists {} bytes at {}, but the file has {} bytes at {}",
         listed.size, listed.offset, found.size, found.offset
     );
     Err(broken(source, at, problem))
@@ -111,7 +110,7 @@ fn check_count(source: &Source, at: u64, listed: usize, found: usize) -> Result<
     Err(broken(
         source,
         at,
-        format!("{listed} frames are listed, {found} are there"),
+        format!("it lists {listed} frames, but the file has {found}"),
     ))
 }
 

@@ -49,7 +49,7 @@ impl Settings {
             return Err(wrong(0, "cut"));
         };
         if version != 1 {
-            return Err(wrong(0, "of an unknown version, expected 1"));
+            return Err(wrong(0, "unknown version, expected 1"));
         }
         let length_bytes = usize::from(lengths & 3) + 1;
         if length_bytes == 3 {
@@ -63,8 +63,8 @@ impl Settings {
         let mut at = 6;
         for _ in 0..counts & 31 {
             let unit = sized(bytes, &mut at).ok_or_else(|| wrong(at, "cut"))?;
-            let sequence =
-                Sequence::read(unit).ok_or_else(|| wrong(at, "a sequence of no known layout"))?;
+            let sequence = Sequence::read(unit)
+                .ok_or_else(|| wrong(at, "a sequence parameter set of unknown layout"))?;
             match &settings.sequence {
                 None => settings.sequence = Some(sequence),
                 Some(first) if (first.width, first.height) == (sequence.width, sequence.height) => {
@@ -106,14 +106,13 @@ impl Settings {
             let Some(unit) = unit else {
                 let left = bytes.len() - from;
                 return Err(wrong(format!(
-                    "a unit of {length} bytes, {left} are left of the frame"
+                    "a unit of {length} bytes, but the frame has {left} left"
                 )));
             };
             if let Some(inner) = unit.windows(3).position(|three| three == [0, 0, 1]) {
-                return Err(source.damaged(
-                    offset + (from + inner) as u64,
-                    "a start code within a unit, which no stream has",
-                ));
+                return Err(
+                    source.damaged(offset + (from + inner) as u64, "a start code within a unit")
+                );
             }
             if !unit.is_empty() {
                 units.push((offset + from as u64, unit));

@@ -96,7 +96,7 @@ impl<'a> Boxes<'a> {
             return Ok(None);
         }
         self.left = self.left.checked_sub(1).ok_or_else(|| {
-            let problem = "boxes beyond what is accepted in one place";
+            let problem = "too many boxes at one level";
             self.source.damaged(self.at, problem)
         })?;
         let mut head = [0; 8];
@@ -114,7 +114,7 @@ impl<'a> Boxes<'a> {
         };
         if size < head || size > left {
             let problem = format!(
-                "the box `{}` says that it has {size} bytes, expected {head} to {left}",
+                "the box `{}` states {size} bytes, expected {head} to {left}",
                 kind.escape_ascii()
             );
             return Err(self.source.damaged(self.at, problem));
@@ -159,7 +159,7 @@ impl Fields {
             return Err(source.damaged(
                 self.offset(),
                 format!(
-                    "{} bytes are left of a box, expected {N} or more",
+                    "the box has {} bytes left, expected {N} or more",
                     self.left()
                 ),
             ));
@@ -195,7 +195,7 @@ impl Fields {
             return Err(source.damaged(
                 self.offset(),
                 format!(
-                    "{} bytes are left of a box, expected {count} or more",
+                    "the box has {} bytes left, expected {count} or more",
                     self.left()
                 ),
             ));

@@ -202,7 +202,7 @@ pub(super) fn check_is_in_file(source: &Source, information: &BoxAt) -> Result<(
         if flags & 1 == 0 {
             return Err(source.damaged(
                 reference.at,
-                "the frames lie in another file: write them into one, as `ffmpeg -i OLD -c copy NEW` does",
+                "the frames are in another file: merge the files with `ffmpeg -i OLD -c copy NEW`",
             ));
         }
     }

@@ -160,7 +160,7 @@ fn read_offsets(source: &Source, tables: &BoxAt, sizes: &[u32]) -> Result<Vec<u6
             let end = offset.checked_add(u64::from(size));
             let Some(end) = end.filter(|end| *end <= source.length()) else {
                 let problem = format!(
-                    "frame {} of {size} bytes is said to lie at byte {offset}, the file ends after {}",
+                    "frame {} of {size} bytes at byte {offset} exceeds the file, which ends after {}",
                     offsets.len(),
                     source.length()
                 );
@@ -172,7 +172,7 @@ fn read_offsets(source: &Source, tables: &BoxAt, sizes: &[u32]) -> Result<Vec<u6
     }
     if offsets.len() != sizes.len() {
         let problem = format!(
-            "{} frames have a size, {} a place",
+            "{} frames have a size, but {} have an offset",
             sizes.len(),
             offsets.len()
         );
@@ -191,10 +191,7 @@ fn read_times(source: &Source, tables: &BoxAt, count: usize) -> Result<Vec<i64>,
         let at = fields.offset();
         let (run, step) = (fields.u32(source)?, fields.u32(source)?);
         if run as usize > count - times.len() {
-            return Err(source.damaged(
-                at,
-                format!("more times than the {count} frames that there are"),
-            ));
+            return Err(source.damaged(at, format!("more times than the {count} frames")));
         }
         for _ in 0..run {
             times.push(time);
@@ -227,10 +224,7 @@ fn add_delays(source: &Source, found: &BoxAt, times: &mut [i64]) -> Result<(), V
         );
         for _ in 0..run {
             let Some(time) = rest.next() else {
-                return Err(source.damaged(
-                    at,
-                    format!("more delays than the {count} frames that there are"),
-                ));
+                return Err(source.damaged(at, format!("more delays than the {count} frames")));
             };
             *time = time
                 .checked_add(i64::from(delay))
@@ -256,7 +250,10 @@ fn mark_sync(source: &Source, found: &BoxAt, samples: &mut [Sample]) -> Result<(
             .checked_sub(1)
             .and_then(|place| samples.get_mut(place));
         let Some(sample) = sample else {
-            return Err(source.damaged(at, format!("key frame {number}, there are {count} from 1")));
+            return Err(source.damaged(
+                at,
+                format!("key frame {number}, but there are {count} frames, counted from 1"),
+            ));
         };
         sample.is_sync = true;
     }

@@ -38,7 +38,7 @@ pub(super) fn open(path: &Path, decoders: &Decoders) -> Result<Opened, VideoErro
     }
     Err(source.damaged(
         0,
-        "no container of video that is read without ffmpeg begins here, expected AVI, MP4, QuickTime or Matroska",
+        "unknown video container, expected AVI, MP4, QuickTime or Matroska; others need ffmpeg",
     ))
 }
 
@@ -125,7 +125,7 @@ fn open_mp4(source: Source, decoders: &Decoders) -> Result<Opened, VideoError> {
                 let why = if format.is_some() {
                     ""
                 } else {
-                    "of other than 8 bits and 4:2:0"
+                    "other than 8-bit 4:2:0"
                 };
                 return open_foreign(
                     source.path(),

@@ -48,7 +48,7 @@ fn a_frame_beyond_the_clip_says_how_many_there_are() {
         error.expect_err("refused").to_string()
     };
     assert!(visit(&[0, 8]).contains("no frame 8, there are 8 from 0"));
-    assert!(visit(&[3, 3]).contains("frame 3 is asked for after frame 3"));
+    assert!(visit(&[3, 3]).contains("frame 3 is requested after frame 3"));
     let stopped = clip.visit(&[0, 1], Colours::Luma, &mut |index, _| match index {
         0 => Err("enough"),
         other => panic!("frame {other} after the last that was wanted"),
@@ -114,7 +114,7 @@ fn an_index_that_contradicts_the_frames_is_refused_with_its_place() {
     });
     let error = open(&short).expect_err("refused").to_string();
     assert!(
-        error.contains("7 frames are listed, 8 are there"),
+        error.contains("it lists 7 frames, but the file has 8"),
         "{error}"
     );
 }

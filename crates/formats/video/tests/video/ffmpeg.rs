@@ -109,7 +109,7 @@ fn pixels_of_a_lossless_clip_are_the_original_ones() {
     assert!(
         luma.expect_err("refused")
             .to_string()
-            .contains("pixels are bgr0, which have no luma plane")
+            .contains("pixel format bgr0 has no luma plane")
     );
 }
 

@@ -102,7 +102,8 @@ impl Camera<'_> {
                 match is_passing {
                     true if was_whole.elapsed() < PATIENCE => Ok(None),
                     true => {
-                        let why = format!("no whole frame for {PATIENCE:?}; at last: {error}");
+                        let why =
+                            format!("no complete frame for {PATIENCE:?}; last error: {error}");
                         Err(self.failed(error.kind(), why))
                     }
                     false => Err(error),

@@ -137,7 +137,7 @@ impl LiveSpec {
             let sources = [sensor_source, opened.descriptor.source()];
             if sources.iter().any(|source| *source != DriverSource::Real) {
                 return Err(AcquireError::Request(format!(
-                    "`{}` is {} and `{}` is {}: frames and forces are brought together by the clock of this machine, which only real devices are stamped by; leave --force out",
+                    "`{}` is {} and `{}` is {}: frames and forces are matched by the clock of this machine, which stamps real devices only; omit --force",
                     self.sensor.selector.driver(),
                     sources[0],
                     named.selector.driver(),

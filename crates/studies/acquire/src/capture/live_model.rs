@@ -28,19 +28,19 @@ impl LiveModel {
         };
         if !model.reads_features() {
             return Err(refused(format!(
-                "{} predicts the same whatever is seen: nothing could be shown of a picture; fit another, such as --model ridge",
+                "{} predicts a constant, so a picture has no effect: fit another model, such as --model ridge",
                 model.card().model
             )));
         }
         if let InputInfo::Signals(info) = model.card().input {
             return Err(refused(format!(
-                "it was fitted on signals of taxels, {info}, and a camera gives frames; fit one on a recording with frames"
+                "it was fitted on signals of taxels, {info}, but a camera gives frames: fit a model on a recording with frames"
             )));
         }
         let digest = model.digest().map_err(|error| refused(error.to_string()))?;
         let digest = digest
             .parse()
-            .map_err(|_| refused(format!("the digest {digest}")))?;
+            .map_err(|_| refused(format!("invalid digest {digest}")))?;
         Ok(LiveModel {
             model,
             path: path.to_owned(),
@@ -85,7 +85,7 @@ impl LiveModel {
     pub fn check(&self, found: FrameInfo) -> Result<(), AcquireError> {
         match self.model.card().input {
             InputInfo::Frame(expected) if expected != found => Err(self.refused(format!(
-                "it was fitted on frames of {expected} and the camera gives {found}: set the camera as it was then, or fit a model on a recording of this one"
+                "it was fitted on frames of {expected}, but the camera gives {found}: set the camera to that format, or fit a model on a recording of this camera"
             ))),
             _ => Ok(()),
         }

@@ -96,7 +96,7 @@ impl Transducer {
                         _ if !is_passing => return Err(error),
                         _ if was_new.elapsed() < PATIENCE => std::thread::sleep(REST),
                         kind => {
-                            let why = format!("no reading for {PATIENCE:?}; at last: {error}");
+                            let why = format!("no reading for {PATIENCE:?}; last error: {error}");
                             return Err(self.failed(kind, why));
                         }
                     }
@@ -114,7 +114,7 @@ impl Transducer {
 
     fn frozen(&self) -> DriverError {
         let why = format!(
-            "its readings have been equal to the last bit for {PATIENCE:?}: the signal is frozen; look at the transducer, its cable and its box"
+            "force has not changed for {PATIENCE:?}: signal frozen. Check the transducer, its cable and its amplifier; for a device with coarse steps set `resolution_n`"
         );
         self.failed(ErrorKind::DeviceFault, why)
     }

@@ -82,7 +82,7 @@ impl OpenChanger {
             return Ok(());
         }
         let why = format!(
-            "it says that `{}` is in place, expected `{}`",
+            "it reports that `{}` is in place, expected `{}`",
             taceva_core::shown(&there),
             taceva_core::shown(name)
         );

@@ -101,7 +101,7 @@ impl OpenRig {
         let lighting = opener.open(lightings, rig.lighting.as_ref(), &mut shared);
         let lighting = lighting.map_err(failed)?;
         let (Some(robot), Some(force)) = (robot, force) else {
-            let needed = "a robot and a force transducer: what it measures is pressed";
+            let needed = "a robot and a force transducer, since its metrics need presses";
             return Err(AcquireError::Request(format!(
                 "study `{}` needs {needed}",
                 study.plan.name

@@ -87,7 +87,7 @@ impl RecordedPresses {
         match samples.iter().find(|sample| !is_as_recorded(sample)) {
             None => Ok(()),
             Some(sample) => Err(format!(
-                "sample {} was made again and came out otherwise than it was recorded: the recording was begun with another version of the bench",
+                "sample {} differs from its recording when repeated: the recording was begun with another version of the bench",
                 sample.id
             )
             .into()),

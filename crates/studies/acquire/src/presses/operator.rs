@@ -92,11 +92,11 @@ impl PlannedScene {
             let rig = study.rig().filter(|rig| !rig.simulated);
             if let Some(robot) = rig.and_then(|rig| rig.robot.as_ref()) {
                 let robot = taceva_core::shown(&robot.driver.value);
-                needed.insert(0, format!("somebody lets `{robot}` move"));
+                needed.insert(0, format!("`{robot}` is enabled by hand"));
             }
             if !needed.is_empty() {
                 return Err(AcquireError::Request(format!(
-                    "study `{}`: this rig needs a person: {}; run it from a terminal, or with a page, where somebody can be asked",
+                    "study `{}`: this rig needs a person: {}; run it from a terminal or with a page, so that the person can be asked",
                     taceva_core::shown(&study.plan.name),
                     needed.join(", ")
                 )));
@@ -207,7 +207,7 @@ pub(super) fn unit_is_there(
     if !has_changer && workshop.operator.is_none() {
         return Err(acquisition(
             plan,
-            StopCause::Missing(format!("somebody to {question}")),
+            StopCause::Missing(format!("a person to {question}")),
         ));
     }
     let mut open = OpenRig::open(study, &rig.without_sensor(), unit, *sitting)?;
@@ -232,7 +232,7 @@ pub(super) fn unit_is_there(
         }
     };
     let Some(operator) = workshop.operator else {
-        let needed = format!("somebody to {question}");
+        let needed = format!("a person to {question}");
         return Err(acquisition(plan, StopCause::Missing(needed)));
     };
     let mut operator = operator.lock().unwrap_or_else(PoisonError::into_inner);

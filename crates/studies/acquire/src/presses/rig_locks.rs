@@ -98,7 +98,7 @@ fn take(path: &Path, device: &str, rig: &str) -> Result<File, AcquireError> {
     let unusable = |error: std::io::Error| AcquireError::RigLock {
         path: path.to_owned(),
         problem: format!(
-            "the lock of `{}` cannot be made: {error}",
+            "cannot create the lock of `{}`: {error}",
             taceva_core::shown(device)
         ),
     };

@@ -15,8 +15,8 @@ impl PlannedScene {
         for study in &self.studies {
             let problem = match &study.source {
                 StudySource::Rig(rig) if rig.is_only_simulated(drivers) => continue,
-                StudySource::Rig(_) => "it is of a real rig, beside which a person has to be",
-                StudySource::Recording(_) => "it is of a recording, and acquires none",
+                StudySource::Rig(_) => "it uses a real rig, which a person must supervise",
+                StudySource::Recording(_) => "it uses a recording and acquires no data",
             };
             let name = shown(&study.plan.name);
             return Err(AcquireError::Request(format!("study `{name}`: {problem}")));

@@ -68,12 +68,12 @@ impl OpenRig {
             workshop, cancel, ..
         } = sitting;
         let limits = plan.limits.clone();
-        let limits = limits.ok_or_else(|| missing("limits: nothing in it moves"))?;
+        let limits = limits.ok_or_else(|| missing("limits before anything moves"))?;
         let rig_file = self.rig_file.clone();
         let rig_file = rig_file.ok_or_else(|| missing("a rig file"))?;
         let watch = self.robot.watch_handle();
         let watch = watch.ok_or_else(|| {
-            missing("a robot that says where it is while it moves, which this driver does not")
+            missing("a robot that reports its pose while it moves, which this driver does not")
         })?;
         let mut sensor = self.sensor.take();
         let sensor = sensor.as_mut().ok_or_else(|| missing("a sensor"))?;

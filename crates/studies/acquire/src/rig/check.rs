@@ -111,11 +111,11 @@ impl fmt::Display for RigProblem {
         match self {
             RigProblem::Unheard { device } => write!(
                 f,
-                "the {device} said nothing: see its cable, its address in the rig file, and whether another program has it"
+                "the {device} sent nothing: check its cable, its address in the rig file, and whether another program uses it"
             ),
             RigProblem::Gaps { gap_ms, allowed_ms } => write!(
                 f,
-                "readings of force pause for up to {gap_ms:.0} ms, and a press is broken off at {allowed_ms:.0} ms: take the network or the machine of other work, or start by chrt -f 10"
+                "force readings arrive up to {gap_ms:.0} ms apart (limit {allowed_ms:.0} ms): stop other traffic on this network and other programs, or run with `chrt -f 10`"
             ),
             RigProblem::Noise {
                 device,
@@ -123,17 +123,17 @@ impl fmt::Display for RigProblem {
                 stated,
             } => write!(
                 f,
-                "the {device} scatters by {measured:.4}, and its driver states {stated:.4}: presses may be halted for nothing; see what shakes it"
+                "the {device} has noise of {measured:.4}, but its driver states {stated:.4}: presses may be halted without cause; check what shakes it"
             ),
             RigProblem::SlowHalt { ended_ms } => write!(
                 f,
-                "the robot stood {ended_ms:.0} ms after a halt, expected at most {HALT_MS} ms: lower `speed_mm_s` in contact, or shorten its braking at the controller"
+                "the robot came to rest {ended_ms:.0} ms after a halt, expected at most {HALT_MS} ms: lower `speed_mm_s` in contact, or shorten its braking at the controller"
             ),
             RigProblem::Unheld => f.write_str(
-                "the enabling switch was never seen held: hold it while the check asks for that, and see `byte` and `mask` of `enable` if it was; nothing moves without it",
+                "the enabling switch was never read as held: hold it when the check asks for it; if you did, correct `byte` and `mask` of `enable`; nothing moves without it",
             ),
             RigProblem::NotHalted => f.write_str(
-                "the robot did not stop at a halt: do not run it; see the driver and the controller",
+                "the robot did not stop at a halt: do not run it; check the driver and the controller",
             ),
         }
     }

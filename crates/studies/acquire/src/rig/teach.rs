@@ -53,7 +53,7 @@ fn stood(
     match operator.ask(&Question::Jog(spot), &Cancel::new()) {
         Answer::Done => Ok(robot.pose(DEADLINE)?.0),
         Answer::Skip | Answer::Stop => Err(AcquireError::Request(
-            "stopped: the rig file stays as it was".to_owned(),
+            "stopped: the rig file is unchanged".to_owned(),
         )),
     }
 }

@@ -39,8 +39,7 @@ impl Overrides {
             return Ok(());
         }
         let Some(model) = model.as_mut().filter(|model| model.name.is_some()) else {
-            let needed =
-                "no model is fitted that could have settings or seeds; name one with --model";
+            let needed = "settings and seeds need a model that is fitted: name one with --model";
             return Err(AcquireError::Request(format!("study `{study}`: {needed}")));
         };
         // Rejected as in every other command.

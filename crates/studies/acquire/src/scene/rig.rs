@@ -79,7 +79,7 @@ impl RigSpec {
             };
             if one == other {
                 let problem = format!(
-                    "`{}` takes no argument `unit`: units `{first}` and `{last}` would be one device",
+                    "`{}` takes no argument `unit`: units `{first}` and `{last}` would be the same device",
                     sensor.value
                 );
                 return Err((sensor.at(), SceneProblem::Contradiction(problem)));
@@ -206,7 +206,7 @@ pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), Scene
         refused((enable.at(), SceneProblem::Contradiction(problem)))
     })?;
     if is_simulated_here(rig, drivers) {
-        let problem = "`enable`: the robot is simulated in the program, and nobody can hold a switch in its time: take [operator] out";
+        let problem = "`enable`: the robot is simulated, and no switch can be held in simulated time: remove [operator]";
         let problem = SceneProblem::Contradiction(problem.to_owned());
         return Err(refused((enable.at(), problem)));
     }
@@ -238,7 +238,7 @@ pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), Sce
         }
         if is_simulated_here(rig, drivers) {
             return Err(contradiction(format!(
-                "`{key}`: the robot is simulated in the program, whose bench changes everything by itself: take `{key}` out"
+                "`{key}`: the robot is simulated, and its bench makes all changes itself: remove `{key}`"
             )));
         }
     }
@@ -270,7 +270,7 @@ pub(crate) fn open_switch(
         .expect("it was read when it was checked");
     let opened = drivers.switches.open(&selector).map_err(|error| {
         let problem = format!(
-            "`enable`: {error}; plug the switch in and see that this user may read it: without it nothing is moved"
+            "`enable`: {error}; plug the switch in and check that this user may read it: nothing moves without it"
         );
         rig.error(enable.at(), SceneProblem::Contradiction(problem))
     });

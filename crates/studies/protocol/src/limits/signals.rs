@@ -251,7 +251,7 @@ mod tests {
             (real, real, simulated),
         ] {
             let refused = with(robot, force, sensor).expect_err("two clocks");
-            assert!(refused.contains("one rig has one clock"), "{refused}");
+            assert!(refused.contains("a rig has one clock"), "{refused}");
         }
         // The bench accepts a real sensor and stamps its frames.
         assert!(with(simulated, simulated, real).is_ok());

@@ -44,7 +44,7 @@ pub(super) fn pass(
 fn fault(collected: &Collected, facts: &StudyFacts<'_>) -> Option<String> {
     let ids: BTreeSet<_> = collected.presses.iter().map(|press| press.id).collect();
     if ids.len() != collected.presses.len() {
-        return Some("two presses of the plan have one name".to_owned());
+        return Some("two presses of the plan have the same name".to_owned());
     }
     let unmet = collected.metrics.iter().find_map(|metric| {
         let absent = metric
@@ -54,11 +54,11 @@ fn fault(collected: &Collected, facts: &StudyFacts<'_>) -> Option<String> {
         let pressed = facts.is_recording() || collected.phases.contains(&metric.phase);
         match (absent, pressed) {
             (Some(field), _) => Some(format!(
-                "`{}` reads `{field}`, which the plan left out",
+                "`{}` reads `{field}`, which the plan omits",
                 metric.id
             )),
             (None, false) => Some(format!(
-                "`{}` needs {}, which the plan left out",
+                "`{}` needs {}, which the plan omits",
                 metric.id, metric.phase
             )),
             (None, true) => None,
@@ -75,7 +75,7 @@ fn fault(collected: &Collected, facts: &StudyFacts<'_>) -> Option<String> {
         };
         let press = collected.presses.iter().find(beyond)?;
         Some(format!(
-            "press {} leaves the surface or the depth limit",
+            "press {} is outside the footprint or deeper than its limit",
             press.id
         ))
     })

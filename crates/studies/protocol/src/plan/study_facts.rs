@@ -334,7 +334,7 @@ pub(crate) fn lights(
         return match rig.robot.as_ref().is_some_and(is_real) {
             true => Ok(written.value.clone()),
             false => {
-                let problem = "`scenes` of a light without `driver` are set by hand, which needs a real robot; expected `driver`";
+                let problem = "`scenes` without a `driver` are set by hand, which needs a real robot: expected `driver`";
                 let problem = SceneProblem::Contradiction(problem.to_owned());
                 Err(scene.text.error(written.at(), problem))
             }

@@ -54,7 +54,7 @@ impl SignedAxes {
         match axes.determinant() {
             determinant if determinant > 0.5 => Ok(axes),
             determinant if determinant < -0.5 => Err(format!(
-                "`axes` are left-handed ({}): no device can be turned so; turn the sign of one axis that is wrong",
+                "`axes` are left-handed ({}), which no rotation produces: change the sign of the wrong axis",
                 written(&words)
             )),
             _ => Err(format!(

@@ -52,7 +52,7 @@ pub struct Taught {
 pub enum TeachError {
     /// The way is too short.
     #[error(
-        "the way along {axis} is {way_mm:.2} mm long, expected at least {SHORTEST_MM} mm: jog farther"
+        "the jog along {axis} is {way_mm:.2} mm long, expected at least {SHORTEST_MM} mm: jog farther"
     )]
     Short {
         /// Axis of the sensor.
@@ -62,7 +62,7 @@ pub enum TeachError {
     },
     /// The way follows no axis of the base.
     #[error(
-        "the way along {axis} ends {residual_mm:.2} mm beside the nearest axis of the base, expected at most {RESIDUAL_MM} mm: turn the sensor until it lies along the base, or jog along one axis of it alone"
+        "the jog along {axis} ends {residual_mm:.2} mm off the nearest axis of the base, expected at most {RESIDUAL_MM} mm: turn the sensor parallel to the base, or jog along one axis of the base only"
     )]
     Askew {
         /// Axis of the sensor.
@@ -72,12 +72,12 @@ pub enum TeachError {
     },
     /// Both ways follow one line.
     #[error(
-        "both ways lie along one line of the base: no frame; jog along x of the sensor first, and then from the middle along y"
+        "both jogs follow one axis of the base, which defines no frame: jog along x of the sensor first, then from the middle along y"
     )]
     OneLine,
     /// The tool was rotated on the way.
     #[error(
-        "the tool was turned by {turn_deg:.1} degrees on the way along {axis}: jog without turning it"
+        "the tool rotated by {turn_deg:.1} degrees during the jog along {axis}: jog without rotating it"
     )]
     Turned {
         /// Axis of the sensor.
@@ -264,7 +264,7 @@ mod tests {
         let askew = refused(jogged([9.0, 0.0, 0.0], [0.4, 9.0, 0.4]));
         assert_eq!(
             askew.to_string().split(" mm").next(),
-            Some("the way along y ends 0.57")
+            Some("the jog along y ends 0.57")
         );
         assert_eq!(
             refused(jogged([9.0, 0.0, 0.0], [-9.0, 0.0, 0.0])),

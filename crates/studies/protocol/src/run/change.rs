@@ -43,7 +43,7 @@ impl Run<'_> {
             return match self.operator {
                 Some(_) => Ok(None),
                 None => Err(halted(StopCause::Missing(format!(
-                    "somebody who mounts a {specimen}, which the changer does not hold"
+                    "a person to mount a {specimen}, which the changer does not hold"
                 )))),
             };
         }

@@ -35,7 +35,7 @@ pub fn raise(
         events,
         operator,
     } = controls;
-    let nothing = || StopCause::Missing("limits and a footprint: nothing in it moves".to_owned());
+    let nothing = || StopCause::Missing("limits and a footprint before anything moves".to_owned());
     let pace = Pace::of(plan).ok_or_else(|| unmoved(nothing()))?;
     let bounds = Bounds::of(plan, 0.0).ok_or_else(|| unmoved(nothing()))?;
     let mut tip = Tip {
@@ -83,7 +83,7 @@ pub(super) fn enable(
     cancel: &Cancel,
 ) -> Result<(), RunError> {
     let Some(operator) = operator else {
-        let needed = format!("somebody who lets `{robot}` move");
+        let needed = format!("a person to enable `{robot}`");
         return Err(unmoved(StopCause::Missing(needed)));
     };
     match operator.ask(&Question::Enable(robot.to_owned()), cancel) {

@@ -29,7 +29,7 @@ pub enum StopCause {
     Cancelled,
     /// Presses are left because the operator skipped a step; all others are made.
     #[error(
-        "{presses} presses are left, for which somebody skipped what they need: go on with the same run"
+        "{presses} presses are left because the operator skipped a step that they need: resume the same run"
     )]
     Skipped {
         /// Number of presses left.
@@ -63,7 +63,7 @@ pub enum StopCause {
     Rig(Box<SceneError>),
     /// The guard reacts so late that a limit would be passed too far.
     #[error(
-        "readings of force come up to {reaction_ms:.0} ms late on this machine, in which the tip goes on by {overshoot_mm:.3} mm: expected at most {greatest_mm:.3} mm, a part of the depth; leave the machine to the run, start it by `chrt -f 10 taceva run …`, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
+        "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm, a part of the depth; stop other programs, start the run by `chrt -f 10 taceva run …`, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
     )]
     SlowGuard {
         /// Time from a limit to the halt, in ms: the 99.9th percentile.
@@ -80,7 +80,7 @@ pub enum StopCause {
     Touch(TouchFault),
     /// The enabling switch was not held within the wait of the rig file.
     #[error(
-        "nobody held the enabling switch within {patience_s} s: hold it and go on with `--resume`; `patience_s` of [operator] is how long a run waits"
+        "the enabling switch was not held within {patience_s} s: hold it and continue with `--resume`; `patience_s` of [operator] sets this wait"
     )]
     Unheld {
         /// Wait, in s.
@@ -117,7 +117,7 @@ impl StopCause {
 
 fn of_last(last: &Option<String>) -> String {
     last.as_ref()
-        .map_or_else(String::new, |last| format!("; the last: {last}"))
+        .map_or_else(String::new, |last| format!("; last error: {last}"))
 }
 
 /// Place of the tip after a run.
@@ -135,13 +135,16 @@ impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.cause)?;
         if let Some(press) = self.press {
-            write!(f, "; press {press} will be made again")?;
+            write!(f, "; press {press} will be repeated")?;
         }
         if let Left::InPlace = self.left {
-            f.write_str("; the tip was left where it stood, perhaps in the gel")?;
+            f.write_str("; the tip stays in place, perhaps in the gel")?;
         }
         match self.cause.fault() {
-            Some(fault) => write!(f, "; look, and acknowledge the {fault} at the device"),
+            Some(fault) => write!(
+                f,
+                "; inspect the rig, and acknowledge the {fault} at the device"
+            ),
             None => Ok(()),
         }
     }
@@ -165,7 +168,7 @@ mod tests {
         };
         let counted = "3 frames in a row were lost, damaged or older than the contact";
         assert_eq!(said(None), counted);
-        let expected = format!("{counted}; the last: no light");
+        let expected = format!("{counted}; last error: no light");
         assert_eq!(said(Some("no light")), expected);
     }
 }

@@ -93,59 +93,59 @@ impl fmt::Display for Trip {
             Trip::Depth { depth_mm, limit_mm } => {
                 write!(
                     f,
-                    "the depth of {depth_mm:.3} mm is beyond the limit of {limit_mm} mm"
+                    "the depth of {depth_mm:.3} mm exceeds the limit of {limit_mm} mm"
                 )
             }
             Trip::NormalForce { force_n, limit_n } => {
                 write!(
                     f,
-                    "the normal force of {force_n:.3} N is beyond the limit of {limit_n} N"
+                    "the normal force of {force_n:.3} N exceeds the limit of {limit_n} N"
                 )
             }
             Trip::ShearForce { force_n, limit_n } => {
                 write!(
                     f,
-                    "the shear force of {force_n:.3} N is beyond the limit of {limit_n} N"
+                    "the shear force of {force_n:.3} N exceeds the limit of {limit_n} N"
                 )
             }
             Trip::UnexpectedContact { force_n } => {
                 write!(
                     f,
-                    "a force of {force_n:.3} N where nothing should be touched"
+                    "a force of {force_n:.3} N where no contact is expected"
                 )
             }
             Trip::ForceRate { rate_n_s } => {
                 write!(
                     f,
-                    "the force changes by {rate_n_s:.0} N/s, faster than any gel makes it"
+                    "the force changes by {rate_n_s:.0} N/s, faster than a gel can cause"
                 )
             }
             Trip::Saturated { force_n } => {
                 write!(f, "the force transducer is saturated at {force_n:.3} N")
             }
-            Trip::NotFinite => f.write_str("a reading is no number"),
+            Trip::NotFinite => f.write_str("a reading is not a finite number"),
             Trip::Frozen { readings } => {
                 write!(
                     f,
-                    "{readings} equal readings of force although the tip moved: the signal is frozen"
+                    "{readings} equal force readings while the tip moved: the signal is frozen"
                 )
             }
             Trip::StaleForce { age_s } => write!(
                 f,
-                "the last force is {:.0} ms old; on a busy machine, start it by `chrt -f 10 taceva run …`",
+                "the last force reading is {:.0} ms old; on a busy machine, start the run by `chrt -f 10 taceva run …`",
                 age_s * 1e3
             ),
             Trip::StalePose { age_s } => write!(
                 f,
-                "the last pose is {:.0} ms old; on a busy machine, start it by `chrt -f 10 taceva run …`",
+                "the last pose reading is {:.0} ms old; on a busy machine, start the run by `chrt -f 10 taceva run …`",
                 age_s * 1e3
             ),
-            Trip::Released => f.write_str("nobody holds the enabling switch"),
+            Trip::Released => f.write_str("the enabling switch is not held"),
             Trip::SwitchLost => f.write_str(
-                "the enabling switch cannot be read any more: plug it in, and go on with `--resume`",
+                "the enabling switch can no longer be read: plug it in, and continue with `--resume`",
             ),
             Trip::Diverged { distance_mm } => {
-                write!(f, "the tip is {distance_mm:.3} mm from where it was sent")
+                write!(f, "the tip is {distance_mm:.3} mm from its commanded position")
             }
         }
     }
@@ -164,7 +164,7 @@ mod tests {
         ] {
             let said = trip.to_string();
             let expected = format!(
-                "the last {signal} is 84 ms old; on a busy machine, start it by `chrt -f 10 "
+                "the last {signal} reading is 84 ms old; on a busy machine, start the run by `chrt -f 10 "
             );
             assert!(said.starts_with(&expected), "{said}");
         }

@@ -80,40 +80,40 @@ impl fmt::Display for Question {
         match self {
             Question::Enable(robot) => write!(
                 f,
-                "`{}` is going to move: hands out of reach, the emergency stop within it",
+                "`{}` is about to move: keep your hands clear and the emergency stop within reach",
                 taceva_core::shown(robot)
             ),
             Question::Jog(Spot::Middle) => f.write_str(
-                "jog the tip, by the robot's own tool, until it just touches the middle of the gel, and let go of it",
+                "jog the tip with the robot's own controls until it just touches the middle of the gel, then let go",
             ),
             Question::Jog(Spot::AlongX) => f.write_str(
-                "jog it a little off the gel, then by 5 to 10 mm along x of the sensor and nothing else: it stays within half a millimetre of the height of the middle",
+                "raise the tip slightly off the gel, then jog it 5 to 10 mm along x of the sensor only, within half a millimetre of the height of the middle",
             ),
             Question::Jog(Spot::AlongY) => f.write_str(
-                "the same from the middle along y of the sensor: with x and y so, z points into the gel",
+                "repeat this from the middle along y of the sensor, in the direction for which z points into the gel",
             ),
             Question::Resume(ChangedTouch {
                 height_mm,
                 force_part,
             }) => write!(
                 f,
-                "the gel begins {height_mm:+.3} mm deeper than in the session before and presses by {:+.1} % harder at one depth: go on with this recording if it is the same gel, and stop if it was moved or exchanged",
+                "the gel surface is {height_mm:+.3} mm deeper than in the last session, and its force at the same depth differs by {:+.1} %: continue this recording if it is the same gel, stop if it was moved or replaced",
                 100.0 * force_part
             ),
             Question::Mount(specimen) => write!(f, "mount the {specimen}, turned straight"),
             Question::Instead { of_changer, why } => write!(
                 f,
-                "the changer failed: {}; see that nothing of it moves any more and that it is out of the way, then by hand: {of_changer}",
+                "the changer failed: {}; check that it has stopped and is out of the way, then by hand: {of_changer}",
                 taceva_core::shown(why)
             ),
             Question::Unit(unit) => write!(f, "put unit {} in place", taceva_core::shown(unit)),
             Question::GoOn => f.write_str(
-                "what was skipped stays as it is: hands out of reach, the robot goes on with the other presses",
+                "the skipped step stays undone: keep your hands clear, the robot continues with the other presses",
             ),
             Question::Light(light) => write!(f, "set the light `{}`", taceva_core::shown(light)),
             Question::Acknowledge(fault) => write!(
                 f,
-                "{fault}: look, free the tip if it must be, and acknowledge the fault at the robot; it draws back as soon as you say so"
+                "{fault}: inspect the rig, free the tip if necessary, and acknowledge the fault at the robot; the tip retreats once you confirm"
             ),
         }
     }
@@ -139,21 +139,21 @@ mod tests {
                     of_changer: Box::new(Question::Mount(board)),
                     why: "it is stuck".to_owned(),
                 },
-                "it is stuck; see that nothing of it moves any more and that it is out of the way, then by hand: mount the dot",
+                "it is stuck; check that it has stopped and is out of the way, then by hand: mount the dot",
             ),
             (Question::Light("S1".to_owned()), "`S1`"),
-            (Question::GoOn, "hands out of reach"),
+            (Question::GoOn, "keep your hands clear"),
             (Question::Acknowledge(Fault::Collision), "collision"),
             (
                 Question::Enable("lab/arm".to_owned()),
-                "`lab/arm` is going to move",
+                "`lab/arm` is about to move",
             ),
             (
                 Question::Resume(ChangedTouch {
                     height_mm: -0.25,
                     force_part: 0.125,
                 }),
-                "-0.250 mm deeper than in the session before and presses by +12.5 %",
+                "-0.250 mm deeper than in the last session, and its force at the same depth differs by +12.5 %",
             ),
         ] {
             let text = question.to_string();

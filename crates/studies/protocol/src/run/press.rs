@@ -55,7 +55,7 @@ impl Run<'_> {
                     (self.events)(&Event::Mounted(press.specimen));
                 }
                 _ if self.mounted.is_some() => {
-                    let needed = format!("somebody who mounts a {}", press.specimen);
+                    let needed = format!("a person to mount a {}", press.specimen);
                     return Err(StopCause::Missing(needed));
                 }
                 _ => {}
@@ -84,7 +84,7 @@ impl Run<'_> {
             (Some(lighting), _) => Ok(lighting.set(light, DEADLINE)?),
             (None, Some(lighting)) => Ok(lighting.set(light, DEADLINE)?),
             (None, None) => Err(StopCause::Missing(format!(
-                "a lighting that sets `{light}`"
+                "a lighting device that sets `{light}`"
             ))),
         }
     }

@@ -112,19 +112,19 @@ impl fmt::Display for TouchFault {
                 depth_mm,
             } => write!(
                 f,
-                "pressed {depth_mm:.3} mm deep the gel was felt with {force_n:.4} N, expected at least {wanted_n:.4} N: see how the transducer is mounted, or what it measures"
+                "at {depth_mm:.3} mm depth the force is {force_n:.4} N, expected at least {wanted_n:.4} N: check how the transducer is mounted and what it measures"
             ),
             TouchFault::Clings { force_n } => write!(
                 f,
-                "{force_n:.4} N stay where the tip left the gel: see whether something clings to it or the transducer drifts"
+                "{force_n:.4} N remain after the tip left the gel: check whether something sticks to the tip or the transducer drifts"
             ),
             TouchFault::Unseen { in_contact, in_air } => write!(
                 f,
-                "the picture does not show the touch: a part of it changes by {in_contact:.2} steps in contact and by {in_air:.2} in the air; see whether [sensor] names the camera of this gel, and fix its exposure"
+                "the picture does not show the touch: its greatest change is {in_contact:.2} grey levels in contact and {in_air:.2} in the air; check that [sensor] names the camera of this gel, and set a fixed exposure"
             ),
             TouchFault::Stays { in_contact, after } => write!(
                 f,
-                "the picture stays changed after the tip left the gel, by {after:.2} of {in_contact:.2} steps: see whether exposure and light are fixed, and whether frames come late (`latency_ms` of [sensor])"
+                "the picture is still changed by {after:.2} of {in_contact:.2} grey levels after the tip left the gel: fix exposure and light, and check whether frames are late (`latency_ms` of [sensor])"
             ),
         }
     }

@@ -55,7 +55,7 @@ impl<'a> Run<'a> {
     ) -> Step<Run<'a>> {
         let plan = spec.plan;
         if !plan.units.iter().any(|unit| unit == spec.unit) {
-            let problem = format!("unit `{}`, which it does not name", spec.unit);
+            let problem = format!("unit `{}` in its list of units", spec.unit);
             return Err(StopCause::Missing(problem));
         }
         let height = match spec.mode {
@@ -63,7 +63,7 @@ impl<'a> Run<'a> {
             Mode::Rehearse { height } => height.0,
         };
         let nothing =
-            || StopCause::Missing("limits and a footprint: nothing in it moves".to_owned());
+            || StopCause::Missing("limits and a footprint before anything moves".to_owned());
         let pace = Pace::of(plan).ok_or_else(nothing)?;
         let bounds = Bounds::of(plan, height).ok_or_else(nothing)?;
         let limits = plan.limits.clone().ok_or_else(nothing)?;

@@ -97,7 +97,7 @@ impl Run<'_> {
         if let Some(changed) = earlier.and_then(|earlier| record.touch.changed_since(earlier)) {
             let question = Question::Resume(changed);
             if self.operator.is_none() {
-                let needed = format!("somebody who judges this: {question}");
+                let needed = format!("a person to answer this: {question}");
                 return Err(StopCause::Missing(needed));
             }
             match self.ask(&question)? {
@@ -123,7 +123,7 @@ impl Run<'_> {
         let reaction_s = supervisor.lock().reaction_s();
         let limits = self.plan.limits.as_ref();
         let (Some(reaction_s), Some(limits)) = (reaction_s, limits) else {
-            let nothing = "readings of force and limits";
+            let nothing = "force readings and limits";
             return Err(StopCause::Missing(nothing.to_owned()));
         };
         allowed(reaction_s, limits, self.plan.contact.speed_mm_s.value)

@@ -110,7 +110,7 @@ impl Run<'_> {
             self.begin(&[first.press.place], first, &mut begun)?;
         }
         let touch = begun.0.map(|record| record.touch).ok_or_else(|| {
-            let missing = StopCause::Missing("a press: nothing in it touches".to_owned());
+            let missing = StopCause::Missing("at least one press".to_owned());
             self.abandoned(None, missing)
         })?;
         let way = Way::of(&touch, self.plan);

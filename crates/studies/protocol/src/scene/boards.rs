@@ -51,7 +51,7 @@ pub(crate) fn spacings(gratings: &Gratings) -> Result<Vec<Nanometre>, RefusedGra
         .ok_or_else(|| RefusedGratings {
             at: step_mm.at(),
             problem: SceneProblem::Contradiction(format!(
-                "`step_mm` is {}, expected a multiple of 0.05: there are no boards between",
+                "`step_mm` is {}, expected a multiple of 0.05, the step between boards",
                 step_mm.value
             )),
         })?;
@@ -60,7 +60,7 @@ pub(crate) fn spacings(gratings: &Gratings) -> Result<Vec<Nanometre>, RefusedGra
         return Err(RefusedGratings {
             at: from_mm.at(),
             problem: SceneProblem::Contradiction(format!(
-                "gratings from {from} to {to}: expected `from_mm` up to `to_mm`"
+                "gratings from {from} to {to}: expected `from_mm` at most `to_mm`"
             )),
         });
     }

@@ -88,7 +88,7 @@ impl Check<'_> {
         }
         let shown = shown(&name.value);
         let problem = format!(
-            "`{shown}` is no name of {what}: expected 1 to 80 bytes without `/`, control characters, a leading `.` or space around"
+            "`{shown}` is not valid as a name of {what}: expected 1 to 80 bytes without `/`, control characters, a leading `.`, or spaces at the ends"
         );
         self.contradiction(name.at(), &problem)
     }
@@ -131,7 +131,7 @@ impl Check<'_> {
         if let Some([]) = metrics.want.as_deref() {
             return self.contradiction(
                 None,
-                "`want` is empty: leave it out for all metrics that apply",
+                "`want` is empty: remove it to compute all metrics that apply",
             );
         }
         let settings = &metrics.settings;

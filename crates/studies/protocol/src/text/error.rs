@@ -59,10 +59,10 @@ pub enum SceneProblem {
     #[error("the key `{0}` is missing")]
     MissingKey(String),
     /// The scene has an unknown version.
-    #[error("scene version {0} is not known here, expected 1")]
+    #[error("scene version {0} is not supported, expected 1")]
     Version(u32),
     /// The rig file has an unknown version.
-    #[error("rig version {0} is not known here, expected 1")]
+    #[error("rig version {0} is not supported, expected 1")]
     RigVersion(u32),
     /// An unknown name from a closed list.
     #[error("`{name}`: unknown {what}{}; known: {known}{}", did_you_mean(.nearest), found_where(.what, .name))]
@@ -119,7 +119,7 @@ pub enum SceneProblem {
     },
     /// Frames would have to be enlarged.
     #[error(
-        "`frames` is `{found}`, but the frames of study `{study}` are {frame}: expected at most `{}x{}`, since frames are reduced and never enlarged",
+        "`frames` is `{found}`, but the frames of study `{study}` are {frame}: expected at most `{}x{}`, since frames can only be reduced",
         frame.width,
         frame.height
     )]
@@ -133,7 +133,7 @@ pub enum SceneProblem {
     },
     /// Frames have fewer pixels than the grid of a model.
     #[error(
-        "`frames` is `{found}`, but {who} looks at {least_width}×{least_height} cells of each: expected at least `{least_width}x{least_height}`"
+        "`frames` is `{found}`, but {who} divides each frame into {least_width}×{least_height} cells: expected at least `{least_width}x{least_height}`"
     )]
     FramesTooSmall {
         /// Value as written.
@@ -172,7 +172,7 @@ pub enum SceneProblem {
         who: String,
     },
     /// A required limit is missing.
-    #[error("nobody declares `{key}`: write it under [limits], no robot is moved without it")]
+    #[error("the limit `{key}` is missing: write it under [limits]; no robot moves without it")]
     LimitAbsent {
         /// Key of the limit.
         key: &'static str,
@@ -187,7 +187,7 @@ pub enum SceneProblem {
     },
     /// Devices use different clocks.
     #[error(
-        "`{simulated}` runs in the time of its simulated bench and `{real}` in that of the machine: one rig has one clock; choose both simulated or both real"
+        "`{simulated}` uses simulated time and `{real}` uses the clock of this machine, but a rig has one clock: choose both devices simulated or both real"
     )]
     MixedClocks {
         /// The simulated device.
@@ -197,7 +197,7 @@ pub enum SceneProblem {
     },
     /// A robot moves in its base frame, whose place relative to the sensor is not given.
     #[error(
-        "the robot `{robot}` moves in its base frame, and nothing says how that lies to the gel: write a rig file with `origin_mm` and `axes` under [robot] and name it by `rig = \"lab.toml\"` or --rig (docs/rig.md)"
+        "the robot `{robot}` moves in its base frame, whose pose relative to the gel is unknown: write a rig file with `origin_mm` and `axes` under [robot] and name it by `rig = \"lab.toml\"` or --rig (docs/rig.md)"
     )]
     Unmapped {
         /// The robot.
@@ -205,7 +205,7 @@ pub enum SceneProblem {
     },
     /// The robot of a rig file touched nothing on its way down to the gel.
     #[error(
-        "nothing was touched down to {search_mm} mm below the height that `origin_mm` says: mend `origin_mm` or `axes` of [robot], or see whether the force transducer feels a finger"
+        "no contact down to {search_mm} mm below the height of `origin_mm`: correct `origin_mm` or `axes` of [robot], or press the force transducer with a finger and check that it responds"
     )]
     NothingTouched {
         /// Depth of the search, in mm.
@@ -223,7 +223,7 @@ pub enum SceneProblem {
     },
     /// A robot rests too late after a limit is passed.
     #[error(
-        "`{robot}` moves on for {stop_ms} ms after a halt, so that it rests {needed_ms:.0} ms after a limit was passed: expected at most {greatest_ms:.0} ms"
+        "`{robot}` needs {stop_ms} ms to stop, so it rests {needed_ms:.0} ms after a limit is exceeded: expected at most {greatest_ms:.0} ms"
     )]
     SlowStop {
         /// The robot.
@@ -237,7 +237,7 @@ pub enum SceneProblem {
     },
     /// The tip travels too far in contact while its force grows stale.
     #[error(
-        "`speed_mm_s` is {found}, but {who} may be silent for {stale_ms:.0} ms before it counts as gone: expected at most {greatest:.3}"
+        "`speed_mm_s` is {found}, but {who} times out only after {stale_ms:.0} ms without a reading: expected at most {greatest:.3}"
     )]
     Blind {
         /// Speed as written, in mm/s.
@@ -251,7 +251,7 @@ pub enum SceneProblem {
     },
     /// A frozen signal of the force transducer could not be detected.
     #[error(
-        "{who} reads in steps of {resolution_n} N, its noise is {noise_n} N and it numbers no readings: a signal that is frozen could not be distinguished from one that rests; expected numbered readings, or steps below the noise"
+        "{who} has steps of {resolution_n} N, noise of {noise_n} N and readings without numbers, so a frozen signal cannot be detected: expected numbered readings, or steps below the noise"
     )]
     FrozenUnseen {
         /// Name of the transducer.
@@ -287,13 +287,16 @@ pub enum SceneProblem {
 
 fn mended(expected: &Option<String>, may_be_robot: bool) -> String {
     let force = expected.as_ref().map_or_else(
-        || "no turn by right angles explains that: see how the transducer is mounted".to_owned(),
+        || {
+            "no rotation by right angles explains this: check how the transducer is mounted"
+                .to_owned()
+        },
         |expected| format!("write axes = {expected}"),
     );
     match may_be_robot {
-        true => format!(
-            "; if the tip moved as it was sent, {force}; if it went another way, mend `axes` of [robot]"
-        ),
+        true => {
+            format!("; if the tip moved as commanded, {force}; otherwise correct `axes` of [robot]")
+        }
         false => format!("; {force}"),
     }
 }
@@ -308,7 +311,7 @@ fn did_you_mean(nearest: &Option<String>) -> String {
 fn found_where(what: &str, name: &str) -> &'static str {
     let is_of_plugin = name.split_once('/').is_some_and(|(id, _)| id.contains('.'));
     if what.starts_with("driver of") && is_of_plugin {
-        "; a plugin is found where `taceva plugin install` put it, or in the folder that `--plugin-dir` names"
+        "; plugins are loaded from the folder of `taceva plugin install` and from `--plugin-dir`"
     } else {
         ""
     }

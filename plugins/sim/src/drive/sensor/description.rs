@@ -61,25 +61,25 @@ pub(super) fn describe(
         rig_argument(),
         ArgSpec::whole("seed", 0, i64::MAX)
             .default(ArgValue::Whole(0))
-            .help("what all noise of the bench is drawn from"),
+            .help("seed of all noise of the bench"),
         ArgSpec::whole("unit", 0, UNITS)
             .default(ArgValue::Whole(0))
-            .help("the specimen of the sensor; 0 is nominal"),
+            .help("number of the sensor specimen; 0 is nominal"),
         ArgSpec::whole("reduction", 1, REDUCTIONS)
             .optional()
-            .help("how many pixels of the camera, along x and along y, make one of the frame")
+            .help("camera pixels for each pixel of the frame, along x and along y")
             .changes_facts(),
         ArgSpec::choice("bits", Bits::ALL.map(Bits::name))
             .optional()
-            .help("bits of a sample, 8 where the frame has the size of the camera and 16 where it is reduced, if nothing is said")
+            .help("bits of a sample; by default 8 at the size of the camera and 16 for reduced frames")
             .changes_facts(),
         ArgSpec::text("table")
             .optional()
-            .help("a table of parameters in the place of the compiled-in one, its whole text")
+            .help("whole text of a parameter table that replaces the compiled-in one")
             .changes_facts(),
         ArgSpec::flag("quiet")
             .default(ArgValue::Flag(false))
-            .help("nothing on the bench errs, drifts or relaxes, so that what it shows is a function of where the tip stands"),
+            .help("disables noise, drift and relaxation, so that all output depends on the pose of the tip alone"),
     ])
 }
 

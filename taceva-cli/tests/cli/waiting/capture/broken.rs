@@ -38,7 +38,7 @@ fn a_camera_that_is_unplugged_ends_it_with_what_came_before() {
         ran.err
     );
     assert!(
-        ran.err.contains("are a whole recording in out"),
+        ran.err.contains("are a complete recording in out"),
         "{}",
         ran.err
     );
@@ -60,7 +60,7 @@ fn a_transducer_that_froze_ends_it_and_no_frame_has_its_force() {
     });
     let ran = running.ended();
     assert_eq!(ran.code, 4, "{}", ran.err);
-    assert!(ran.err.contains("the signal is frozen"), "{}", ran.err);
+    assert!(ran.err.contains("signal frozen"), "{}", ran.err);
     let dataset = whole(&bench, "out");
     let table = dataset.table();
     let forces = table.truth(0);

@@ -231,10 +231,10 @@ fn what_is_no_model_of_such_frames_is_refused_before_anything_is_made() {
     write_recording(&bench, "like", info, 30);
     bench.ok("fit like --model baseline --split all --no-cache --out baseline.taceva -q");
     bench.write("text.taceva", "Fz = 1\n");
-    let both = format!("fitted on frames of {smaller} and the camera gives {info}");
+    let both = format!("fitted on frames of {smaller}, but the camera gives {info}");
     for (model, said) in [
         ("small.taceva", both.as_str()),
-        ("baseline.taceva", "predicts the same whatever is seen"),
+        ("baseline.taceva", "predicts a constant"),
         ("text.taceva", "text.taceva"),
         ("none.taceva", "cannot read model none.taceva"),
         ("look", "not a regular file"),

@@ -135,7 +135,7 @@ fn after_an_emergency_stop_nothing_is_asked_of_the_robot_and_the_error_says_what
     assert_eq!(error.left, Left::InPlace);
     let text = error.to_string();
     assert!(
-        text.ends_with("look, and acknowledge the emergency stop at the device"),
+        text.ends_with("inspect the rig, and acknowledge the emergency stop at the device"),
         "{text}"
     );
     // A second run does not clear it either.

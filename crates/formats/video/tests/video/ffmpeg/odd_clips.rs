@@ -221,7 +221,7 @@ fn a_stream_that_begins_to_need_more_than_the_decoder_has_goes_on_by_ffmpeg() {
     });
     let error = ended.expect_err("refused").to_string();
     assert!(
-        error.contains("nothing at hand decodes H.264 High with fields"),
+        error.contains("no available decoder supports H.264 High with fields"),
         "{error}"
     );
     assert_eq!(shown, 10);

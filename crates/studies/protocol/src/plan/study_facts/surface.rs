@@ -33,7 +33,7 @@ impl Gather<'_> {
                 format!("{x} by {y}")
             };
             let problem = format!(
-                "the footprint reaches {} from its centre, but the sensor allows at most {}: it may only be tightened",
+                "the footprint extends {} from its centre, but the sensor allows at most {}: state a smaller one",
                 by(extent),
                 by(limit)
             );
@@ -114,7 +114,7 @@ impl Gather<'_> {
             }
             Some((rig, _)) => {
                 let problem = format!(
-                    "the robot `{key}` does not reach ({x}, {y}, {z}) in its base frame, which is ({}, {}, {}) in the sensor's: mend `origin_mm`, `axes` or the workspace of the driver; or in the scene {shorter}",
+                    "the robot `{key}` does not reach ({x}, {y}, {z}) in its base frame, which is ({}, {}, {}) in the sensor's: correct `origin_mm`, `axes` or the workspace of the driver; or in the scene {shorter}",
                     tip.x, tip.y, tip.z
                 );
                 let robot = self.study.robot.as_ref();

@@ -30,7 +30,7 @@ impl Felt {
             {
                 let did = if went == 2 { "pressed" } else { "pushed" };
                 wrong.push(format!(
-                    "{did} along +{}, the gel was felt along {}",
+                    "{did} along +{}, the force was measured along {}",
                     NAMES[went],
                     name(*felt)
                 ));
@@ -157,7 +157,7 @@ mod tests {
         let wrong = upside_down.check(axes).expect_err("pressed, it pulls");
         let said = wrong.to_string();
         assert!(
-            said.contains("pressed along +z, the gel was felt along -z"),
+            said.contains("pressed along +z, the force was measured along -z"),
             "{said}"
         );
         assert!(!said.contains("write axes"), "{said}");
@@ -178,6 +178,6 @@ mod tests {
             said.contains("write axes = [\"-x\", \"y\", \"-z\"]"),
             "{said}"
         );
-        assert!(said.contains("mend `axes` of [robot]"), "{said}");
+        assert!(said.contains("correct `axes` of [robot]"), "{said}");
     }
 }

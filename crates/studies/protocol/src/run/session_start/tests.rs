@@ -97,7 +97,7 @@ fn a_tip_that_finds_no_gel_names_the_origin_of_the_rig_file() {
     let (cause, left, presses) = with_fault(|state| state.surface_mm = 1e3);
     let said = cause.to_string();
     assert!(
-        said.starts_with("lab.toml, line 5: nothing was touched"),
+        said.starts_with("lab.toml, line 5: no contact down to"),
         "{said}"
     );
     assert_eq!((left, presses), (Left::Clear, 0));

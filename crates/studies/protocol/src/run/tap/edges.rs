@@ -33,7 +33,7 @@ pub struct Tapped {
 pub enum TapError {
     /// A device gave too few values.
     #[error(
-        "tap {tap}: {count} {what} were heard {stretch}, expected at least {LEAST}: see with taceva rig check how often the {device} speaks"
+        "tap {tap}: {count} {what} arrived {stretch}, expected at least {LEAST}: measure the rate of the {device} with `taceva rig check`"
     )]
     Few {
         /// Number of the tap, from 1.
@@ -49,7 +49,7 @@ pub enum TapError {
     },
     /// A device does not show the tap: in the air its signal varies by at least half of its change.
     #[error(
-        "tap {tap}: the {device} does not show it clearly: in the air its signal varies by {in_air:.2} of its change, expected below {EDGE}; see what it is fixed to, its light or its noise"
+        "tap {tap}: the {device} signal does not show it clearly: in the air it varies by {in_air:.2} of its change, expected below {EDGE}; check its mounting, its light or its noise"
     )]
     Unclear {
         /// Number of the tap, from 1.
@@ -61,7 +61,7 @@ pub enum TapError {
     },
     /// The signal of a device still changes long after the tip came to rest.
     #[error(
-        "tap {tap}: the {device} still changes after the tip has rested for a third of a second: it is later than a tap can show, or the gel creeps"
+        "tap {tap}: the {device} signal still changes after the tip has rested for a third of a second: its latency is too long for a tap, or the gel creeps"
     )]
     Late {
         /// Number of the tap, from 1.
@@ -71,7 +71,7 @@ pub enum TapError {
     },
     /// The robot does not follow the requested speeds.
     #[error(
-        "the fast taps are {ratio:.2} times as fast as the slow ones, expected 3: a way cannot be distinguished from a latency; see whether the controller limits its speed"
+        "the fast taps are {ratio:.2} times as fast as the slow ones, expected 3, so distance and latency cannot be separated: check whether the controller limits the speed"
     )]
     OneSpeed {
         /// Greatest speed divided by the least.
@@ -79,7 +79,7 @@ pub enum TapError {
     },
     /// Taps contradict each other.
     #[error(
-        "the latency of the {device} is spread over {spread_ms:.1} ms from tap to tap, expected at most half a frame, {allowed_ms:.1} ms: leave network and machine to it, start by chrt -f 10, and see that nothing shakes the rig"
+        "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms: stop other traffic and other programs, run with `chrt -f 10`, and check that nothing shakes the rig"
     )]
     Spread {
         /// `force` or `sensor`.

@@ -69,7 +69,7 @@ impl Check<'_> {
         self.distinct("scenes of light", scenes)?;
         if lighting.is_some_and(|lighting| lighting.driver.is_none()) && scenes.is_none() {
             let problem = format!(
-                "`{}` has a light that is declared nowhere: expected [lighting] with `driver`, or with `scenes` that are set by hand",
+                "`{}` has a light without `driver` and `scenes`: expected [lighting] with `driver`, or with `scenes` that are set by hand",
                 study.name.value
             );
             return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));
@@ -88,7 +88,7 @@ impl Check<'_> {
             && study.sensor.is_some()
         {
             let problem = format!(
-                "`frames` of a study of the recording `{}`, whose frames are kept already: expected `driver`, or no `frames`",
+                "`frames` cannot apply to the recording `{}`, whose frames are already stored: use `driver`, or remove `frames`",
                 shown(&dataset.value)
             );
             return self.contradiction(frames.at(), &problem);
@@ -180,7 +180,7 @@ impl Check<'_> {
             None => Ok(()),
             Some(driver) => self.contradiction(
                 driver.at(),
-                "the scene has `rig` and `driver`: expected one of them, the rig file names the devices",
+                "the scene has both `rig` and `driver`: remove `driver`, since the rig file names the devices",
             ),
         }
     }

@@ -110,7 +110,7 @@ fn what_is_wrong_in_a_rig_file_is_refused_with_its_line_and_what_is_expected() {
         (
             "rig_version = 1",
             "rig_version = 2",
-            "lab.toml, line 1: rig version 2 is not known here, expected 1",
+            "lab.toml, line 1: rig version 2 is not supported, expected 1",
         ),
         (
             axes,
@@ -203,7 +203,7 @@ fn a_place_that_the_arm_does_not_reach_is_refused_in_its_base_frame_with_the_lin
         "{said}"
     );
     assert!(
-        said.contains("mend `origin_mm`, `axes` or the workspace"),
+        said.contains("correct `origin_mm`, `axes` or the workspace"),
         "{said}"
     );
 }
@@ -234,7 +234,7 @@ fn a_scene_with_a_rig_names_no_devices_and_one_without_names_them() {
     let both = SCENE.replace("[sensor]\n", "[sensor]\ndriver = \"lab/camera\"\n");
     assert_eq!(
         message(&both),
-        "s.toml, line 6: the scene has `rig` and `driver`: expected one of them, the rig file names the devices"
+        "s.toml, line 6: the scene has both `rig` and `driver`: remove `driver`, since the rig file names the devices"
     );
     let none = SCENE.replace("rig = \"lab.toml\"\n", "");
     assert!(message(&none).contains("[sensor] has neither `driver` nor `dataset`"));

@@ -33,7 +33,7 @@ fn a_robot_is_not_moved_without_limits() {
     bare.sensor = Some(descriptor("sim/gelsight", Facts::Sensor(Box::default())));
     assert_eq!(
         planned("", bare),
-        "s.toml: nobody declares `Pz_max_mm`: write it under [limits], no robot is moved without it"
+        "s.toml: the limit `Pz_max_mm` is missing: write it under [limits]; no robot moves without it"
     );
 }
 
@@ -92,7 +92,7 @@ fn a_footprint_beyond_that_of_the_sensor_is_refused_with_line_and_limit() {
     let error = plan(&scene, |_| SourceInfo::Rig(Box::new(rig()))).expect_err("too wide");
     assert_eq!(
         error.to_string(),
-        "s.toml, line 5: the footprint reaches 9 mm by 10 mm from its centre, but the sensor allows at most 8 mm by 10 mm: it may only be tightened"
+        "s.toml, line 5: the footprint extends 9 mm by 10 mm from its centre, but the sensor allows at most 8 mm by 10 mm: state a smaller one"
     );
 }
 
@@ -194,7 +194,7 @@ fn frames_larger_than_those_of_the_sensor_are_refused_with_line_and_size() {
         assert_eq!(
             error,
             format!(
-                "s.toml, line 10: `frames` is `{size}`, but the frames of study `my gel` are 160×120 rgb16: expected at most `160x120`, since frames are reduced and never enlarged"
+                "s.toml, line 10: `frames` is `{size}`, but the frames of study `my gel` are 160×120 rgb16: expected at most `160x120`, since frames can only be reduced"
             )
         );
     }

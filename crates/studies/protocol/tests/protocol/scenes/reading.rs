@@ -82,7 +82,7 @@ fn a_scene_of_another_version_is_refused() {
     let error = message(&GOOD.replace("scene_version = 1", "scene_version = 2"));
     assert_eq!(
         error,
-        "s.toml, line 1: scene version 2 is not known here, expected 1"
+        "s.toml, line 1: scene version 2 is not supported, expected 1"
     );
 }
 
@@ -178,7 +178,7 @@ fn a_size_of_frames_for_a_study_of_a_recording_is_refused() {
     );
     assert_eq!(
         error,
-        "s.toml, line 6: `frames` of a study of the recording `old`, whose frames are kept already: expected `driver`, or no `frames`"
+        "s.toml, line 6: `frames` cannot apply to the recording `old`, whose frames are already stored: use `driver`, or remove `frames`"
     );
 }
 
@@ -207,12 +207,12 @@ fn gratings_that_are_not_in_the_catalogue_are_refused() {
         );
         assert_eq!(error, expected);
     }
-    assert!(with("[protocol.gratings]\nstep_mm = 0.03").contains("there are no boards between"));
+    assert!(with("[protocol.gratings]\nstep_mm = 0.03").contains("the step between boards"));
     assert!(with("[protocol.gratings]\nkinds = []").contains("`kinds` is empty"));
     assert!(with("[protocol.gratings]\nkinds = [\"line\", \"line\"]").contains("names one twice"));
     assert!(
         with("[protocol.gratings]\nfrom_mm = 1.0\nto_mm = 0.5")
-            .contains("expected `from_mm` up to")
+            .contains("expected `from_mm` at most")
     );
 }
 
@@ -223,7 +223,7 @@ fn an_unknown_metric_is_answered_with_the_nearest() {
         error.starts_with("s.toml, line 10: `smap`: unknown metric, did you mean `smape`?"),
         "{error}"
     );
-    assert!(with("[metrics]\nwant = []").contains("leave it out for all"));
+    assert!(with("[metrics]\nwant = []").contains("remove it to compute all"));
 }
 
 #[test]
@@ -285,7 +285,10 @@ fn a_driver_and_a_dataset_exclude_each_other() {
 fn names_that_could_not_be_printed_or_filed_are_refused() {
     for name in ["", " x", "a/b", "..", "\\u001b[31m"] {
         let error = message(&GOOD.replace("my gel", name));
-        assert!(error.contains("is no name of a scene"), "{error}");
+        assert!(
+            error.contains("is not valid as a name of a scene"),
+            "{error}"
+        );
         assert!(
             !error.contains('\u{1b}'),
             "control characters are shown, not printed"

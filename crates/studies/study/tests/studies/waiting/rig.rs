@@ -59,7 +59,7 @@ fn a_transducer_that_says_nothing_is_a_problem_with_what_helps() {
     let [RigProblem::Unheard { device: "force" }] = check.problems[..] else {
         panic!("{:?}", check.problems);
     };
-    assert!(check.problems[0].to_string().contains("see its cable"));
+    assert!(check.problems[0].to_string().contains("check its cable"));
 }
 
 /// Jogs the robot in its base frame to places that it was given.
@@ -120,7 +120,7 @@ fn places_that_are_no_frame_are_refused_with_the_line_of_the_axes() {
     let said = refused.to_string();
     assert!(matches!(refused, AcquireError::Scene(_)), "{said}");
     assert!(
-        said.contains("lab.toml, line 6: the way along x ends 4.00 mm beside"),
+        said.contains("lab.toml, line 6: the jog along x ends 4.00 mm off"),
         "{said}"
     );
 }

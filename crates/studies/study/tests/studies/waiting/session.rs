@@ -119,7 +119,8 @@ fn a_transducer_that_is_upside_down_in_the_rig_file_stops_the_session_before_its
         (&scene(), Some(&rig), Some(&person)),
     );
     let said = refused.expect_err("pressed, it pulls").to_string();
-    let line = "lab.toml, line 9: `axes` of [force]: pressed along +z, the gel was felt along -z";
+    let line =
+        "lab.toml, line 9: `axes` of [force]: pressed along +z, the force was measured along -z";
     assert!(said.contains(line), "{said}");
     let state = world.state();
     // No deeper than half of what is allowed, and out again.
@@ -138,7 +139,7 @@ fn a_robot_that_nobody_is_there_to_let_move_is_refused_before_anything_is_opened
     assert!(refused.is_usage());
     let said = refused.to_string();
     assert!(
-        said.contains("this rig needs a person: somebody lets `wall/robot` move"),
+        said.contains("this rig needs a person: `wall/robot` is enabled by hand"),
         "{said}"
     );
     assert_eq!(world.state().readings, 0);

@@ -126,7 +126,7 @@ fn a_switch_that_nobody_holds_lets_nothing_move_and_the_run_ends_when_the_patien
     assert!(matches!(error.cause, StopCause::Unheld { .. }), "{error}");
     let said = error.to_string();
     assert!(
-        said.starts_with("nobody held the enabling switch within 1 s: hold it"),
+        said.starts_with("the enabling switch was not held within 1 s: hold it"),
         "{said}"
     );
     assert_eq!(world.state().motions, 0);
@@ -174,7 +174,7 @@ fn an_enable_that_is_no_switch_or_does_not_open_is_refused_with_its_line_before_
         ("wall/pedal:usb=1", "`usb`"),
         (
             "wall/pedal",
-            "it was unplugged; plug the switch in and see that this user may read it",
+            "it was unplugged; plug the switch in and check that this user may read it",
         ),
     ] {
         let rig = rig_with(folder.path(), enable);
