@@ -34,7 +34,7 @@ pub(crate) struct Import {
     /// The dataset to write: a new folder
     #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "draft", "extend", "presets", "print"])]
     pub(crate) out: Option<PathBuf>,
-    /// Add the rows to this dataset, imported before by a map of the same sensor; each row before keeps its part of every split
+    /// Append the rows to this dataset, imported earlier with a map of the same sensor; earlier rows keep their part of every split
     #[arg(long, value_name = "DATASET", conflicts_with_all = ["out", "draft", "force"])]
     pub(crate) extend: Option<PathBuf>,
     #[command(flatten)]

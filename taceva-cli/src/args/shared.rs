@@ -10,10 +10,10 @@ The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, gaussian-proc
 gradient-boosting, cnn, resnet10, resnet18, resnet34, cnn-ensemble; fast: cnn with size=up-to-80x60 epochs=170 color=auto difference=in-color appearance=auto; \
 default: cnn with size=up-to-128x96 color=auto difference=in-color appearance=auto; \
 best: cnn-ensemble with size=up-to-128x96 color=auto difference=in-color appearance=auto, the mean of two cnn; \
-auto: tries models on samples left out, as long as that is worth its work and at most budget_s=1800, and takes one; one of a library: \
+auto: tries models on held-out samples while the expected gain is worth the time, for at most budget_s=1800, and keeps one; of a library: \
 linfa/linear, linfa/pls, linfa/elastic-net, linfa/svr, linfa/logistic, smartcore/ridge, smartcore/lasso, smartcore/svr, \
 smartcore/knn, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which can be stopped only between two \
-fits of the library; or one of a plugin, ID/KEY";
+fits of the library; or of a plugin, ID/KEY";
 
 /// A model to fit, and its settings.
 #[derive(Debug, Args)]

@@ -208,7 +208,7 @@ fn what_a_manifest_does_not_ask_for_is_not_allowed_and_settings_stay_as_they_are
     );
     let said = bench.ok("plugin deny org.example.my-eye");
     assert!(
-        said.contains("may reach nothing outside its process"),
+        said.contains("has no access outside its process"),
         "{said}"
     );
     let left = crate::support::leftovers(&bench.path("user-config/taceva"), &["config.toml"]);
