@@ -40,9 +40,7 @@ impl<'a> LivePredictions<'a> {
         page.on_sent(move |stamp_s| {
             lock(&heard).add(MonotonicClock.now_s() - stamp_s);
         });
-        context.say(format_args!(
-            "predicted, not measured, by {words}"
-        ));
+        context.say(format_args!("predicted, not measured, by {words}"));
         if !model.knows_distance() {
             context.say(format_args!(
                 "{} has no record of its training pictures (fitted by an earlier TacEva, or on fewer than 20 samples): unfamiliar pictures are not marked; fit it again",

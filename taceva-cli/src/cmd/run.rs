@@ -74,7 +74,9 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let reports = run_scene(&planned, &folder, setup);
     attended.ended(&match &reports {
         Ok(_) => "finished: writing the report".to_owned(),
-        Err(_) if progress::is_stopped() => "stopped; the terminal shows the command that continues the run".to_owned(),
+        Err(_) if progress::is_stopped() => {
+            "stopped; the terminal shows the command that continues the run".to_owned()
+        }
         Err(error) => error.to_string(),
     });
     let mut reports = reports.with_context(|| match progress::is_stopped() {

@@ -37,7 +37,10 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
         serde_json::to_writer_pretty(&mut *out, &WrittenTap { schema, tap })?;
         return writeln!(out);
     }
-    writeln!(out, "{taps} taps; with the present corrections of the stamps:")?;
+    writeln!(
+        out,
+        "{taps} taps; with the present corrections of the stamps:"
+    )?;
     for (device, latency) in [("force", force), ("sensor", sensor)] {
         writeln!(
             out,

@@ -79,7 +79,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
             });
         }
     }
-    let note = "Published numbers are of real sensors and other presses; they stand here where metric, channel, unit and definition are the same, and take part in no verdict.";
+    let note = "Published numbers come from real sensors and other presses. They are listed where metric, channel, unit and definition agree, and are excluded from verdicts.";
     let table = html! {
         table.sorts {
             thead { tr { (heads(["sensor", "metric", "channel"])) (right_heads(["here", "published"])) (heads(["source and conditions"])) } }

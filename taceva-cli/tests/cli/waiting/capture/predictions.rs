@@ -164,11 +164,7 @@ fn a_model_of_hand_presses_predicts_what_the_transducer_measures_on_a_page_and_b
         "{}",
         ran.err
     );
-    assert!(
-        ran.err.contains("predicted, not measured"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.err.contains("predicted, not measured"), "{}", ran.err);
 }
 
 #[test]
