@@ -232,7 +232,7 @@ class Dataset:
         wanted = self._rows(rows)
         has_frames = self.frame_shape is not None
         if not has_frames and self._inner.signal_values() is None:
-            error = _taceva.DatasetError(f"{self.path}: the recording has neither frames nor signals, expected one of them for a data set of torch")
+            error = _taceva.DatasetError(f"{self.path}: the recording has neither frames nor signals, and a data set of torch needs one of them")
             error.path = Path(self.path)
             raise error
         from taceva._torch import Frames, Signals
@@ -276,5 +276,5 @@ def _arrived(version: object, path: str = "", digest: str = "", view: str | None
     require_version(version)
     dataset = Dataset(path, view)
     if dataset.digest != digest:
-        raise _taceva.DatasetError(f"{path}: another recording than the one that was sent, its digest differs")
+        raise _taceva.DatasetError(f"{path}: not the pickled recording, its digest differs")
     return dataset

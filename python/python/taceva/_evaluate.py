@@ -83,13 +83,13 @@ def evaluate(
     words = setting_words(settings)
     if isinstance(model, str | os.PathLike):
         if not bounded:
-            raise ValueError("bounded=False: a model by its name or its file keeps its bounds")
+            raise ValueError("bounded=False: a model given by name or file always keeps its bounds")
         text = _taceva.evaluate_named(
             recording._inner, os.fspath(model), words, list(channels), split, seed, part, wanted, jobs, bar()
         )
         return Result(text)
     if isinstance(model, type):
-        raise TypeError(f"model: the class {_name_of(model)}, expected an object of it")
+        raise TypeError(f"model: {_name_of(model)} is a class, expected an object of it")
     learns = callable(getattr(model, "fit", None)) and callable(getattr(model, "predict", None))
     if not learns and not callable(model):
         raise TypeError(
@@ -97,11 +97,11 @@ def evaluate(
             "expected a name, a file, or an object that learns or predicts"
         )
     if not bounded and not learns:
-        raise ValueError("bounded=False: a model that is taken as it is has no bounds")
+        raise ValueError("bounded=False: a model used as given has no bounds")
     if batch < 1:
         raise ValueError(f"batch {batch}: expected at least 1")
     if words and not learns:
-        raise ValueError(f"settings {', '.join(words)}: a model that is taken as it is has none")
+        raise ValueError(f"settings {', '.join(words)}: a model used as given has none")
     reads_frames = recording.frame_shape is not None
     given = _taceva.Given(recording._inner, list(channels), learns, split, seed, part, reads_frames, not bounded)
     described = model.settings if isinstance(model, OnnxModel) else _settings_of(model) if learns else {}
@@ -182,7 +182,7 @@ def _as_rows(predictions: Any, name: str, rows: int, channels: list[str]) -> Any
     if found.ndim == 1 and width == 1:
         found = found[:, np.newaxis]
     if found.shape != (rows, width):
-        raise ValueError(f"{name} predicted an array of the shape {list(found.shape)}, expected {[rows, width]}: a row a sample, a column a channel")
+        raise ValueError(f"{name} predicted an array of the shape {list(found.shape)}, expected {[rows, width]}: one row per sample, one column per channel")
     return np.ascontiguousarray(found)
 
 

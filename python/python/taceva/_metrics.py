@@ -72,7 +72,7 @@ class TactileMetrics:
         for said, names in (("units", units), ("periods", periods)):
             unknown = sorted(set(names) - set(channels))
             if unknown:
-                raise ValueError(f"{said} of {', '.join(unknown)}, which are no channels: {', '.join(channels)}")
+                raise ValueError(f"{said} of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
         units = dict.fromkeys(periods, "deg") | units
         with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
         wanted = [metrics] if isinstance(metrics, str) else list(metrics)
@@ -125,7 +125,7 @@ class TactileMetrics:
         width = len(self.channels)
         for name, table in tables.items():
             if table.shape[1:] != (width,) and not (width == 1 and table.ndim == 1):
-                raise ValueError(f"{name} has the shape {list(table.shape)}, expected [rows, {width}]: a column a channel")
+                raise ValueError(f"{name} has the shape {list(table.shape)}, expected [rows, {width}]: one column per channel")
         names = None if points is None else names_of_points(points)
         rows = len(tables["truth"])
         for name, column in {"prediction": tables["prediction"], "points": names}.items():

@@ -155,5 +155,5 @@ def _arrived(version: object, asked: tuple[str, list[str] | None, str | None] = 
     require_version(version)
     model = OnnxModel(*asked)
     if model.settings["digest"] != digest:
-        raise ValueError(f"{asked[0]}: another model than the one that was sent, its digest differs")
+        raise ValueError(f"{asked[0]}: not the pickled model, its digest differs")
     return model

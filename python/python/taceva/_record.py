@@ -67,7 +67,7 @@ def from_arrays(
     units = dict(units or {})
     with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
     if not channels and frames is None:
-        raise ValueError("no channels and no frames: expected one of them, there is nothing to record")
+        raise ValueError("no channels and no frames: nothing to record, expected one of them")
     # Before anything is copied.
     rows = len(real(labels, "labels"))
     for name, column in {"frames": frames, "points": points, "times": times, "scenes": scenes}.items():
@@ -75,7 +75,7 @@ def from_arrays(
             raise ValueError(f"{name} has {len(column)} rows, labels has {rows}")
     table = numbers(labels, "labels", allow_invalid=True)
     if np.isinf(table).any():
-        raise ValueError("labels: an infinite number; expected finite ones, and NaN where a label is absent")
+        raise ValueError("labels: an infinite number; expected finite numbers, and NaN for an absent label")
     pictures = None if frames is None else _pixels(frames, 3)
     _taceva.record(
         os.fspath(path),

@@ -56,7 +56,7 @@ def check(
 
     spec = importlib.util.find_spec(module)
     if spec is None or spec.origin is None:
-        raise ModuleNotFoundError(f"no package is called {module!r} in this environment")
+        raise ModuleNotFoundError(f"package {module!r} not found in this environment")
     folder = os.path.dirname(spec.origin)
     manifest = os.path.join(folder, "plugin.toml")
     if not os.path.exists(manifest):
@@ -79,5 +79,5 @@ def check(
     failed = [result for result in results if result["outcome"] == "failed"]
     if failed:
         lines = [f"{one['check']} {one.get('subject') or ''}: {one['why']}" for one in failed]
-        raise AssertionError(f"{id} breaks {len(failed)} of {len(results)} promises:\n" + "\n".join(lines))
+        raise AssertionError(f"{id} fails {len(failed)} of {len(results)} checks:\n" + "\n".join(lines))
     return [Checked(one["check"], one.get("subject"), one["outcome"], one.get("why")) for one in results]

@@ -153,7 +153,7 @@ fn a_page_says_its_verdict_in_words_and_counts_what_is_broken() {
     assert!(!page.contains("FAIL"));
     let findings = held(&study, &[KEPT, BROKEN, MISSING]);
     let page = sheet(&study, &findings).page();
-    assert!(page.contains("<p class=\"fail\">FAIL: 2 of 3 limits are not kept.</p>"));
+    assert!(page.contains("<p class=\"fail\">FAIL: 2 of 3 limits are not met.</p>"));
     assert!(!page.contains("PASS") && page.contains("there is no such score"));
 }
 
