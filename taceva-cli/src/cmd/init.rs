@@ -40,7 +40,7 @@ pub(crate) fn run(args: &Init, context: &Context) -> anyhow::Result<u8> {
                 _ => {
                     let is_folder = |answer: &str| match Path::new(answer).is_dir() {
                         true => Ok(()),
-                        false => Err(format!("{} is no folder", shown(answer))),
+                        false => Err(format!("{} is not a folder", shown(answer))),
                     };
                     let folder = interview.ask("the folder of the recording", None, is_folder)?;
                     recording::write(Path::new(&folder), &none, interview)

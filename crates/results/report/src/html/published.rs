@@ -46,7 +46,7 @@ pub(super) fn order(studies: &[Study]) -> Option<String> {
     (pairs > 0).then(|| {
         let tau = (f64::from(alike) - f64::from(reversed)) / f64::from(pairs);
         format!(
-            "The order of the sensors is the published one in {alike} of {pairs} pairs over {} (Kendall's τ {}): 1 is the same order, 0 none in common, −1 the reverse.",
+            "The sensors are in the published order in {alike} of {pairs} pairs over {} (Kendall's τ {}): 1 is the same order, 0 no agreement, −1 the reverse.",
             counted(values.len(), "score"),
             minus(&format!("{tau:.2}"))
         )

@@ -42,7 +42,7 @@ fn table(over: &OverSeeds, name: &str) -> Markup {
     html! {
         p.note {
             (name) ": seeds " (seeds.join(", ")) "; a seed decides " (over.decides) ". "
-            "Every other score of this page is of seed " (seeds.first().map_or("", String::as_str)) "."
+            "All other scores of this page are of seed " (seeds.first().map_or("", String::as_str)) "."
         } "\n"
         (scroll(&format!("{name}, over seeds"), &table))
     }

@@ -399,7 +399,7 @@ fn scores_over_seeds_stand_on_the_page_where_there_are_any() {
     let studies = support::read(&result).expect("a result");
     let page = page(&studies);
     assert!(page.contains(
-        "seeds 3, 1, 2; a seed decides first weights. Every other score of this page is of seed 3."
+        "seeds 3, 1, 2; a seed decides first weights. All other scores of this page are of seed 3."
     ));
     assert!(page.contains("</a> ↓</th><td>Pz</td><td>mm</td>") && page.contains("0.05 … 0.35"));
     assert!(page.contains("Each model was fitted with the seeds 3, 1 and 2;"));
