@@ -31,14 +31,14 @@ impl Table {
         };
         if !is_contiguous {
             return Err(value_error(format_args!(
-                "{name}: expected an array in the order of C"
+                "{name}: expected a C-contiguous array"
             )));
         }
         match shape {
             [_] if width == 1 => Ok(table),
             [_, columns] if *columns == width => Ok(table),
             shape => Err(value_error(format_args!(
-                "{name} has the shape {shape:?}, expected [rows, {width}]: a column a channel"
+                "{name} has the shape {shape:?}, expected [rows, {width}]: one column per channel"
             ))),
         }
     }
@@ -156,7 +156,7 @@ impl Points {
             return Ok(Points::Numbers(buffer));
         }
         let names = points.extract().map_err(|_| {
-            PyTypeError::new_err("points: expected whole numbers or texts, one a row")
+            PyTypeError::new_err("points: expected whole numbers or texts, one per row")
         })?;
         Ok(Points::Names(names))
     }

@@ -49,9 +49,7 @@ impl ArrowColumn {
     ) -> PyResult<ArrowColumn> {
         Ok(ArrowColumn {
             name: CString::new(name).map_err(|_| {
-                value_error(format_args!(
-                    "column {name:?}: a name without NUL was expected"
-                ))
+                value_error(format_args!("column {name:?}: expected a name without NUL"))
             })?,
             metadata: encoded(metadata)?,
             cells,

@@ -200,7 +200,7 @@ impl Pixels {
         };
         if !is_contiguous || pixels.shape().len() != axes {
             return Err(value_error(format_args!(
-                "{name} has the shape {:?}, expected {axes} axes in the order of C, the last of height, width and samples a pixel",
+                "{name} has the shape {:?}, expected a C-contiguous array of {axes} axes, the last of height, width and samples per pixel",
                 pixels.shape()
             )));
         }

@@ -12,13 +12,13 @@ create_exception!(
     taceva,
     DatasetError,
     PyValueError,
-    "A recording that cannot be read or written; `path` is the file at fault, `row` the row of the recording, from 0, and `line` the line of a table, where one of them is known."
+    "A recording cannot be read or written. If known, `path` is the faulty file, `row` the row of the recording from 0, and `line` the line of a table."
 );
 create_exception!(
     taceva,
     ModelError,
     PyValueError,
-    "A model that does not fit the recording, or cannot be fitted to it."
+    "A model does not match the recording, or cannot be fitted to it."
 );
 
 /// `error` as a `ValueError`.

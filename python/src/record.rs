@@ -178,7 +178,7 @@ fn frame_info(pixels: &Pixels) -> PyResult<FrameInfo> {
         (3, true) => PixelFormat::Rgb16,
         (other, _) => {
             return Err(value_error(format_args!(
-                "frames have {other} samples a pixel, expected 1 (gray) or 3 (red, green, blue) in the last axis"
+                "frames have {other} samples per pixel, expected 1 (gray) or 3 (red, green, blue) in the last axis"
             )));
         }
     };

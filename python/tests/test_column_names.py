@@ -72,10 +72,10 @@ def test_indices_of_other_rows_or_that_repeat_are_refused_with_the_remedy() -> N
     truth, prediction = frames()
     with pytest.raises(ValueError, match="no row of prediction has the index"):
         taceva.score(truth.iloc[4:8], pd.DataFrame(prediction.iloc[4:8].to_numpy(), columns=["Px", "Fz"]))
-    with pytest.raises(ValueError, match="comes twice in prediction"):
+    with pytest.raises(ValueError, match="occurs twice in prediction"):
         taceva.score(truth, shuffled(prediction).set_axis([0, 0, *range(2, ROWS)]))
     twice = prediction.assign(sample=[0, 1, 1, *range(3, ROWS)])
-    with pytest.raises(ValueError, match="key 'sample' 1 comes twice in prediction"):
+    with pytest.raises(ValueError, match="key 'sample' 1 occurs twice in prediction"):
         taceva.score(truth.assign(sample=range(ROWS)), twice)
 
 

@@ -90,7 +90,7 @@ def test_an_error_names_the_file_and_the_row_that_are_at_fault(tmp_path: Path) -
 def test_a_recording_travels_and_refuses_to_arrive_as_another(recording: Path) -> None:
     dataset = taceva.open(recording)
     assert pickle.loads(pickle.dumps(dataset)).digest == dataset.digest
-    with pytest.raises(taceva.DatasetError, match="another recording"):
+    with pytest.raises(taceva.DatasetError, match="not the pickled recording"):
         taceva._dataset._arrived(1, str(recording), "sha256:0")
     with multiprocessing.get_context("fork").Pool(2) as pool:
         assert pool.map(len, [dataset, dataset]) == [len(dataset)] * 2
@@ -220,7 +220,7 @@ def test_arrays_of_other_forms_are_refused_before_anything_is_written(tmp_path: 
         taceva.from_arrays(path, labels, frames[:3], **made)
     with pytest.raises(TypeError, match="float64"):
         taceva.from_arrays(path, labels, frames / 255, **made)
-    with pytest.raises(ValueError, match="2 samples a pixel"):
+    with pytest.raises(ValueError, match="2 samples per pixel"):
         taceva.from_arrays(path, labels, frames[..., :2], **made)
     with pytest.raises(ValueError, match="expected recorded, simulated or synthetic"):
         taceva.from_arrays(path, labels, frames, **{**made, "source": "invented"})

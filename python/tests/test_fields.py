@@ -71,8 +71,8 @@ def test_fields_come_in_pieces_merge_and_travel() -> None:
 @pytest.mark.parametrize(
     ("fields", "error", "message"),
     [
-        ({}, ValueError, "no scene: every row carries scene, repeat"),
-        ({"scene": ["a"] * 3, "repeat": [0, 1, 2], "t_s": [0.0] * 3}, ValueError, "t_s was not expected"),
+        ({}, ValueError, "scene is missing: every row needs scene, repeat"),
+        ({"scene": ["a"] * 3, "repeat": [0, 1, 2], "t_s": [0.0] * 3}, ValueError, "t_s was not declared"),
         ({"scene": ["a"] * 2, "repeat": [0, 1, 2]}, ValueError, "scene has 2 rows, truth has 3"),
         ({"scene": ["a"] * 3, "repeat": [0.5, 1, 2]}, TypeError, "repeat: expected whole numbers, found an array of float64"),
         ({"scene": [None] * 3, "repeat": [0, 1, 2]}, TypeError, "scene: expected whole numbers or texts"),

@@ -73,7 +73,7 @@ def test_what_a_model_raises_comes_out_unchanged(drawn: taceva.Dataset, kind: An
     ("predicted", "error", "message"),
     [
         (lambda rows: np.zeros((rows, 2)), ValueError, "2], expected"),
-        (lambda rows: np.zeros((rows + 1, 3)), ValueError, "a row a sample, a column a channel"),
+        (lambda rows: np.zeros((rows + 1, 3)), ValueError, "one row per sample, one column per channel"),
         (lambda rows: np.zeros((rows, 3, 1)), ValueError, "3, 1], expected"),
         (lambda rows: np.zeros(()), ValueError, r"shape \[1\]"),
         (lambda rows: np.full((rows, 3), np.nan), ValueError, "NaN of Px for the sample"),

@@ -161,7 +161,7 @@ pub(crate) struct Completions {
 
 #[derive(Debug, Args)]
 pub(crate) struct ManArgs {
-    /// The folder in which a page for every command is written [default: the page of taceva alone, to standard output]
+    /// The folder to write a page for every command into [default: only the page of taceva, to standard output]
     #[arg(long = "out", value_name = "FOLDER")]
     pub(crate) folder: Option<PathBuf>,
 }

@@ -29,7 +29,7 @@ impl Context {
         let there = taceva_models::prepare_threads(wanted);
         if there < wanted.get() && !everywhere.quiet {
             stderr::say(format_args!(
-                "the system starts {there} of {wanted} threads: this takes longer, with the same result (raise `ulimit -u` or the limit of the container)"
+                "the system started {there} of {wanted} threads: the command is slower, the result is the same (raise `ulimit -u` or the limit of the container)"
             ));
         }
         Context {

@@ -128,7 +128,7 @@ fn sync_parent(path: &Path) -> io::Result<()> {
 fn beside(path: &Path) -> anyhow::Result<PathBuf> {
     let name = path
         .file_name()
-        .with_context(|| format!("{} names no file", shown(path)))?;
+        .with_context(|| format!("{}: expected a path that ends in a file name", shown(path)))?;
     let mut hidden = std::ffi::OsString::from(".");
     hidden.push(name);
     hidden.push(format!(".{}.partial", std::process::id()));

@@ -27,7 +27,7 @@ def real(array: Any, name: str) -> npt.NDArray[Any]:
         For rows of unequal length, more rows than `MOST_ROWS`, a mask, and a tensor without memory.
     """
     if np.ma.isMaskedArray(array) and np.ma.getmaskarray(array).any():
-        raise ValueError(f"{name}: a masked array; expected one without a mask, of the rows that count")
+        raise ValueError(f"{name}: a masked array; expected one without a mask, with only the rows to score")
     found = np.asarray(_in_memory(array, name))
     is_number = found.dtype.kind in "iub" or (found.dtype.kind == "f" and found.dtype.itemsize <= 8)
     if not is_number:
@@ -39,7 +39,7 @@ def real(array: Any, name: str) -> npt.NDArray[Any]:
 def require_rows(array: npt.NDArray[Any], name: str) -> None:
     """Refuse more rows than are taken in one call."""
     if array.ndim and len(array) > MOST_ROWS:
-        raise ValueError(f"{name} has {len(array)} rows, expected at most {MOST_ROWS} in one call: update with a part after the other")
+        raise ValueError(f"{name} has {len(array)} rows, expected at most {MOST_ROWS} in one call: update with one part after another")
 
 
 def native(array: npt.NDArray[Any], name: str, *, allow_invalid: bool = False) -> Numbers:
@@ -84,7 +84,7 @@ def points(names: Any, name: str = "points") -> npt.NDArray[np.int64] | list[str
     """
     found = np.asarray(_in_memory(names, name))
     if found.ndim != 1:
-        raise ValueError(f"{name} have the shape {list(found.shape)}, expected one a row")
+        raise ValueError(f"{name} have the shape {list(found.shape)}, expected one value per row")
     require_rows(found, name)
     if found.dtype.kind in "iub":
         if found.dtype.kind == "u" and found.dtype.itemsize == 8 and found.size and int(found.max()) >= 2**63:

@@ -52,7 +52,7 @@ class NamedColumns:
         missing = [channel for channel in channels if channel not in self.columns]
         if missing:
             known = ", ".join(self.columns)
-            raise ValueError(f"{name} has no column {missing[0]!r}: its columns are {known}; rename them, or name channels=[…] as they are called")
+            raise ValueError(f"{name} has no column {missing[0]!r}: its columns are {known}; rename them, or give their names as channels=[…]")
         return np.column_stack([_numbers(self.columns[channel]) for channel in channels])
 
     def column(self, name: str) -> Any:
@@ -109,7 +109,7 @@ def _of_pandas(table: Any, name: str) -> NamedColumns:
         return NamedColumns({"": np.column_stack([_of_extension(table.iloc[:, at]) for at in range(len(names))])}, rows, is_counted)
     for key in names:
         if names.count(key) > 1:
-            raise ValueError(f"{name}: the column {key!r} comes twice")
+            raise ValueError(f"{name}: the column {key!r} occurs twice")
     return NamedColumns({key: _of_extension(table[key]) for key in names}, rows, is_counted)
 
 
@@ -179,11 +179,11 @@ def _channels(truth: NamedColumns | None, prediction: NamedColumns | None, given
         return None
     names = found[0]
     if not names:
-        raise ValueError("no column is a channel: expected Px, Py, Pz, Fx, Fy, Fz or named others")
+        raise ValueError("no column is a channel: expected Px, Py, Pz, Fx, Fy, Fz, or other names in channels=[…]")
     if truth is not None and prediction is not None and len(found) == 2:
         absent = [name for name in found[1] if name in _SIX and name not in names]
         if absent:
-            raise ValueError(f"prediction has no column {absent[0]!r}, which truth has: both must have the same channels, or name channels=[…]")
+            raise ValueError(f"prediction has no column {absent[0]!r}, which truth has: give both the same channels, or select some with channels=[…]")
     return names
 
 
@@ -194,7 +194,7 @@ def _order(truth: NamedColumns | None, prediction: NamedColumns | None) -> tuple
     for key in KEYS:
         own, other = truth.column(key), prediction.column(key)
         if own is not None and other is not None:
-            order = aligned(own, other, f"the key {key!r}", "mend the keys, or leave the column out")
+            order = aligned(own, other, f"the key {key!r}", "correct the keys, or remove the column")
             _check_index(truth, prediction, order, key)
             return order, key
     if truth.index is None or prediction.index is None:
@@ -229,12 +229,12 @@ def aligned(own: Any, other: Any, what: str, remedy: str) -> npt.NDArray[np.intp
     places: dict[Any, int] = {}
     for at, name in enumerate(found):
         if places.setdefault(_hashable(name), at) != at:
-            raise ValueError(f"{what} {name!r} comes twice in prediction, in rows {places[_hashable(name)]} and {at}; {remedy}")
+            raise ValueError(f"{what} {name!r} occurs twice in prediction, in rows {places[_hashable(name)]} and {at}; {remedy}")
     seen: dict[Any, int] = {}
     order = []
     for at, name in enumerate(wanted):
         if seen.setdefault(_hashable(name), at) != at:
-            raise ValueError(f"{what} {name!r} comes twice in truth, in rows {seen[_hashable(name)]} and {at}; {remedy}")
+            raise ValueError(f"{what} {name!r} occurs twice in truth, in rows {seen[_hashable(name)]} and {at}; {remedy}")
         if _hashable(name) not in places:
             raise ValueError(f"no row of prediction has {what} {name!r}, which row {at} of truth has; {remedy}")
         order.append(places[_hashable(name)])

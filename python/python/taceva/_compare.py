@@ -31,7 +31,7 @@ class Comparison:
         return "".join(f"% {line}\n" for line in self._said) + self._form("tex")
 
     def figures(self) -> list[Figure]:
-        """Return every figure in which the results can be drawn beside each other."""
+        """Return every figure that shows the results together."""
         return figures_of(self._asked[0])
 
     def __str__(self) -> str:

@@ -34,7 +34,7 @@ class Rows:
 class Dataset:
     """A recording: labels of every sample, and frames or signals.
 
-    It is pickled as its path and its digest; unpickling raises `DatasetError` where the recording at that path is another.
+    It is pickled as its path and its digest; unpickling raises `DatasetError` if the recording at that path has another digest.
     """
 
     def __init__(self, path: str | os.PathLike[str], view: str | None = None) -> None:
@@ -47,7 +47,7 @@ class Dataset:
 
     @property
     def views(self) -> tuple[str, ...]:
-        """The views, where each sample has several pictures: ``("left", "right")``; else none."""
+        """The views, if each sample has several pictures: ``("left", "right")``; empty otherwise."""
         return tuple(self._inner.views())
 
     @property
@@ -57,7 +57,7 @@ class Dataset:
 
     @property
     def digest(self) -> str:
-        """The digest of all that the recording says."""
+        """The digest of the content of the recording."""
         return self._inner.digest()
 
     @property
@@ -82,14 +82,14 @@ class Dataset:
 
     @property
     def frame_shape(self) -> tuple[int, int, int] | None:
-        """Height, width and samples a pixel of frames; ``None`` without frames."""
+        """Height, width and samples per pixel of frames; ``None`` without frames."""
         return self._inner.frame_shape()
 
     def __len__(self) -> int:
         return self._inner.rows()
 
     def labels(self) -> npt.NDArray[np.float64]:
-        """Return ``[rows, channels]``, read-only; NaN where a label is absent."""
+        """Return ``[rows, channels]``, read-only; NaN for an absent label."""
         return np.asarray(self._inner.labels())
 
     def points(self) -> list[str | None]:
@@ -126,7 +126,7 @@ class Dataset:
         return np.asarray(self._inner.frames(self._rows(rows), jobs, bar()))
 
     def batches(self, rows: Sequence[int] | IntArray | None = None, *, size: int = 64, jobs: int = 0) -> Iterator[npt.NDArray[Any]]:
-        """Yield frames of at most ``size`` rows after each other; no more than one batch is in memory."""
+        """Yield frames in batches of at most ``size`` rows; only one batch is in memory."""
         if size < 1:
             raise ValueError(f"size {size}: expected at least 1")
         wanted = self._rows(rows)
@@ -145,7 +145,7 @@ class Dataset:
         settings: Mapping[str, Any] | None = None,
         jobs: int = 0,
     ) -> npt.NDArray[np.float32]:
-        """Return ``[rows, values]``: what a model by name sees of frames, or of signals, 32×32 gray where nothing is asked for.
+        """Return ``[rows, values]``: the features that a named model gets from frames or signals, 32×32 gray by default.
 
         ``settings`` are those of ``--set``: ``{"size": "16x16", "color": "rgb", "difference": "true"}``.
         """
@@ -164,11 +164,11 @@ class Dataset:
         return Rows(train, validation, test, name)
 
     def check(self, *, jobs: int = 0) -> dict[str, Any]:
-        """Return what ``taceva check --format json`` finds: what spoils the recording or what a reader should know."""
+        """Return the findings of ``taceva check --format json``: defects of the recording and notes."""
         return dict(json.loads(self._inner.check(jobs, bar())))
 
     def to_pandas(self) -> Any:
-        """Return the table as a ``pandas.DataFrame``, a row a sample; ``attrs["units"]`` holds units by column."""
+        """Return the table as a ``pandas.DataFrame``, one row per sample; ``attrs["units"]`` holds units by column."""
         import pandas
 
         frame = pandas.DataFrame(np.array(self.labels()), columns=list(self.channels))
@@ -198,15 +198,15 @@ class Dataset:
     def export(self, out: str | os.PathLike[str], form: str = "csv", *, jobs: int = 0) -> list[str]:
         """Write the new folder ``out`` in a form that other programs read, as ``taceva export --format`` does: ``csv``, ``huggingface``, ``hdf5`` or ``lerobot``.
 
-        ``map.toml`` in it brings the recording back by `import_recording`. What the form cannot say is returned in words.
+        `import_recording` with the ``map.toml`` in it restores the recording. Returns a list of everything that the format cannot store.
         """
         return self._inner.export(form, os.fspath(out), jobs, bar())
 
     def to_huggingface(self, folder: str | os.PathLike[str], *, jobs: int = 0) -> Any:
         """Export to the new ``folder`` and return it as a ``datasets.Dataset`` of Hugging Face: pictures as ``Image``, labels as numbers.
 
-        Units are kept where they survive ``save_to_disk`` and ``map``: ``info.description`` is JSON of sensor, source, digest and units by column.
-        The metadata of the Parquet file holds them too, as ``unit.Fz``.
+        Units survive ``save_to_disk`` and ``map``: ``info.description`` is JSON of sensor, source, digest and units by column.
+        The metadata of the Parquet file has them too, as ``unit.Fz``.
         """
         try:
             import datasets
@@ -222,7 +222,7 @@ class Dataset:
     def torch(self, rows: Sequence[int] | IntArray | None = None) -> Any:
         """Return a ``torch.utils.data.Dataset`` of ``(frame, labels)``: the frame ``[samples, height, width]`` in float32 from 0 to 1, labels in float32.
 
-        Of a recording of taxels it is ``(signals, labels)``: ``[values]``, taxel by taxel, as `signals` gives them.
+        For a recording of taxels the items are ``(signals, labels)``: ``[values]``, taxel by taxel, as from `signals`.
 
         Raises
         ------
@@ -232,7 +232,7 @@ class Dataset:
         wanted = self._rows(rows)
         has_frames = self.frame_shape is not None
         if not has_frames and self._inner.signal_values() is None:
-            error = _taceva.DatasetError(f"{self.path}: the recording has neither frames nor signals, expected one of them for a data set of torch")
+            error = _taceva.DatasetError(f"{self.path}: the recording has neither frames nor signals, and a data set of torch needs one of them")
             error.path = Path(self.path)
             raise error
         from taceva._torch import Frames, Signals
@@ -262,12 +262,12 @@ class Dataset:
 def open(path: str | os.PathLike[str], view: str | None = None) -> Dataset:
     """Open the recording in the folder ``path``, which ``taceva import``, ``run`` or ``capture`` wrote.
 
-    Where each sample has several pictures, ``view`` names one (``"left"``) or several that stand side by side (``"left+right"``).
+    If each sample has several pictures, ``view`` selects one (``"left"``) or several side by side (``"left+right"``).
 
     Raises
     ------
     DatasetError
-        For a folder that is no recording, or one that was changed after it was sealed.
+        For a folder that is not a recording, or was changed after it was sealed.
     """
     return Dataset(path, view)
 
@@ -276,5 +276,5 @@ def _arrived(version: object, path: str = "", digest: str = "", view: str | None
     require_version(version)
     dataset = Dataset(path, view)
     if dataset.digest != digest:
-        raise _taceva.DatasetError(f"{path}: another recording than the one that was sent, its digest differs")
+        raise _taceva.DatasetError(f"{path}: not the pickled recording, its digest differs")
     return dataset

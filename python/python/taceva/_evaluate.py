@@ -33,7 +33,7 @@ def evaluate(
     batch: int = 64,
     jobs: int = 0,
 ) -> Result:
-    """Predict what a model has not seen of a recording, and score that. A model that can learn is fitted on the training part first.
+    """Score the predictions of a model on samples that it has not seen. A model that can learn is first fitted on the training part.
 
     Parameters
     ----------
@@ -43,27 +43,27 @@ def evaluate(
         - a name, such as ``"ridge"``, ``"fast"``, ``"cnn"``, ``"auto"`` or ``"linfa/elastic-net"``: fitted here;
         - the file of a model that ``taceva fit`` wrote, which brings its own split;
         - an object with ``fit(X, y)`` and ``predict(X)``, as scikit-learn's: fitted here on ``X``, float32 ``[rows, features]`` (see
-          `Dataset.features`, 32×32 gray where nothing is asked for), and ``y``, float64 ``[rows, channels]`` in their units; ``fit`` changes it;
+          `Dataset.features`, 32×32 gray by default), and ``y``, float64 ``[rows, channels]`` in their units; ``fit`` changes it;
         - `onnx` of a file;
         - a ``torch.nn.Module``: called in ``eval`` mode without gradients, on its own device, with float32 ``[rows, samples, height, width]``
           from 0 to 1;
         - any other callable: called with frames ``[rows, height, width, samples]``, uint8 or uint16.
 
-        Modules and callables are taken as they are and return ``[rows, channels]`` in the units of the channels. Name the ``split`` by which
-        they were fitted; without it every sample is scored, and a note says that it is not known what the model has learnt from.
+        Modules and callables are used without fitting and return ``[rows, channels]`` in the units of the channels. Give the ``split`` that they
+        were fitted with. Without it every sample is scored, and a note says that the training samples of the model are unknown.
     settings
         By name: of a named model and its features, ``{"size": "16x16"}``; of features alone for an object with ``fit``.
     channels
-        What is predicted, in order; all labels of the recording, if empty.
+        Channels to predict, in order; all labels of the recording, if empty.
     split, seed
         As of `Dataset.split`.
     part
-        ``test`` where nothing is said; ``train``, ``validation`` or ``all`` are no test, and a note says so.
+        ``test`` by default; ``train``, ``validation`` or ``all`` are not a test, and a note says so.
     bounded
-        ``False`` scores an object with ``fit`` by its predictions as they are, and a note says so; otherwise they are brought within the bounds of the
-        labels it has learnt and a quarter of their range, as those of every model that is fitted here.
+        ``False`` scores the predictions of an object with ``fit`` unchanged, and a note says so. Otherwise they are clamped to the range of its
+        training labels plus a quarter of that range, as for every model that is fitted here.
     batch
-        Frames that a module or a callable gets at once.
+        Number of frames in one call of a module or a callable.
 
     Returns
     -------
@@ -73,23 +73,23 @@ def evaluate(
     Raises
     ------
     ModelError
-        For a model that does not fit the recording.
+        For a model that does not match the recording.
     ValueError
-        For a model, a setting or a split that does not exist, and for predictions of another shape or that are not finite. What a model of
-        yours raises comes out unchanged.
+        For a model, a setting or a split that does not exist, and for predictions of another shape or that are not finite. Exceptions of
+        your model are raised unchanged.
     """
     recording = dataset if isinstance(dataset, Dataset) else Dataset(dataset)
     wanted = [metrics] if isinstance(metrics, str) else list(metrics)
     words = setting_words(settings)
     if isinstance(model, str | os.PathLike):
         if not bounded:
-            raise ValueError("bounded=False: a model by its name or its file keeps its bounds")
+            raise ValueError("bounded=False: a model given by name or file always keeps its bounds")
         text = _taceva.evaluate_named(
             recording._inner, os.fspath(model), words, list(channels), split, seed, part, wanted, jobs, bar()
         )
         return Result(text)
     if isinstance(model, type):
-        raise TypeError(f"model: the class {_name_of(model)}, expected an object of it")
+        raise TypeError(f"model: {_name_of(model)} is a class, expected an object of it")
     learns = callable(getattr(model, "fit", None)) and callable(getattr(model, "predict", None))
     if not learns and not callable(model):
         raise TypeError(
@@ -97,11 +97,11 @@ def evaluate(
             "expected a name, a file, or an object that learns or predicts"
         )
     if not bounded and not learns:
-        raise ValueError("bounded=False: a model that is taken as it is has no bounds")
+        raise ValueError("bounded=False: a model used as given has no bounds")
     if batch < 1:
         raise ValueError(f"batch {batch}: expected at least 1")
     if words and not learns:
-        raise ValueError(f"settings {', '.join(words)}: a model that is taken as it is has none")
+        raise ValueError(f"settings {', '.join(words)}: a model used as given has none")
     reads_frames = recording.frame_shape is not None
     given = _taceva.Given(recording._inner, list(channels), learns, split, seed, part, reads_frames, not bounded)
     described = model.settings if isinstance(model, OnnxModel) else _settings_of(model) if learns else {}
@@ -182,7 +182,7 @@ def _as_rows(predictions: Any, name: str, rows: int, channels: list[str]) -> Any
     if found.ndim == 1 and width == 1:
         found = found[:, np.newaxis]
     if found.shape != (rows, width):
-        raise ValueError(f"{name} predicted an array of the shape {list(found.shape)}, expected {[rows, width]}: a row a sample, a column a channel")
+        raise ValueError(f"{name} predicted an array of the shape {list(found.shape)}, expected {[rows, width]}: one row per sample, one column per channel")
     return np.ascontiguousarray(found)
 
 

@@ -26,10 +26,10 @@ def columns(fields: Mapping[str, Any], expected: Sequence[str], rows: int) -> li
     """
     for name in expected:
         if name not in fields:
-            raise ValueError(f"no {name}: every row carries {', '.join(expected)}, as was said at the start")
+            raise ValueError(f"{name} is missing: every row needs {', '.join(expected)}, as declared in fields")
     for name in fields:
         if name not in expected:
-            raise ValueError(f"{name} was not expected: name it at the start, fields=[{', '.join(map(repr, [*expected, name]))}]")
+            raise ValueError(f"{name} was not declared: add it at the start, fields=[{', '.join(map(repr, [*expected, name]))}]")
     found = []
     for name in expected:
         column = points(fields[name], name) if name in _TEXTS else _numbers(fields[name], name)
@@ -46,7 +46,7 @@ def columns(fields: Mapping[str, Any], expected: Sequence[str], rows: int) -> li
 def _numbers(column: Any, name: str) -> Any:
     found = real(column, name)
     if found.ndim != 1:
-        raise ValueError(f"{name} has the shape {list(found.shape)}, expected one a row")
+        raise ValueError(f"{name} has the shape {list(found.shape)}, expected one value per row")
     if name in _COUNTS and found.dtype.kind not in "iu":
         raise TypeError(f"{name}: expected whole numbers, found an array of {found.dtype}")
     return np.ascontiguousarray(native(found, name), dtype=np.float64)

@@ -30,7 +30,7 @@ class Figure:
 
     @property
     def caption(self) -> str:
-        """What a reader must know: what is drawn, of how many samples, what was left out."""
+        """Caption: content, number of samples, and omissions."""
         return self._drawn["caption"]
 
     @property
@@ -69,5 +69,5 @@ class Figure:
 
 
 def figures_of(texts: Sequence[str]) -> list[Figure]:
-    """Return every figure that results have something to draw of, in the order of reports."""
+    """Return every figure that the results have data for, in the order of reports."""
     return [Figure(texts, drawn) for drawn in _taceva.figures(list(texts))]

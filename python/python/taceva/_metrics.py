@@ -22,25 +22,24 @@ SIX = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
 class TactileMetrics:
     """Streams pairs of truth and prediction into exact sums, and gives their scores at any time.
 
-    The scores depend on the set of samples alone: not on their order, on how they were divided into updates, or on which of several merged
-    objects saw them. Only sums are held, never the samples.
+    The scores depend only on the set of samples: not on their order, on their division into updates, or on which of several merged objects
+    got them. The object stores sums, never samples.
 
     Parameters
     ----------
     channels
-        Names, one a column of the arrays.
+        Names of the columns of the arrays.
     metrics
-        Metrics and groups by name: ``accuracy`` is all that truth and prediction allow.
+        Metrics and groups by name: ``accuracy`` is every metric of truth and prediction.
     units
-        Units of channels beside the six, such as ``{"Mz": "N mm"}``; ``1`` where none is given.
+        Units of channels besides the six, such as ``{"Mz": "N mm"}``; ``1`` by default.
     periods
-        Degrees after which angles say the same, such as ``{"yaw": 360}``: 359 and 1 are 2 apart. A channel named here alone is in degrees.
+        Periods of angles in degrees, such as ``{"yaw": 360}``: 359 and 1 are 2 apart. A channel named only here is in degrees.
     independent
-        Whether samples do not depend on each other; intervals are formed of samples then. Where this is not said and no points are given there
-        are no intervals.
+        True for independent samples, whose intervals are by sample. If false and without points there are no intervals.
     fields
-        What every row carries besides, of ``scene``, ``unit_id``, ``phase``, ``depth_step``, ``repeat``, ``t_s`` and ``intensity``; metrics that
-        need one of them are left out without it.
+        Additional fields of every row, of ``scene``, ``unit_id``, ``phase``, ``depth_step``, ``repeat``, ``t_s`` and ``intensity``; metrics that
+        need one of them are skipped without it.
 
     >>> import numpy as np
     >>> import taceva
@@ -72,7 +71,7 @@ class TactileMetrics:
         for said, names in (("units", units), ("periods", periods)):
             unknown = sorted(set(names) - set(channels))
             if unknown:
-                raise ValueError(f"{said} of {', '.join(unknown)}, which are no channels: {', '.join(channels)}")
+                raise ValueError(f"{said} of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
         units = dict.fromkeys(periods, "deg") | units
         with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
         wanted = [metrics] if isinstance(metrics, str) else list(metrics)
@@ -94,21 +93,21 @@ class TactileMetrics:
         allow_invalid: bool = False,
         **fields: Any,
     ) -> None:
-        """Take in samples; none is taken in where one is refused, or where Ctrl-C interrupts.
+        """Add samples; none is added if one is rejected, or if Ctrl-C interrupts.
 
         Parameters
         ----------
         truth, prediction
             ``[rows, channels]``, or ``[rows]`` of one channel: arrays of numpy or tensors of torch, float32 or float64, in the unit of their
-            channel; whole numbers are converted. What names its columns (pandas, polars, Arrow, a dict of arrays) is matched by these
+            channel; whole numbers are converted. Data with named columns (pandas, polars, Arrow, a dict of arrays) are matched by these
             names, and rows by a column ``sample``, ``id``, ``sample_id`` or ``index`` of both, else by the index of pandas.
         points
-            The contact point of each row, a whole number or a text: intervals take the samples of one point as dependent. A column
-            ``point_id`` is taken where none are given.
+            The contact point of each row, a whole number or a text: intervals treat the samples of one point as dependent. A column
+            ``point_id`` is used by default.
         allow_invalid
-            Whether rows with NaN or an infinite number are counted and left out instead of refused.
+            True to count and skip rows with NaN or an infinite number instead of rejecting them.
         fields
-            One a row of what was named at the start: ``scene=["dark", …]``, ``repeat=[0, …]``.
+            Values of the declared fields, one per row: ``scene=["dark", …]``, ``repeat=[0, …]``.
 
         Raises
         ------
@@ -125,7 +124,7 @@ class TactileMetrics:
         width = len(self.channels)
         for name, table in tables.items():
             if table.shape[1:] != (width,) and not (width == 1 and table.ndim == 1):
-                raise ValueError(f"{name} has the shape {list(table.shape)}, expected [rows, {width}]: a column a channel")
+                raise ValueError(f"{name} has the shape {list(table.shape)}, expected [rows, {width}]: one column per channel")
         names = None if points is None else names_of_points(points)
         rows = len(tables["truth"])
         for name, column in {"prediction": tables["prediction"], "points": names}.items():
@@ -153,7 +152,7 @@ class TactileMetrics:
         return Result(self._sums.compute(sorted(self._paired)))
 
     def merge(self, other: TactileMetrics) -> None:
-        """Take over what ``other``, of the same channels and metrics, has seen."""
+        """Add the samples of ``other``, which has the same channels and metrics."""
         self._sums.merge(other._sums)
         self._paired |= other._paired
 
@@ -163,11 +162,11 @@ class TactileMetrics:
         self._paired.clear()
 
     def states(self) -> bytes:
-        """Return all that was seen, a few kB, for ``merge_states`` in another process."""
+        """Return the sums of all samples, a few kB, for ``merge_states`` in another process."""
         return bytes(self._sums.states_bytes())
 
     def merge_states(self, states: bytes) -> None:
-        """Take over what ``states`` of another process gave."""
+        """Add the samples behind the ``states`` of another process."""
         self._sums.merge_bytes(states)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -199,8 +198,8 @@ def score(
 ) -> Result:
     """Return the scores of ``prediction`` against ``truth``, arrays of ``[rows, channels]``; see `TactileMetrics`.
 
-    Where ``channels`` are not named they are the columns of data frames, or the six of the paper. Columns of data frames are matched by name, and
-    rows by key or index, as those of two files are. ``fields`` are what rows say besides, such as ``scene=[…]``.
+    The default ``channels`` are the columns of data frames, or the six of the paper. Columns of data frames are matched by name, and
+    rows by key or index, as for two files. ``fields`` are additional fields of the rows, such as ``scene=[…]``.
 
     >>> import numpy as np
     >>> import taceva
@@ -229,10 +228,10 @@ def score_tables(
     allow_invalid: bool = False,
     jobs: int = 0,
 ) -> Result:
-    """Return the scores of two CSV tables: what ``taceva score --truth … --pred …`` writes, byte for byte.
+    """Return the scores of two CSV tables, byte for byte as ``taceva score --truth … --pred …`` writes them.
 
-    Rows are paired by the column ``key`` of both, or by ``"order"``; by a key of a known name where nothing is said.
-    ``jobs`` are threads, all cores where it is 0; no result depends on it.
+    Rows are paired by the column ``key`` of both, or by ``"order"``; by default by a key of a known name.
+    ``jobs`` is the number of threads, all cores if 0; results do not depend on it.
     """
     wanted = [metrics] if isinstance(metrics, str) else list(metrics)
     text = _taceva.score_tables(

@@ -65,12 +65,12 @@ class OnnxModel:
 
     @property
     def name(self) -> str:
-        """What provenance calls it."""
+        """Name in the provenance."""
         return f"onnx:{self._path.name}"
 
     @property
     def settings(self) -> dict[str, str]:
-        """What provenance says of it: the digest of the file, and who runs it."""
+        """Settings in the provenance: the digest of the file, and the runtime."""
         import onnxruntime
 
         return {"digest": self._digest, "runtime": f"onnxruntime {onnxruntime.__version__}"}
@@ -129,15 +129,16 @@ class OnnxModel:
 def onnx(path: str | os.PathLike[str], *, providers: list[str] | None = None, order: str | None = None) -> OnnxModel:
     """Return the model in an ONNX file for `evaluate`, run by the onnxruntime that is installed: ``pip install 'taceva[onnx]'``.
 
-    It has one input of four axes: ``[rows, samples, height, width]``, as torch exports it, or ``[rows, height, width, samples]``. Floating point numbers
-    get pixels from 0 to 1, whole numbers pixels as they are. A fixed number of rows is kept. Its one output is ``[rows, channels]`` in their units.
+    It has one input of four axes: ``[rows, samples, height, width]``, as torch exports it, or ``[rows, height, width, samples]``. A floating-point
+    input gets pixels from 0 to 1, a whole-number input the original pixels. A fixed number of rows is respected. Its one output is
+    ``[rows, channels]`` in their units.
 
     Parameters
     ----------
     providers
         Those of onnxruntime, such as ``["CUDAExecutionProvider"]``; all that it has, if ``None``.
     order
-        ``nchw`` or ``nhwc``; where ``None``, the one that frames fit, ``nchw`` if both.
+        ``nchw`` or ``nhwc``; ``None`` chooses the one that matches the frames, ``nchw`` if both do.
 
     Raises
     ------
@@ -146,7 +147,7 @@ def onnx(path: str | os.PathLike[str], *, providers: list[str] | None = None, or
     FileNotFoundError
         If there is no such file.
     ValueError
-        For a file that is no model, or one of other inputs and outputs.
+        For a file that is not a model, or a model with other inputs and outputs.
     """
     return OnnxModel(path, providers, order)
 
@@ -155,5 +156,5 @@ def _arrived(version: object, asked: tuple[str, list[str] | None, str | None] = 
     require_version(version)
     model = OnnxModel(*asked)
     if model.settings["digest"] != digest:
-        raise ValueError(f"{asked[0]}: another model than the one that was sent, its digest differs")
+        raise ValueError(f"{asked[0]}: not the pickled model, its digest differs")
     return model

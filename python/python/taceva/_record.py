@@ -1,4 +1,4 @@
-"""New recordings: of arrays, and of folders as other programs left them."""
+"""New recordings from arrays and from folders of other programs."""
 
 from __future__ import annotations
 
@@ -40,34 +40,34 @@ def from_arrays(
     Parameters
     ----------
     path
-        The folder, in which nothing was recorded yet. A recording that was interrupted cannot be opened: remove its folder.
+        The folder, without a recording. An interrupted recording cannot be opened: remove its folder.
     labels
-        ``[rows, channels]`` in the units of the channels; NaN where a label is absent.
+        ``[rows, channels]`` in the units of the channels; NaN for an absent label.
     frames
-        ``[rows, height, width]`` (gray) or ``[rows, height, width, 3]`` (red, green, blue), uint8 or uint16, kept without loss; ``None`` for none.
+        ``[rows, height, width]`` (gray) or ``[rows, height, width, 3]`` (red, green, blue), uint8 or uint16, stored without loss; ``None`` for no frames.
     sensor
         The sensor model.
     source
-        ``recorded`` by a real sensor, ``simulated``, or ``synthetic``: every output says it.
+        ``recorded`` by a real sensor, ``simulated``, or ``synthetic``: every output states it.
     points, times, scenes
         The contact point, the time in seconds and the scene of each row.
     reference
         The picture of the untouched gel.
     footprint_mm
-        Width and height of the surface that senses.
+        Width and height of the sensing surface.
 
     Raises
     ------
     DatasetError
-        If something was recorded at ``path``, or the disk is full.
+        If ``path`` has a recording, or the disk is full.
     ValueError, TypeError
-        For arrays of unequal lengths or of other forms.
+        For arrays of unequal lengths or of other shapes.
     """
     channels = list(channels)
     units = dict(units or {})
     with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
     if not channels and frames is None:
-        raise ValueError("no channels and no frames: expected one of them, there is nothing to record")
+        raise ValueError("no channels and no frames: nothing to record, expected one of them")
     # Before anything is copied.
     rows = len(real(labels, "labels"))
     for name, column in {"frames": frames, "points": points, "times": times, "scenes": scenes}.items():
@@ -75,7 +75,7 @@ def from_arrays(
             raise ValueError(f"{name} has {len(column)} rows, labels has {rows}")
     table = numbers(labels, "labels", allow_invalid=True)
     if np.isinf(table).any():
-        raise ValueError("labels: an infinite number; expected finite ones, and NaN where a label is absent")
+        raise ValueError("labels: an infinite number; expected finite numbers, and NaN for an absent label")
     pictures = None if frames is None else _pixels(frames, 3)
     _taceva.record(
         os.fspath(path),
@@ -111,8 +111,8 @@ def import_recording(
 ) -> Dataset:
     """Import a folder of another program by a map, as ``taceva import SOURCE --map MAP --out OUT`` does, and open the recording.
 
-    ``taceva import SOURCE --draft`` writes a first map. ``replace`` puts the new recording in the place of the one at ``out`` once it is whole;
-    ``ffmpeg`` is a program that decodes clips which are not decoded here, AV1 among them.
+    ``taceva import SOURCE --draft`` writes a first map. ``replace`` replaces the recording at ``out`` once the new one is complete;
+    ``ffmpeg`` is a program that decodes clips with unsupported codecs, such as AV1.
     """
     _taceva.import_recording(
         os.fspath(source),

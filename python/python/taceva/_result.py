@@ -1,4 +1,4 @@
-"""Scores with their intervals, as the JSON of the command holds them."""
+"""Scores with their intervals, as in the JSON of the command."""
 
 from __future__ import annotations
 
@@ -72,17 +72,17 @@ class Result:
 
     @property
     def notes(self) -> list[str]:
-        """What a reader of the scores must know."""
+        """Notes for readers of the scores."""
         return list(self._report["notes"])
 
     @property
     def skipped(self) -> dict[str, str]:
-        """What was left out, and why."""
+        """Skipped metrics, with reasons."""
         return dict(self._report["skipped"])
 
     @property
     def source(self) -> str:
-        """Where samples come from: ``recorded``, ``simulated``, ``synthetic``, or ``unknown`` of arrays."""
+        """Origin of the samples: ``recorded``, ``simulated``, ``synthetic``, or ``unknown`` of arrays."""
         return str(self._report["source"])
 
     def __getitem__(self, key: tuple[str, str]) -> Score:
@@ -106,7 +106,7 @@ class Result:
         return dict(json.loads(self._text))
 
     def to_frame(self) -> Any:
-        """Return a ``pandas.DataFrame``, a row a score; ``attrs`` holds the source of the samples and the notes."""
+        """Return a ``pandas.DataFrame``, one row per score; ``attrs`` holds the source of the samples and the notes."""
         import pandas
 
         rows = []
@@ -127,7 +127,7 @@ class Result:
         return said + _taceva.score_table([self._text], "tex")
 
     def figures(self) -> list[Figure]:
-        """Return every figure that the scores give something to draw of, as the report of the command has them."""
+        """Return every figure that the scores have data for, as in the report of the command."""
         return figures_of([self._text])
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -160,7 +160,7 @@ class Result:
 
 
 def not_measured(sources: Sequence[str]) -> list[str]:
-    """Return the sentence that stands before whatever was made of samples that nobody measured."""
+    """Return the sentence that precedes every output about simulated or synthetic samples."""
     kinds = sorted({source for source in sources if source in ("simulated", "synthetic")})
     if not kinds:
         return []
@@ -169,7 +169,7 @@ def not_measured(sources: Sequence[str]) -> list[str]:
 
 
 def load(path: str | os.PathLike[str]) -> Result:
-    """Read the JSON of one evaluation that ``save`` or the command wrote; one that was changed since is refused."""
+    """Read the JSON of one evaluation that ``save`` or the command wrote; a changed one is rejected."""
     return Result(Path(path).read_text(encoding="utf-8"))
 
 

@@ -16,8 +16,8 @@ source = "real"
 axes = ["Fz"]
 rate_hz = 10
 
-Beside ``__init__.py`` lies its manifest, which ``python -m taceva.plugin manifest MODULE --write`` writes. It runs in a process of its own
-that reaches nothing but what the manifest says it needs and its user allows.
+``python -m taceva.plugin manifest MODULE --write`` writes its manifest beside ``__init__.py``. A plugin runs in its own process, which has
+access only to the needs of the manifest that the user allows.
 """
 
 from __future__ import annotations
@@ -60,16 +60,16 @@ _FAULTS = ("emergency stop", "collision", "boundary", "servo fault")
 
 
 class Failure(Exception):
-    """A failure of a kind that no exception of Python stands for.
+    """Failure of a device, of a kind without an exception in Python.
 
     Parameters
     ----------
     kind : str
         Such as ``"not found"``, ``"busy"``, ``"disconnected"``, ``"out of range"`` or ``"device fault"``.
     message : str
-        What happened, and what would help.
+        What failed, and the remedy.
     fault : str, optional
-        Why a robot stopped by itself, so that nothing moves until a person has looked: ``"emergency stop"``, ``"collision"``, ``"boundary"`` or
+        Why a robot stopped by itself; nothing moves until a person has checked it: ``"emergency stop"``, ``"collision"``, ``"boundary"`` or
         ``"servo fault"``.
     """
 
@@ -82,7 +82,7 @@ class Failure(Exception):
 
 
 class Pose(NamedTuple):
-    """Where the tip is in the frame of the sensor, in mm, z into the gel; and how it is turned about x, then y, then z, in degrees."""
+    """Position of the tip in the frame of the sensor, in mm, z into the gel, and its rotation about x, then y, then z, in degrees."""
 
     x: float = 0.0
     y: float = 0.0
@@ -93,10 +93,10 @@ class Pose(NamedTuple):
 
 
 class Reading(NamedTuple):
-    """What a force transducer read.
+    """Reading of a force transducer.
 
-    ``force`` is Fz, or ``[Fx, Fy, Fz]``, or ``[Fx, Fy, Fz, Tx, Ty, Tz]``, in N and N·mm; ``time`` is when, as `now` counts; ``number`` is
-    the number that the device itself gave it, where it numbers its readings.
+    ``force`` is Fz, or ``[Fx, Fy, Fz]``, or ``[Fx, Fy, Fz, Tx, Ty, Tz]``, in N and N·mm. ``time`` is its time on the clock of `now`.
+    ``number`` is its sequence number, if the device numbers its readings.
     """
 
     force: float | Sequence[float]
@@ -105,7 +105,7 @@ class Reading(NamedTuple):
 
 
 def now() -> float:
-    """Return the seconds of the clock that devices are stamped by: the monotonic clock of the machine."""
+    """Return the time for stamps of devices, in seconds of the monotonic clock of the machine."""
     return time.monotonic()
 
 
@@ -115,18 +115,18 @@ def log(message: str, level: str = "info") -> None:
 
 
 class Plugin:
-    """What a module offers: its id, its version, and its devices and estimators by their keys.
+    """Content of a plugin: its id, its version, and its devices and estimators by key.
 
     Parameters
     ----------
     id : str
         Reverse DNS, such as ``"org.example.eye"``.
     version : str
-        Its version.
+        Version of the plugin.
     provides : mapping of str to class
         Subclasses of `Sensor`, `Robot`, `Force`, `Lighting`, `Changer` and `Estimator`.
     needs : sequence of str
-        What it must reach outside itself, such as ``"camera"`` or ``"serial:{port}"``.
+        Access that it needs outside its process, such as ``"camera"`` or ``"serial:{port}"``.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""``python -m taceva.plugin``: what an author of a plugin asks for."""
+"""``python -m taceva.plugin``: commands for authors of plugins."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m taceva.plugin", description="For authors of plugins in Python.")
     commands = parser.add_subparsers(dest="command", required=True)
     manifest = commands.add_parser(
-        "manifest", help="print plugin.toml as the module says it; the exit code is 1 if the file says otherwise"
+        "manifest", help="print the plugin.toml of the module; the exit code is 1 if the file differs"
     )
-    manifest.add_argument("module", help="the package, as import names it")
+    manifest.add_argument("module", help="the package, by its import name")
     manifest.add_argument("--write", action="store_true", help="write it into the package instead")
-    manifest.add_argument("--license", help="the licence of a manifest that is new, such as MIT")
+    manifest.add_argument("--license", help="the licence of a new manifest, such as MIT")
     given = parser.parse_args(arguments)
     try:
         return _manifest(given.module, given.license, given.write)
@@ -33,7 +33,7 @@ def _manifest(name: str, license: str | None, write: bool) -> int:
     plugin = load(name)
     origin = sys.modules[name].__file__
     if origin is None or os.path.basename(origin) != "__init__.py":
-        raise TypeError(f"{name} is no package, expected a folder with an __init__.py")
+        raise TypeError(f"{name} is not a package, expected a folder with an __init__.py")
     path = os.path.join(os.path.dirname(os.path.abspath(origin)), "plugin.toml")
     text = ""
     if os.path.exists(path):
@@ -48,5 +48,5 @@ def _manifest(name: str, license: str | None, write: bool) -> int:
         with open(beside, "w", encoding="utf-8") as file:
             file.write(written)
         os.replace(beside, path)
-    print(f"{path}: {'written' if not text else 'says what the module says' if written == text else 'changed to what the module says'}")
+    print(f"{path}: {'written' if not text else 'agrees with the module' if written == text else 'updated from the module'}")
     return 0

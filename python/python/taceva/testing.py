@@ -1,4 +1,4 @@
-"""Whether a plugin keeps its promises, for the tests of its author."""
+"""Checks of a plugin, for the tests of its author."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Checked(NamedTuple):
-    """A check that was made: its name, what it looked at, and ``"passed"`` or ``"skipped"`` with the reason."""
+    """A check: its name, its subject, and ``"passed"`` or ``"skipped"`` with the reason."""
 
     check: str
     subject: str | None
@@ -28,35 +28,35 @@ def check(
     only: Sequence[str] = (),
     limit: float = 120,
 ) -> list[Checked]:
-    """Check the plugin that ``module`` is, as ``taceva plugin check`` does: each check in a confined process of its own.
+    """Check the plugin ``module``, as ``taceva plugin check`` does: each check in its own confined process.
 
     Parameters
     ----------
     module : str
-        The package, as ``import`` names it. It is not imported here.
+        The package, by its import name. It is not imported here.
     arguments : mapping of str to str, optional
         Arguments of drivers by their keys: ``{"org.example.eye/camera": "index=1"}``.
     only : sequence of str
-        The checks whose names begin with one of these; all, where there is none.
+        Prefixes of the names of the checks to run; all, if empty.
     limit : float
         The time limit of each check, in seconds.
 
     Returns
     -------
     list of Checked
-        What passed, and what could not be looked at.
+        The passed and the skipped checks.
 
     Raises
     ------
     AssertionError
-        If a promise does not hold; it names each.
+        If a check fails; the message lists each.
     """
     import importlib.util
     import tomllib
 
     spec = importlib.util.find_spec(module)
     if spec is None or spec.origin is None:
-        raise ModuleNotFoundError(f"no package is called {module!r} in this environment")
+        raise ModuleNotFoundError(f"package {module!r} not found in this environment")
     folder = os.path.dirname(spec.origin)
     manifest = os.path.join(folder, "plugin.toml")
     if not os.path.exists(manifest):
@@ -79,5 +79,5 @@ def check(
     failed = [result for result in results if result["outcome"] == "failed"]
     if failed:
         lines = [f"{one['check']} {one.get('subject') or ''}: {one['why']}" for one in failed]
-        raise AssertionError(f"{id} breaks {len(failed)} of {len(results)} promises:\n" + "\n".join(lines))
+        raise AssertionError(f"{id} fails {len(failed)} of {len(results)} checks:\n" + "\n".join(lines))
     return [Checked(one["check"], one.get("subject"), one["outcome"], one.get("why")) for one in results]

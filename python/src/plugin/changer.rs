@@ -48,7 +48,7 @@ impl Changer for PythonChanger {
             let class = said.get_type().name()?;
             said.extract().map_err(|_| {
                 value_error(format_args!(
-                    "bring returned a {class}, expected the name of what is in place, or None where it has no signal of that"
+                    "bring returned a {class}, expected the name of the specimen or unit in place, or None if the changer cannot tell"
                 ))
             })
         })

@@ -27,7 +27,7 @@ impl PythonForce {
         let facts = descriptor.force();
         let can_tare = facts.is_some_and(|facts| facts.tare);
         if can_tare && !object.has("zero") {
-            let why = "its class says `tare=True` and has no method zero(deadline)";
+            let why = "its class declares `tare=True` but has no method zero(deadline)";
             let key = object.key();
             return Err(
                 DriverError::new(ErrorKind::Unsupported, key, "open the device").because(why),

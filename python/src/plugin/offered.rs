@@ -32,9 +32,7 @@ impl Offered {
         let mut classes = Vec::with_capacity(tables.len());
         for (table, class) in tables {
             let provided = Provided::parse(&table, &parsed).map_err(|error| {
-                value_error(format_args!(
-                    "what `{id}` says of itself, {error}:\n{table}"
-                ))
+                value_error(format_args!("description of `{id}`, {error}:\n{table}"))
             })?;
             classes.push((provided, class));
         }

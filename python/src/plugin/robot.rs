@@ -30,7 +30,7 @@ impl PythonRobot {
     pub(super) fn new(object: Object, descriptor: &Descriptor) -> Result<PythonRobot, DriverError> {
         let can_guard = descriptor.robot().is_some_and(|facts| facts.guarded_motion);
         if can_guard && !object.has("move_guarded") {
-            let why = "its class says `guarded_motion=True` and has no method move_guarded(target, speed, force, deadline)";
+            let why = "its class declares `guarded_motion=True` but has no method move_guarded(target, speed, force, deadline)";
             let refused = DriverError::new(ErrorKind::Unsupported, object.key(), "open the device");
             return Err(refused.because(why));
         }
@@ -136,7 +136,8 @@ impl Robot for PythonRobot {
     }
 
     fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.object.method("clear_halt", "end the halt", deadline)?;
+        self.object
+            .method("clear_halt", "clear the halt", deadline)?;
         self.latch.clear();
         Ok(())
     }
@@ -180,7 +181,8 @@ fn stop(said: &Bound<'_, PyAny>) -> PyResult<GuardedStop> {
     }
     let stamp = stamp(said, "move_guarded").map_err(|_| {
         value_error(
-            "move_guarded returned neither a time nor (pose, time), expected when it arrived, or where it stopped at the force and when",
+            "move_guarded returned neither a time nor (pose, time), expected the time of arrival, or the pose and time of the stop at the \
+                force",
         )
     })?;
     Ok(GuardedStop::Arrived { stamp })

@@ -30,7 +30,8 @@ impl PythonSensor {
     ) -> Result<PythonSensor, DriverError> {
         let frame = descriptor.sensor().and_then(|facts| facts.frame);
         let frame = frame.ok_or_else(|| {
-            let why = "its class says no `frame`, expected (width, height, \"gray8\" or \"rgb8\")";
+            let why =
+                "its class declares no `frame`, expected (width, height, \"gray8\" or \"rgb8\")";
             DriverError::new(ErrorKind::Unsupported, object.key(), "open the sensor").because(why)
         })?;
         Ok(PythonSensor {

@@ -10,12 +10,7 @@ use taceva_plugin::{HaltLatch, Interruption};
 
 use crate::errors::value_error;
 
-create_exception!(
-    taceva,
-    Interrupted,
-    PyException,
-    "Somebody asked the call to end."
-);
+create_exception!(taceva, Interrupted, PyException, "The call was cancelled.");
 
 /// Longer than any call, s.
 const LONG_S: f64 = 1e9;

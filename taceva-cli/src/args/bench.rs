@@ -55,7 +55,7 @@ pub(crate) struct BenchModels {
     /// Number of times each model is fitted, in turns; the shortest processor time is reported
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) rounds: NonZeroUsize,
-    /// Fewer simulated presses, and short trainings where no model is named
+    /// Fewer simulated presses, and short trainings unless --model is given
     #[arg(long)]
     pub(crate) quick: bool,
     #[command(flatten)]

@@ -22,19 +22,19 @@ pub(crate) struct Import {
     /// List the known layouts: their files, the content that is read, and the settings left open
     #[arg(long, conflicts_with_all = ["source", "out", "explain", "force", "ffmpeg"])]
     pub(crate) presets: bool,
-    /// Print the map of --preset instead of importing, to be adapted; to --out, else to the terminal
+    /// Instead of importing, print the map of --preset as a start for your own; to the terminal, or to --out
     #[arg(long, requires = "preset", conflicts_with_all = ["explain", "map", "draft"])]
     pub(crate) print: bool,
     /// Format of the list of --presets
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t = ListFormat::Text, requires = "presets")]
     pub(crate) format: ListFormat,
-    /// Look at the folder and write a first map for it, with reasons as comments and units left open; to --out, else to the terminal
+    /// Write a first map for the folder, with reasons as comments and units left open; to the terminal, or to --out
     #[arg(long, conflicts_with = "explain")]
     pub(crate) draft: bool,
     /// The dataset to write: a new folder
     #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "draft", "extend", "presets", "print"])]
     pub(crate) out: Option<PathBuf>,
-    /// Add the rows to this dataset, imported before by a map of the same sensor; each row before keeps its part of every split
+    /// Append the rows to this dataset, imported earlier with a map of the same sensor; earlier rows keep their part of every split
     #[arg(long, value_name = "DATASET", conflicts_with_all = ["out", "draft", "force"])]
     pub(crate) extend: Option<PathBuf>,
     #[command(flatten)]

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-/// Questions are answered by a line each; Enter takes the default in brackets. Answers may also come from a file or a pipe. Every file is checked as
-/// the command that reads it does, and the next commands are printed.
+/// Each question is answered by one line; Enter takes the default in brackets. Answers may also come from a file or a pipe. Every file is
+/// checked as by the command that reads it, and the next commands are printed.
 #[derive(Debug, Args)]
 pub(crate) struct Init {
     #[command(subcommand)]

@@ -21,25 +21,25 @@ pub(crate) struct LiveArgs {
 }
 
 const CAPTURE_HELP: &str = "\
-Before it begins, the force is called zero and a frame is kept as the one without contact: touch nothing until it says `press`. Then press
-by hand, again and again, at other places, harder and softer. A contact begins above 0.1 N and ends below 0.05 N; each is a point of its own,
-hand-1, hand-2 …, so that none is both trained and tested on. Between contacts frames are rest-0, rest-1 …
+First the force is zeroed and a frame without contact is stored: touch nothing until it says `press`. Then press by hand, many times, at
+different places, harder and softer. A contact begins above 0.1 N and ends below 0.05 N. Each contact is its own point, hand-1, hand-2 …,
+so no contact is in both the training and the test part. Frames between contacts are rest-0, rest-1 …
 
   taceva capture presses --rig hand.toml --for 5min    frames and forces, five minutes
   taceva check presses                                 lost frames, saturation, timing
   taceva evaluate presses --model ridge --html presses.html
 
-With --model a fitted model predicts frames as they come. Page, terminal and recording call that predictions: they stand in
-OUT/predictions.csv by frame, dataset.toml names the model and its digest, and no label is made of them. The model never slows the capture: a
-frame that it has no time for is left out and counted. Where the model needs a frame without contact, the first is it.
+With --model a fitted model predicts frames as they arrive. Page, terminal and recording mark these numbers as predictions:
+OUT/predictions.csv has them by frame, dataset.toml names the model and its digest, and they never become labels. The model never slows the
+capture: frames that it has no time for are skipped and counted. A model that needs a frame without contact uses the first one.
 
   taceva capture more --rig hand.toml --model presses.taceva    forces measured and predicted, side by side on a page
 
-Ctrl-C ends it; what was recorded is a whole dataset. Frames that found no room in the queue of 8, or that the camera numbered and nobody
-took in time, are counted: on the progress line, in the header, and by `taceva check` (TAC015).
+Ctrl-C ends the capture; the dataset is complete. Lost frames are counted on the progress line, in the header, and by `taceva check`
+(TAC015): frames that did not fit into the queue of 8, and frames that the camera numbered but the program did not read in time.
 
-Exit code 0 at the end that was asked for, and by Ctrl-C where none was; 4 if a device failed and 5 by Ctrl-C before that end: the dataset
-is whole then too. After a full disk or a power cut `taceva capture OUT --close` closes what is there.";
+The exit code is 0 after --for or --frames, or at Ctrl-C without either; 4 if a device failed; 5 at Ctrl-C before --for or --frames. The
+dataset is complete in each case. After a full disk or a power cut `taceva capture OUT --close` closes the interrupted recording.";
 
 /// Record a sensor without a robot: frames, and the force of presses by hand
 #[derive(Debug, Args)]
@@ -84,18 +84,18 @@ pub(crate) struct PortArgs {
     pub(crate) port: u16,
 }
 
-const PREVIEW_HELP: &str = "Prints the address of a page on this machine, and shows there what the camera sees: 15 pictures a second, the force, lost frames, the share of saturated
-numbers, and a sharpness that is greatest in focus. Nothing is recorded. Ctrl-C or the button of the page ends it.
+const PREVIEW_HELP: &str = "Prints the address of a page on this machine. The page shows the camera at 15 pictures a second, the force, lost frames, the share of saturated
+pixels, and a sharpness that is greatest in focus. Nothing is recorded. Ctrl-C or the button of the page ends the preview.
 
-With --model a fitted model predicts the newest picture, up to 60 a second, and its newtons and millimetres stand over the picture that they are
-of, named as predictions; a picture outside what the model has seen says so. Older pictures that it has no time for are left out and counted. At the
-end: frames seen, shown and left out, how long 95 % took from their stamps, and the share outside.
+With --model a fitted model predicts the newest picture, up to 60 a second. The page shows its newtons and millimetres over that picture, marked as
+predictions, and marks pictures outside what the model has seen. Older pictures that it has no time for are skipped and counted. At the end the
+command prints the frames seen, shown and skipped, the delay after the stamps of 95 % of them, and the share outside.
 
   taceva preview --sensor camera/mjpeg:url=http://192.168.1.20:8080/?action=stream
   taceva preview --rig hand.toml
   taceva preview --rig hand.toml --model presses.taceva
 
-Keep the address to yourself: what stands behind # lets whoever knows it look, and stop. The page answers this machine alone; to look from another one, use
+Keep the address secret: its token after # lets anyone view and stop the preview. The page is reachable only from this machine; from another one, use
 ssh -L 8000:127.0.0.1:8000 with --port 8000.";
 
 /// Look at a sensor in a browser: live frames, force, focus and saturation; nothing is recorded

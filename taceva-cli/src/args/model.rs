@@ -39,8 +39,8 @@ pub(crate) struct Fit {
     pub(crate) force: bool,
 }
 
-/// The model is fitted on the training part, its settings are chosen on the validation part, and the test part is scored. Without --model that is
-/// `fast`, a small network (`ridge` for signals of taxels). With --with, a fitted model is used: on its own dataset only the part it has not seen is scored.
+/// The model is fitted on the training part, its settings are chosen on the validation part, and the test part is scored. The default model is
+/// `fast`, a small network, or `ridge` for signals of taxels. With --with, a fitted model is used: on its own dataset only the part it has not seen is scored.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("which").args(["with", "name"]))]
 pub(crate) struct Evaluate {

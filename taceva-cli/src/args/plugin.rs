@@ -192,8 +192,8 @@ pub(crate) struct PluginPack {
     pub(crate) force: bool,
 }
 
-/// A plugin runs in a process that reaches nothing of the machine but what its manifest needs and its user allows. This writes into
-/// the user's settings, `~/.config/taceva/config.toml`; comments and everything else in there stay.
+/// A plugin runs in a process that has access only to the needs of its manifest that the user allows. This command writes to the user's
+/// settings, `~/.config/taceva/config.toml`, and keeps everything else in that file.
 ///
 /// usb, camera, hid           devices on USB, cameras (/dev/video*), scales and pedals (/dev/hidraw*)
 /// serial:/dev/ttyUSB*        serial ports; `*` stands for anything but `/`
@@ -201,7 +201,7 @@ pub(crate) struct PluginPack {
 /// tcp:10.0.0.5:502           connections to one machine and port; `tcp:10.0.0.*:502` to all of a network
 /// udp:10.0.0.5:49152         messages to and from a machine
 /// listen:5025                a TCP port on which it waits for connections
-/// read:/run/scale            a file or all in a folder, to be read only
+/// read:/run/scale            a file, or every file in a folder, read-only
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct PluginAllow {

@@ -10,10 +10,10 @@ The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, gaussian-proc
 gradient-boosting, cnn, resnet10, resnet18, resnet34, cnn-ensemble; fast: cnn with size=up-to-80x60 epochs=170 color=auto difference=in-color appearance=auto; \
 default: cnn with size=up-to-128x96 color=auto difference=in-color appearance=auto; \
 best: cnn-ensemble with size=up-to-128x96 color=auto difference=in-color appearance=auto, the mean of two cnn; \
-auto: tries models on samples left out, as long as that is worth its work and at most budget_s=1800, and takes one; one of a library: \
+auto: tries models on held-out samples while the expected gain is worth the time, for at most budget_s=1800, and keeps one; of a library: \
 linfa/linear, linfa/pls, linfa/elastic-net, linfa/svr, linfa/logistic, smartcore/ridge, smartcore/lasso, smartcore/svr, \
 smartcore/knn, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which can be stopped only between two \
-fits of the library; or one of a plugin, ID/KEY";
+fits of the library; or of a plugin, ID/KEY";
 
 /// A model to fit, and its settings.
 #[derive(Debug, Args)]
@@ -55,8 +55,8 @@ pub(crate) struct ViewArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
-    /// The division of samples: random, chronological, by-point, by-block, declared, by-column:NAME[=train:1,2;val:3;test:4], or all: every
-    /// sample is trained on, for a final model; cv:K or loo, alone or followed by random, by-point, by-block or by-column:NAME, predicts
+    /// The division of samples: random, chronological, by-point, by-block, declared, by-column:NAME[=train:1,2;val:3;test:4]; all
+    /// trains on every sample, for a final model; cv:K or loo, optionally followed by random, by-point, by-block or by-column:NAME, predict
     /// each sample once; for several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model for
     /// each [default: by-point where points have repeats, by groups or blocks of time where neighbours resemble each other, else random;
     /// `evaluate` of fewer than 1,000 groups: cv:5 of these]

@@ -12,7 +12,7 @@ The file:
   sweep_version = 1
   name = \"which network, which size\"
   datasets = [\"monday\", \"units/*\"]         # folders, relative to the file
-  scenes = [\"quick\"]                       # also instead: scenes of the simulated bench, acquired first
+  scenes = [\"quick\"]                       # beside or instead of datasets: scenes of the simulated bench, acquired first
   models = [\"ridge\", { name = \"cnn\", set = { epochs = 60 } }]
   seeds = \"1-5\"                            # or [1, 2, 3]
   splits = [\"by-point\"]
@@ -27,13 +27,13 @@ The file:
   tasks_a_job = 8
   setup = [\"module load taceva\"]
 
-Tables that somebody else predicted, in shards, instead of recordings and models:
+Predictions of another program, in shards, instead of recordings and models:
   [score]
   truth = \"truth.parquet\"                  # CSV or Parquet
   pred = \"pred.parquet\"
   shards = 8
 
-The same command again goes on where it was stopped. `taceva sweep show FILE --by model,size` prints results.";
+The same command continues a stopped sweep. `taceva sweep show FILE --by model,size` prints results.";
 
 /// Every combination of recordings, models, settings, splits and seeds is a task; its result file is named by the digest of all its inputs.
 /// The table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed.

@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
                     true => " and the zero of the force",
                     false => "",
                 };
-                let words = format!("touch nothing: the frame without contact{zero} is taken");
+                let words = format!("touch nothing: recording the frame without contact{zero}");
                 stage(&words);
                 context.say(format_args!("{words}"));
             }
@@ -112,7 +112,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     status.clear();
     if let Some(page) = &page {
         page.live().ended(&match &done {
-            Ok(_) => "the capture has ended; what was recorded is whole".to_owned(),
+            Ok(_) => "the capture has ended; the dataset is complete".to_owned(),
             Err(error) => error.to_string(),
         });
     }
@@ -120,7 +120,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
         shown.summarise(&predictor.counts(), context);
         if let Some(problem) = predictor.failure() {
             stderr::say(format_args!(
-                "the model failed and predicted no more: {problem}; frames and forces were recorded all the same"
+                "the model failed and stopped predicting: {problem}; frames and forces were still recorded"
             ));
         }
     }
@@ -128,7 +128,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     summarise(&state, &header, has_force, &args.path, context);
     if let Some(predictions) = &header.predictions {
         context.say(format_args!(
-            "{}/predictions.csv: {predictions}, {} frames; labels are in samples.parquet alone",
+            "{}/predictions.csv: {predictions}, {} frames; measured labels are only in samples.parquet",
             taceva_core::shown(&args.path),
             predictions.rows
         ));
@@ -194,7 +194,7 @@ fn summarise(
     ));
     if !state.stream.numbered {
         context.say(format_args!(
-            "the camera numbers no frames: one that was lost before it came is not counted"
+            "the camera does not number its frames, so frames lost before they arrived are not counted"
         ));
     }
     if !has_force {
@@ -206,7 +206,7 @@ fn summarise(
     ));
     if state.contacts == 0 && state.least_normal_n < PULLED_N {
         stderr::say(format_args!(
-            "Fz went to {:.2} N and never above 0.1 N: the axis is the wrong way round; turn `axes` under [force] of the rig file",
+            "Fz reached {:.2} N and never exceeded 0.1 N: its axis is reversed; change its sign in `axes` under [force] of the rig file",
             state.least_normal_n
         ));
     } else if state.contacts > 0 {

@@ -63,14 +63,14 @@ fn lines(
     let room = (kept >= MUCH).then(|| {
         let free = free.map_or_else(String::new, |free| {
             let fits = if free < kept {
-                ": they may not fit, and are then not kept"
+                ": they may not fit; then they are not stored"
             } else {
                 ""
             };
             format!(", {} are free{fits}", bytes(free))
         });
         format!(
-            "disk: {} of features to keep in {}{free}; --no-cache keeps none",
+            "disk: {} of features to store in {}{free}; --no-cache stores none",
             bytes(kept),
             taceva_core::shown(folder)
         )
@@ -98,7 +98,7 @@ mod tests {
             said,
             [
                 "time: about 3 min to read 20000 pictures whose features are not in the cache; training then reports its own progress",
-                "disk: 80.0 MB of features to keep in /cache, 1.50 GB are free; --no-cache keeps none",
+                "disk: 80.0 MB of features to store in /cache, 1.50 GB are free; --no-cache stores none",
             ]
         );
         let said = lines(9, None, 80_000_000, Some(10_000), folder);

@@ -20,8 +20,8 @@ pub(crate) fn run(args: &Export, context: &Context) -> anyhow::Result<u8> {
         writeln!(out, "samples  {}", report.samples)?;
         if report.pictures > 0 {
             let anew = match report.encoded_anew {
-                0 => "in the bytes they came in".to_owned(),
-                anew => format!("{anew} of them encoded anew, with the same pixels"),
+                0 => "in their original bytes".to_owned(),
+                anew => format!("{anew} of them re-encoded, with the same pixels"),
             };
             writeln!(out, "pictures {}, {anew}", report.pictures)?;
         }
@@ -34,7 +34,7 @@ pub(crate) fn run(args: &Export, context: &Context) -> anyhow::Result<u8> {
             ),
             false => writeln!(
                 out,
-                "again    not by an import, which wants a picture of each sample"
+                "again    import is not possible: it needs a picture of each sample"
             ),
         }
     })?;

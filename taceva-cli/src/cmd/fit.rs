@@ -100,7 +100,7 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
             format!("  rmse {rmse:.4} {}", channel.unit)
         });
         let edge = if choice.at_edge {
-            "  (at the edge of what was tried)"
+            "  (at the edge of the tried range)"
         } else {
             ""
         };

@@ -156,7 +156,7 @@ fn map_written(
         let former = std::fs::read_to_string(target).unwrap_or_default();
         if target.exists() && !former.contains("map_version") {
             return Err(Usage::error(format!(
-                "{} is no map, which --force would replace: choose another place",
+                "{} is not a map, and --force replaces only maps: choose another path",
                 shown(target)
             )));
         }
@@ -189,7 +189,7 @@ fn decoders(args: &Import) -> anyhow::Result<Decoders> {
         && on_path(program).is_none()
     {
         return Err(Usage::error(format!(
-            "no program `{}` is there, neither as a file nor on the PATH: --ffmpeg, or TACEVA_FFMPEG, names ffmpeg 5.1 or later",
+            "program `{}` not found, neither as a file nor on the PATH: name ffmpeg 5.1 or later with --ffmpeg or TACEVA_FFMPEG",
             shown(program)
         )));
     }

@@ -32,7 +32,7 @@ pub(crate) fn run(args: &Init, context: &Context) -> anyhow::Result<u8> {
             let kinds = ["recording", "scene", "rig"];
             interview.say("recording: a folder of pictures and labels; scene: simulated sensors, no data needed; rig: your robot, transducer and camera");
             match interview
-                .choose("which of them is there", &kinds, Some("recording"))?
+                .choose("which one do you have", &kinds, Some("recording"))?
                 .as_str()
             {
                 "scene" => scene::write(&none, interview, context),
@@ -40,7 +40,7 @@ pub(crate) fn run(args: &Init, context: &Context) -> anyhow::Result<u8> {
                 _ => {
                     let is_folder = |answer: &str| match Path::new(answer).is_dir() {
                         true => Ok(()),
-                        false => Err(format!("{} is no folder", shown(answer))),
+                        false => Err(format!("{} is not a folder", shown(answer))),
                     };
                     let folder = interview.ask("the folder of the recording", None, is_folder)?;
                     recording::write(Path::new(&folder), &none, interview)

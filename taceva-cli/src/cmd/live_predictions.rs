@@ -40,12 +40,10 @@ impl<'a> LivePredictions<'a> {
         page.on_sent(move |stamp_s| {
             lock(&heard).add(MonotonicClock.now_s() - stamp_s);
         });
-        context.say(format_args!(
-            "predictions, not measurements, are by {words}"
-        ));
+        context.say(format_args!("predicted, not measured, by {words}"));
         if !model.knows_distance() {
             context.say(format_args!(
-                "{} does not know what it has seen (fitted by an earlier TacEva, or on fewer than 20 samples): pictures unlike those are not named; fit it anew",
+                "{} has no record of its training pictures (fitted by an earlier TacEva, or on fewer than 20 samples): unfamiliar pictures are not marked; fit it again",
                 shown(model.path())
             ));
         }
@@ -128,9 +126,9 @@ fn summary(model: &LiveModel, counts: &PredictionCounts, sent: &Latencies) -> Ve
         lines.push(format!("predicted {}", soon(&counts.latencies)));
     }
     match sent.count() {
-        0 => lines.push("no picture went to a browser".to_owned()),
+        0 => lines.push("no picture was sent to a browser".to_owned()),
         count => lines.push(format!(
-            "{count} pictures went to a browser, {}",
+            "{count} pictures were sent to a browser, {}",
             soon(sent)
         )),
     }
@@ -138,11 +136,11 @@ fn summary(model: &LiveModel, counts: &PredictionCounts, sent: &Latencies) -> Ve
     let share = |outside: u64| 100.0 * outside as f64 / counts.predicted.max(1) as f64;
     lines.push(match counts.outside {
         Some(outside) => format!(
-            "{outside} of {} ({:.1} %) lay outside what the model has seen",
+            "{outside} of {} ({:.1} %) were outside what the model has seen",
             counts.predicted,
             share(outside)
         ),
-        None => "how many lay outside what the model has seen is not known".to_owned(),
+        None => "the number of pictures outside what the model has seen is unknown".to_owned(),
     });
     lines
 }

@@ -39,7 +39,7 @@ fn keys(question: &Question) -> String {
         Question::Enable(robot) => {
             format!("type {} to let it move; q or Esc: stop", shown(robot))
         }
-        Question::Resume(_) | Question::GoOn => "Enter: go on; q or Esc: stop".to_owned(),
+        Question::Resume(_) | Question::GoOn => "Enter: continue; q or Esc: stop".to_owned(),
         _ => "Enter: done, hands out of reach; s: skip; q or Esc: stop".to_owned(),
     }
 }

@@ -57,7 +57,7 @@ fn info(args: &PluginInfo, context: &Context) -> anyhow::Result<u8> {
 fn release(args: &PluginRelease, context: &Context) -> anyhow::Result<u8> {
     let released = context.plugins(None)?.release(&args.id)?;
     output::write(None, |out| match released {
-        0 => writeln!(out, "nothing of `{}` is in quarantine", args.id),
+        0 => writeln!(out, "`{}` is not in quarantine", args.id),
         _ => writeln!(out, "`{}` may start again", args.id),
     })?;
     Ok(exit::DONE)

@@ -40,7 +40,7 @@ pub(crate) fn run(args: &Preview, context: &Context) -> anyhow::Result<u8> {
         .is_some_and(|model| model.asks_for_reference())
     {
         context.say(format_args!(
-            "touch nothing: the frame without contact, which the model needs, is taken"
+            "touch nothing: recording the frame without contact that the model needs"
         ));
     }
     let status = StatusLine::new(context.quiet);

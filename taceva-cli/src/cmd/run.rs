@@ -73,8 +73,10 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     };
     let reports = run_scene(&planned, &folder, setup);
     attended.ended(&match &reports {
-        Ok(_) => "finished: its report is being written".to_owned(),
-        Err(_) if progress::is_stopped() => "stopped; the terminal says how to go on".to_owned(),
+        Ok(_) => "finished: writing the report".to_owned(),
+        Err(_) if progress::is_stopped() => {
+            "stopped; the terminal shows the command that continues the run".to_owned()
+        }
         Err(error) => error.to_string(),
     });
     let mut reports = reports.with_context(|| match progress::is_stopped() {
@@ -83,7 +85,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
             resumption(args, &path, context)
         ),
         false if existing != Existing::Resume && folder.remove_if_untouched() => {
-            format!("nothing was recorded, {} is not kept", shown(&path))
+            format!("nothing was recorded: {} was removed", shown(&path))
         }
         false => format!("run in {}", shown(&path)),
     })?;

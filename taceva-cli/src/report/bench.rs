@@ -12,7 +12,7 @@ pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     let load = machine
         .load
         .map_or_else(String::new, |load| format!(", load {load:.2} a core"));
-    writeln!(out, "Ways to sum: time against right digits")?;
+    writeln!(out, "Ways to sum: time against correct digits")?;
     writeln!(
         out,
         "machine  {}, {} of {} cores{load}",
@@ -31,7 +31,7 @@ pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     out.write_all(rows(bench).text().as_bytes())?;
     writeln!(
         out,
-        "\ndigits: the fewest right decimal digits of any score on any input; 17.3 is every bit"
+        "\ndigits: the fewest correct decimal digits of any score on any input; 17.3 means every bit"
     )?;
     for name in inputs(bench) {
         writeln!(out, "  {name}")?;

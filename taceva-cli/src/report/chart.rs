@@ -18,12 +18,12 @@ pub(super) fn write(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> 
         is_on_front: row.pareto,
     });
     let figure = race(&Race {
-        title: "Time against right digits of ways to sum".to_owned(),
+        title: "Time against correct digits of ways to sum".to_owned(),
         caption: format!(
             "{}; one thread; `any order`: the same bits in any order.",
             bench.machine.cpu
         ),
-        gain: "right digits, fewest over all inputs".to_owned(),
+        gain: "correct digits, fewest over all inputs".to_owned(),
         cost: "ns a pair, MAE + R² + sMAPE".to_owned(),
         floor: Some((bench.floor.ns_per_pair.best, bench.floor.name.to_string())),
         points: points.collect(),

@@ -92,7 +92,7 @@ impl Page {
             let letters = without_glyph.into_iter();
             let letters = letters.map(|letter| format!("{letter} (U+{:04X})", u32::from(letter)));
             context.say(format_args!(
-                "the fonts of PDF figures lack {}: each is drawn as a box with its code point; the SVG figures hold the letters",
+                "the fonts of PDF figures lack {}: each is drawn as a box with its code point; the SVG figures show the letters",
                 letters.collect::<Vec<_>>().join(", ")
             ));
         }

@@ -37,7 +37,10 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
         serde_json::to_writer_pretty(&mut *out, &WrittenTap { schema, tap })?;
         return writeln!(out);
     }
-    writeln!(out, "{taps} taps; by the stamps as they are corrected now:")?;
+    writeln!(
+        out,
+        "{taps} taps; with the present corrections of the stamps:"
+    )?;
     for (device, latency) in [("force", force), ("sensor", sensor)] {
         writeln!(
             out,
@@ -86,14 +89,14 @@ fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
         let share = 100.0 * f64::from(switch.held) / f64::from(switch.looks.max(1));
         writeln!(
             out,
-            "switch  held in {} of {} looks ({share:.0} %), pressed or let go {} times, answers within {:.3} ms",
+            "switch  held in {} of {} readings ({share:.0} %), pressed or released {} times, answers within {:.3} ms",
             switch.held, switch.looks, switch.changes, switch.longest_ms
         )?;
     }
     match &check.halt {
         Some(halt) => writeln!(
             out,
-            "halt    acknowledged in {:.1} ms, the robot stood in {:.1} ms; the tip was left {:.2} mm higher",
+            "halt    acknowledged in {:.1} ms, the robot stopped in {:.1} ms; the tip was left {:.2} mm higher",
             halt.acknowledged_ms, halt.ended_ms, halt.left_mm
         )?,
         None => writeln!(out, "halt    not tried")?,

@@ -193,7 +193,7 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
     };
     let standings: String = standings(&report.scores)
         .iter()
-        .map(|standing| format!(" No full part in verdicts: {standing}."))
+        .map(|standing| format!(" Not or only partly used in verdicts: {standing}."))
         .collect();
     format!(
         "{subject}, n = {n}.{recordings}{model}{split}{neighbours} {intervals}.{standings} TacEva {}.",

@@ -140,7 +140,7 @@ fn a_draft_does_not_take_the_place_of_a_file_of_the_lab() {
     bench.refused(
         "import --draft lab --out lab/labels.csv --force",
         2,
-        "is no map",
+        "is not a map",
     );
     assert_eq!(
         std::fs::read_to_string(bench.path("lab/labels.csv")).expect("there"),

@@ -46,7 +46,7 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     bench.ok("plugin manifest my-scale --write");
     assert_eq!(fs::read_to_string(&manifest).expect("there"), printed.out);
     let again = bench.ok("plugin manifest my-scale --write");
-    assert!(again.contains("says what its library says"), "{again}");
+    assert!(again.contains("agrees with its library"), "{again}");
     assert_eq!(bench.run("plugin manifest my-scale").code, 0);
     bench.ok("plugin check org.example.my-scale --plugin-dir my-scale --only library/");
     let left = crate::support::leftovers(
@@ -69,7 +69,7 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     bench.refused(
         "plugin manifest my-scale",
         3,
-        "`--library` says which library to ask",
+        "name the library with `--library`",
     );
     let library = "--library target/release/libmy_scale.so";
     bench.refused(
@@ -141,11 +141,11 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     bench.ok("plugin allow org.example.my-scale hid");
     let said = bench.ok("plugin uninstall org.example.my-scale");
     assert!(
-        said.ends_with("take it back: taceva plugin deny org.example.my-scale\n"),
+        said.ends_with("revoke them: taceva plugin deny org.example.my-scale\n"),
         "{said}"
     );
     assert!(!installed.join(ID).exists());
     let listed = bench.ok("plugin list");
     assert!(listed.ends_with("0 plugins, 0 not used\n"), "{listed}");
-    bench.refused("plugin uninstall org.example.my-scale", 3, "not there");
+    bench.refused("plugin uninstall org.example.my-scale", 3, "does not exist");
 }

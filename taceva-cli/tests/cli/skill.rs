@@ -174,14 +174,14 @@ fn two_models_whose_skill_is_on_different_test_parts_are_compared_with_that_said
         let notes = comparison["notes"].as_array().expect("a list");
         let notes = notes.iter().filter_map(|note| note.as_str());
         notes
-            .filter(|note| note.starts_with("skill is shown"))
+            .filter(|note| note.starts_with("skill was measured"))
             .count()
     };
     assert_eq!(said("compare one.json same.json"), 0);
     assert_eq!(said("compare one.json two.json"), 1);
     let text = bench.ok("compare one.json two.json --metrics mae -q");
     assert!(
-        text.contains("skill is shown on different test parts"),
+        text.contains("skill was measured on different test parts"),
         "{text}"
     );
 }

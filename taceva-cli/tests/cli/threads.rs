@@ -54,7 +54,7 @@ fn a_system_that_starts_no_thread_gives_the_same_report_with_a_word_about_it() {
             assert!(code == Some(0), "{processes} {words}: {code:?} {error}");
             assert!(!error.contains("panicked"), "{error}");
             if processes == 1 {
-                assert!(error.contains("the system starts 0 of "), "{error}");
+                assert!(error.contains("the system started 0 of "), "{error}");
             }
             if words.starts_with("evaluate") {
                 assert_eq!(String::from_utf8_lossy(&found.stdout), free);

@@ -130,7 +130,7 @@ impl LimitsFile {
                 return refuse(
                     at + 1,
                     format!(
-                        "unit `{}`: expected mm, N, 1 or the like",
+                        "unit `{}`: expected a unit such as mm, N or 1",
                         shown(&limit.unit)
                     ),
                 );
@@ -202,9 +202,9 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
     finding.reason = barred.or_else(|| broken(limit, unit, number, finding.ends));
     finding.is_kept = finding.reason.is_none();
     if finding.is_kept && finding.ends.is_none() {
-        finding.reason = Some("kept by the value alone: there is no interval".to_owned());
+        finding.reason = Some("met by the value only: there is no interval".to_owned());
     } else if finding.is_kept && is_crossed(limit, finding.ends) {
-        let crossed = "kept by the value alone: its interval reaches across the limit";
+        let crossed = "met by the value only: its interval crosses the limit";
         finding.reason = Some(crossed.to_owned());
     }
     finding

@@ -46,7 +46,7 @@ impl ModelBench {
             recording.train, recording.test, recording.split, self.machine.cpu, self.machine.threads, self.machine.cores
         ));
         table.note(
-            "front of: channels on which no model takes less processor time to fit without being shown, pair by pair, to be further off.",
+            "front of: channels on which every model that takes less processor time to fit is shown, pair by pair, to have a larger error.",
         );
         let rows = self.rows.iter();
         for (model, why) in rows.filter_map(|row| Some((&row.model, row.failed.as_ref()?))) {

@@ -169,7 +169,7 @@ fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
             let ends = bound.property.interval(sensor);
             let is_unsure = ends.is_some_and(|ends| ends.into_iter().any(|end| bound.holds(end)));
             let unsure = match is_unsure {
-                true => ", by the value alone: its interval reaches across",
+                true => ", by the value only: its interval crosses the bound",
                 false => "",
             };
             format!(
@@ -193,7 +193,7 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
         let reason = match property.of(sensor) {
             None => "is not known".to_owned(),
             Some(value) if property.is_reached() && !bound.holds(value) => format!(
-                "that was tried is {}, which need not be its limit",
+                "that was tested is {}, which need not be its limit",
                 property.shown(value)
             ),
             Some(_) => return None,
@@ -320,7 +320,7 @@ mod tests {
             panic!("{:?}", choice.open);
         };
         let reason =
-            "its greatest normal force that was tried is 0.7 N, which need not be its limit";
+            "its greatest normal force that was tested is 0.7 N, which need not be its limit";
         assert!(tried.reason.contains(reason), "{tried:?}");
         assert_eq!(mine.name, "mine");
         assert!(mine.reason.contains("not known"), "{mine:?}");
@@ -345,9 +345,9 @@ mod tests {
         measured.scores.retain(|score| score.metric != "uniformity");
         let measured = choose_results(&[measured], &needs).table().text();
         let limits =
-            "Greatest depth and force are of the catalogue, not of these results: MagicTac.";
+            "Greatest depth and force are from the catalogue, not from these results: MagicTac.";
         assert!(measured.contains(limits), "{measured}");
-        let unknown = "Counted as a share of 0, since it is not known: uniformity of MagicTac.";
+        let unknown = "Counted as a share of 0, because it is unknown: uniformity of MagicTac.";
         assert!(measured.contains(unknown), "{measured}");
     }
 

@@ -92,12 +92,12 @@ impl Answer {
                 let unknown = self.unknown(names);
                 let words = match unknown.is_empty() {
                     true => words,
-                    false => format!("{words}; skill unknown of {}", unknown.join(" and ")),
+                    false => format!("{words}; unknown skill of {}", unknown.join(" and ")),
                 };
                 let drawn = self.drawn(names);
                 match drawn.is_empty() || self.better().is_none() {
                     true => words,
-                    false => format!("{words}; one training of {}", drawn.join(" and ")),
+                    false => format!("{words}; only one training of {}", drawn.join(" and ")),
                 }
             }
         }
@@ -199,7 +199,7 @@ fn trainings(names: &[String], answers: &[Answer]) -> Option<String> {
     let drawn: Vec<String> = drawn.into_iter().map(str::to_owned).collect();
     (!drawn.is_empty()).then(|| {
         format!(
-            "differences rest on one training of {}: another seed moves them, which no interval contains; repeat with --seeds 3",
+            "differences rest on one training of {}: another seed changes them, and no interval includes that; repeat with --seeds 3",
             listed(&drawn)
         )
     })
@@ -289,7 +289,7 @@ fn difference(
         Ok(paired) => return (paired.map_err(|error| error.to_string()), None),
         Err(reason) => reason.map(|reason| {
             format!(
-                "{} and {} are not compared in pairs, though both are of one truth: {reason}",
+                "{} and {} predict the same truth but are not compared sample by sample: {reason}",
                 names.a, names.b
             )
         }),

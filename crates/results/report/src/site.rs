@@ -51,7 +51,7 @@ fn index(sensors: &[Sensor], ours: &[Study]) -> String {
     document.section("radars", "Side by side, as published", side_by_side);
     if !ours.is_empty() {
         let ours = html! {
-            p.badge { "These are results of this program, not published ones; what is simulated was not measured." } "\n"
+            p.badge { "These are results of this program, not published ones; simulated samples were not measured." } "\n"
             (radars(ours))
         };
         document.section("ours", "Results of this program", ours);
@@ -93,14 +93,14 @@ fn list<'a>(sensors: impl Iterator<Item = &'a Sensor>) -> Markup {
         } "\n"
         (scroll("Sensors", &table))
         p.note {
-            "A dash: no number of that metric and unit is known here. The page of a sensor has every number that is. IMM maps intensity, MDM displacements of markers, MFM fuses modalities; magnetic, capacitive, resistive and optical sensors have taxels and no camera. "
+            "A dash: no number of that metric and unit is known here. The page of a sensor lists every known number. IMM maps intensity, MDM displacements of markers, MFM fuses modalities; magnetic, capacitive, resistive and optical sensors have taxels and no camera. "
             "The last column counts which of ten properties the work itself reports."
         }
     }
 }
 
 fn radars(studies: &[Study]) -> Markup {
-    let none = "Fewer than two sensors have numbers that can stand side by side.";
+    let none = "Fewer than two sensors have numbers that can be shown side by side.";
     crate::html::radars(&figures(studies)).unwrap_or_else(|| html! { p { (none) } })
 }
 
@@ -150,7 +150,7 @@ fn study(entry: &Sensor) -> Markup {
 fn page(sensor: &Sensor) -> String {
     let lead = html! {
         p.lead { a href="index.html" { (TITLE) } }
-        @if sensor.kind == Kind::Study { p { "A study of sensors, and no sensor." } }
+        @if sensor.kind == Kind::Study { p { "A study of sensors, not a sensor." } }
     };
     let mut document = Document::new(&sensor.name, lead);
     document.section("properties", "Properties", properties(sensor));

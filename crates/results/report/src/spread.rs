@@ -51,7 +51,7 @@ pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)])
     let differing: Vec<String> = differing.collect();
     (!differing.is_empty()).then(|| {
         format!(
-            "Labels differ more than twofold in spread between the sensors ({}): part of a difference between these scores may be one of labels.",
+            "The spread of the labels differs more than twofold between the sensors ({}): part of a score difference may come from the labels.",
             differing.join("; ")
         )
     })

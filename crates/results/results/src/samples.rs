@@ -80,7 +80,7 @@ pub enum SamplesError {
         found: String,
     },
     /// A missing column `sample`.
-    #[error("samples: no column `sample`, which names the rows")]
+    #[error("samples: column `sample` with the names of the rows is missing")]
     NoKey,
 }
 

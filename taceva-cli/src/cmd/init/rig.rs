@@ -28,7 +28,7 @@ pub(super) fn write(
         "camera of the sensor",
         interview,
     )?;
-    interview.say("limits protect the gel: the robot is halted where one is passed");
+    interview.say("limits protect the gel: the robot is halted when it exceeds one");
     let depth = interview.number("greatest depth, in mm", None, [0.01, 50.0])?;
     let normal = interview.number("greatest normal force, in N", None, [0.01, 1000.0])?;
     let speed = interview.number("greatest speed, in mm/s", Some("20"), [0.1, 500.0])?;

@@ -83,7 +83,7 @@ fn change(
 fn reach(allowed: &BTreeSet<Need>) -> String {
     let needs: Vec<String> = allowed.iter().map(ToString::to_string).collect();
     match needs.as_slice() {
-        [] => "may reach nothing outside its process".to_owned(),
+        [] => "has no access outside its process".to_owned(),
         needs => format!("may reach {}", needs.join(", ")),
     }
 }

@@ -80,7 +80,7 @@ pub(super) fn checked(
     let plugin = plugin.clone();
     if let Some(module) = plugin.module() {
         bail!(
-            "{} is the package `{}` of Python, which lies in an environment: `pip install` puts it there, and `taceva plugin list --python ENVIRONMENT/bin/python` finds it",
+            "{} is the Python package `{}`: install it into an environment with `pip install`; `taceva plugin list --python ENVIRONMENT/bin/python` then finds it",
             plugin.id(),
             module.name
         );

@@ -22,7 +22,7 @@ pub(super) fn run(args: &PluginManifest) -> anyhow::Result<u8> {
         && let Some(module) = manifest.module()
     {
         bail!(
-            "{}: of a module of Python, which its own interpreter asks: `python -m taceva.plugin manifest {}`{}",
+            "{} is the manifest of a Python module: run `python -m taceva.plugin manifest {}`{}",
             shown(&path),
             module.name,
             if args.write { " with `--write`" } else { "" }
@@ -54,9 +54,9 @@ pub(super) fn run(args: &PluginManifest) -> anyhow::Result<u8> {
         write(&path, &written).with_context(|| format!("cannot write {}", shown(&path)))?;
     }
     let what = match (is_same, text.is_empty()) {
-        (true, _) => "says what its library says",
+        (true, _) => "agrees with its library",
         (false, true) => "written",
-        (false, false) => "changed to what its library says",
+        (false, false) => "updated from its library",
     };
     output::write(None, |out| writeln!(out, "{}: {what}", shown(&path)))?;
     Ok(exit::DONE)
@@ -81,7 +81,7 @@ fn library(args: &PluginManifest, text: &str, manifest: &Path) -> anyhow::Result
     }
     if text.is_empty() {
         bail!(
-            "{}: not there yet; `--library` says which library to ask",
+            "{} does not exist yet: name the library with `--library`",
             shown(manifest)
         );
     }
@@ -93,11 +93,11 @@ fn library(args: &PluginManifest, text: &str, manifest: &Path) -> anyhow::Result
     }
     match read {
         Err(error) => bail!(
-            "{}, {error}; `--library` says which library to ask",
+            "{}, {error}; name the library with `--library`",
             shown(manifest)
         ),
         Ok(_) => bail!(
-            "{}: no library for {}; `--library` says which one to ask",
+            "{}: no library for {}; name one with `--library`",
             shown(manifest),
             platform()
         ),

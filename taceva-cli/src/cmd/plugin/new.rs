@@ -60,9 +60,12 @@ fn write_folder(folder: &Path, above: &str, files: &[File]) -> anyhow::Result<()
     if folder.symlink_metadata().is_ok() {
         bail!("{} exists already", shown(folder));
     }
-    let name = folder
-        .file_name()
-        .with_context(|| format!("{} names no folder", shown(folder)))?;
+    let name = folder.file_name().with_context(|| {
+        format!(
+            "{}: expected a path that ends in a folder name",
+            shown(folder)
+        )
+    })?;
     let partial = format!(".{}.{}.partial", name.display(), std::process::id());
     let beside = folder.with_file_name(partial);
     let written = write_files(&beside, above, files).and_then(|()| fs::rename(&beside, folder));

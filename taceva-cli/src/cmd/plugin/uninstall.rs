@@ -18,7 +18,7 @@ pub(super) fn run(args: &PluginUninstall) -> anyhow::Result<u8> {
     let target = user.join(id.as_str());
     if target.symlink_metadata().is_err() {
         bail!(
-            "{}: not there; what lies elsewhere is not removed: `taceva plugin list` says where",
+            "{} does not exist; plugins in other folders are not removed: `taceva plugin list` shows where they are",
             shown(&target)
         );
     }
@@ -33,7 +33,7 @@ pub(super) fn run(args: &PluginUninstall) -> anyhow::Result<u8> {
         match is_allowed {
             true => writeln!(
                 out,
-                "what it may reach is kept for another version; take it back: taceva plugin deny {id}"
+                "its permissions are kept for another version; revoke them: taceva plugin deny {id}"
             ),
             false => Ok(()),
         }

@@ -22,7 +22,7 @@ pub(super) fn run(args: &RigTapArgs, context: &Context) -> anyhow::Result<u8> {
         None if rig.simulated => None,
         None => {
             return Err(Usage::error(
-                "somebody must let the robot move by its name at a terminal: start taceva rig tap from one",
+                "motion of the robot is permitted at a terminal, by typing its name: start taceva rig tap from a terminal",
             ));
         }
     };
@@ -46,7 +46,7 @@ pub(super) fn run(args: &RigTapArgs, context: &Context) -> anyhow::Result<u8> {
     let Some(text) = &tapped.text else {
         let rig = shown(&args.rig);
         anyhow::bail!(
-            "{rig}: a table there takes no line behind its `driver`; write each latency_ms by hand, or every device as a table of its own such as [force]"
+            "{rig}: cannot add a line after the `driver` of a device; write each latency_ms by hand, or write every device as its own table, such as [force]"
         );
     };
     super::write_anew(&args.rig, text)?;

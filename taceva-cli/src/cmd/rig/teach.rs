@@ -14,7 +14,7 @@ pub(super) fn run(args: &RigTeachArgs, context: &Context) -> anyhow::Result<u8> 
     let rig = read_rig(&args.rig)?;
     let Some(mut terminal) = operator::terminal(None) else {
         return Err(Usage::error(
-            "somebody must jog the robot and say so at a terminal: start taceva rig teach from one",
+            "each jog of the robot is confirmed at a terminal: start taceva rig teach from a terminal",
         ));
     };
     let _held = HeldRigs::of_file(&rig)?;
@@ -22,7 +22,7 @@ pub(super) fn run(args: &RigTeachArgs, context: &Context) -> anyhow::Result<u8> 
     super::write_anew(&args.rig, &text)?;
     let [x, y, z] = taught.origin_mm;
     context.say(format_args!(
-        "{}: origin_mm = [{x:?}, {y:?}, {z:?}], axes = {}; both ways ended within {:.2} mm of an axis",
+        "{}: origin_mm = [{x:?}, {y:?}, {z:?}], axes = {}; both steps ended within {:.2} mm of an axis",
         shown(&args.rig),
         taught.axes,
         taught.residual_mm

@@ -41,7 +41,7 @@ pub(super) fn submit(
             counted(submission.tasks, "task"),
             counted(submission.jobs, "job"),
             submitted.arrays.join(", "),
-            submitted.collect.as_deref().unwrap_or("nobody")
+            submitted.collect.as_deref().unwrap_or("no job")
         )?;
         writeln!(out, "scripts   {}", shown(&folder.slurm()))
     })?;

@@ -79,13 +79,13 @@ impl SweepScene {
         let planned = PlannedScene::new(text, &drivers, None)?;
         planned.check_simulated(&drivers).map_err(|error| {
             wrong(format!(
-                "{error}; a sweep acquires scenes of the simulated bench alone: give the scene to `taceva run`, and name recordings under `datasets`"
+                "{error}; a sweep acquires only scenes of the simulated bench: run the scene with `taceva run`, and name its recordings under `datasets`"
             ))
         })?;
         let run = RunFolder::named(&folder.scenes(), &planned);
         let is_begun = run.is_begun(&planned).map_err(|error| {
             wrong(format!(
-                "{error}, or remove that folder, and the scene is acquired anew"
+                "{error}, or remove that folder to acquire the scene again"
             ))
         })?;
         Ok(SweepScene {
@@ -121,7 +121,7 @@ impl SweepScene {
             count => format!("{count} recordings"),
         };
         if self.is_acquired {
-            return format!("{name}: {recordings}, there already");
+            return format!("{name}: {recordings}, already acquired");
         }
         let presses = self.presses();
         let time = match SceneTime::estimate(folder, presses) {

@@ -81,7 +81,9 @@ pub(super) fn ended(
         ));
     }
     if ran.is_stopped {
-        context.say(format_args!("stopped; the same command goes on from here"));
+        context.say(format_args!(
+            "stopped; the same command continues from here"
+        ));
         return exit::STOPPED;
     }
     match ran.failed.is_empty() && is_passed {

@@ -88,7 +88,7 @@ fn a_unit_that_breaks_a_limit_is_not_accepted() {
     assert!(
         fs::read_to_string(bench.path("sheet.html"))
             .expect("there")
-            .contains("PASS: every limit is kept.")
+            .contains("PASS: every limit is met.")
     );
     assert_eq!(bench.run("accept r.json --limits narrow.toml").code, 1);
     bench.write("odd.toml", "limits_version = 1\n[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"stone\"\nmost = 1\n");

@@ -29,7 +29,7 @@ fn a_sweep_that_is_interrupted_stops_cleanly_and_goes_on() {
     let output = child.wait_with_output().expect("it ends");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(5), "{said}");
-    assert!(said.contains("goes on from here"), "{said}");
+    assert!(said.contains("continues from here"), "{said}");
     assert!(count(&results) < TASKS);
     assert_eq!(count(&bench.path("which.sweep/claims")), 0);
     bench.ok("sweep which.toml -q");

@@ -61,7 +61,7 @@ fn a_scene_is_acquired_once_as_by_a_run_and_its_recordings_are_datasets_beside_o
     assert_eq!(again.code, 0, "{}", again.err);
     assert_eq!(again.err, "");
     let dry = bench.ok("sweep which.toml --dry-run");
-    let there = "scene    pair: 2 recordings, there already";
+    let there = "scene    pair: 2 recordings, already acquired";
     assert!(dry.contains("found    6") && dry.contains(there), "{dry}");
 
     // Of one more scene the time is known by the presses of the first.

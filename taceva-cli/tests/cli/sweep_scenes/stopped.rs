@@ -35,7 +35,7 @@ fn a_signal_stops_a_sweep_between_presses_and_a_kill_loses_none_that_was_recorde
     let said = String::from_utf8(output.stderr).expect("text");
     assert_eq!(output.status.code(), Some(5), "{said}");
     assert!(
-        said.contains("stopped while a scene was acquired; the same command goes on from here"),
+        said.contains("stopped while a scene was acquired; the same command continues from here"),
         "{said}"
     );
     assert_eq!(claims(&bench), 0);

@@ -115,8 +115,8 @@ impl Acceptance<'_> {
         let broken = self.findings.iter().filter(|finding| !finding.is_kept);
         html! {
             @match broken.count() {
-                0 => p.pass { "PASS: every limit is kept." },
-                broken => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not kept." },
+                0 => p.pass { "PASS: every limit is met." },
+                broken => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not met." },
             }
         }
     }

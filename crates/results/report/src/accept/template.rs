@@ -42,9 +42,9 @@ pub fn limits_template(study: &Study) -> String {
     let name = toml::Value::String(format!("limits made from a result of {}", study.sensor));
     let mut out = format!(
         "# Limits made from a result of {}, serial {}, samples {}.\n\
-         # Each is {:.0} % worse than the value of the result (of R² and skill: so much more is left unexplained), or the worse end of its interval where that is further: change what you need, leave out the rest,\n\
+         # Each is {:.0} % worse than the value of the result (of R² and skill: so much more is unexplained), or the worse end of its interval if that is further: change limits as you need, delete the rest,\n\
          # then: taceva accept RESULT.json --limits THIS.toml\n\
-         # `most` must not be exceeded, `least` must be reached; with `whole_interval = true` by the whole interval, not by the value alone.\n\
+         # `most` must not be exceeded, `least` must be reached; with `whole_interval = true` by the whole interval, not only by the value.\n\
          limits_version = {LIMITS_VERSION}\nname = {name}\n",
         line(&study.sensor),
         line(&study.serial),
@@ -77,7 +77,7 @@ fn left_out(barred: &[&Score]) -> String {
     let groups = groups.into_iter();
     let comments = groups.map(|(reason, names)| {
         format!(
-            "\n# Left out, since no limit on them would be met ({reason}):\n# {}\n",
+            "\n# Left out, because no limit on them would be met ({reason}):\n# {}\n",
             names.join(", ")
         )
     });

@@ -13,7 +13,7 @@ const DEFINITIONS: &[(&str, &str)] = &[
     ),
     (
         "sr",
-        "share of presses whose spacing is told within the tolerance",
+        "share of presses whose spacing is predicted to within the tolerance",
     ),
     ("sensitivity", "indentation over normal force"),
     (

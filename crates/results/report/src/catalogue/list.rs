@@ -43,7 +43,7 @@ pub fn list(sensors: &[Sensor]) -> Table {
             sensor.known().to_string(),
         ]);
     }
-    table.note("A dash: no number of that definition is known here. The last column counts all that are; `taceva catalogue show NAME` gives each with its source, definition and conditions.");
+    table.note("A dash: no number of that definition is known here. The last column counts all known numbers; `taceva catalogue show NAME` lists each with its source, definition and conditions.");
     let studies: Vec<&str> = sensors
         .iter()
         .filter(|entry| entry.kind == Kind::Study)
@@ -109,7 +109,7 @@ pub fn details(sensor: &Sensor) -> Table {
     ];
     let kind = match sensor.kind {
         Kind::Sensor => sensor.mechanism.join("+"),
-        Kind::Study => "a study of sensors, no sensor".to_owned(),
+        Kind::Study => "a study of sensors, not a sensor".to_owned(),
     };
     let columns = [Column::of_metrics()].into_iter();
     let mut table = Table::new(

@@ -87,7 +87,7 @@ impl Sensor {
                 return Err(refuse(
                     "metric",
                     &result.metric,
-                    "a name that results of this program do not have, since no definition is known here",
+                    "a name that no metric of this program has, because the definition is unknown here",
                 ));
             }
             if Unit::from_symbol(&result.unit).is_none() {

@@ -159,7 +159,7 @@ impl Choice {
             return String::new();
         };
         let Some(evidence) = &self.evidence else {
-            return ", by published values, whose differences nobody tested".to_owned();
+            return ", by published values, whose differences were not tested".to_owned();
         };
         let in_what = |better: &str, than: &str| -> Vec<String> {
             let shown = evidence.iter();
@@ -182,7 +182,7 @@ impl Choice {
         let alone = match self.is_tied(0) || is_shown(&first.name, &second.name) {
             true => String::new(),
             false => format!(
-                ", by values alone: no test shows {} to be better than {}",
+                ", by values only: no test shows {} to be better than {}",
                 first.name, second.name
             ),
         };

@@ -107,7 +107,7 @@ mod tests {
         assert_eq!(tied.table().rows[1].plain()[0], "1 (tie)");
         assert!(tied.json().contains("\"tied\": true"));
         let behind = choice(&[("a", 1.0), ("b", 0.5), ("c", 0.5)], false);
-        let alone = ", by values alone: no test shows a to be better than b";
+        let alone = ", by values only: no test shows a to be better than b";
         let expected = format!("a first, b and c tie for second{alone}");
         assert_eq!(behind.headline(), expected);
         let apart = choice(&[("a", 1.0), ("b", 0.5)], false);

@@ -54,7 +54,7 @@ impl Choice {
             let unsure = candidate.steps.iter().filter(|step| step.is_unsure);
             for step in unsure {
                 table.note(format!(
-                    "Met by the value alone: `{}` by {}: the interval of its {} reaches beyond the bound.",
+                    "Met by the value only: `{}` by {}: the interval of its {} crosses the bound.",
                     step.need, candidate.name, step.property
                 ));
             }
@@ -67,13 +67,13 @@ impl Choice {
         let unknown: Vec<String> = unknown.collect();
         if !unknown.is_empty() {
             table.note(format!(
-                "Counted as a share of 0, since it is not known: {}.",
+                "Counted as a share of 0, because it is unknown: {}.",
                 unknown.join(", ")
             ));
         }
         if !self.limits_of_catalogue.is_empty() {
             table.note(format!(
-                "Greatest depth and force are of the catalogue, not of these results: {}.",
+                "Greatest depth and force are from the catalogue, not from these results: {}.",
                 self.limits_of_catalogue.join(", ")
             ));
         }
@@ -99,7 +99,7 @@ impl Choice {
             let known =
                 self.ranked.len() + self.open.len() + self.dropped.len() + self.barred.len();
             table.note(format!(
-                "{known} of {} sensors have a number that is asked for; none is known of: {}.",
+                "{known} of {} sensors have a requested number; none is known of: {}.",
                 known + self.unknown.len(),
                 self.unknown.join(", ")
             ));

@@ -26,7 +26,7 @@ fn of_one_pair(score: &Score) -> Option<&'static str> {
     let pairs = score.counts.iter().find(|(name, _)| name == "pairs_valid");
     pairs
         .filter(|(_, pairs)| *pairs < 2)
-        .map(|_| "one pair of units alone was compared")
+        .map(|_| "only one pair of units was compared")
 }
 
 /// Note if the skill of the studies was shown on different samples.
@@ -43,7 +43,10 @@ pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
             .iter()
             .map(|(name, ground)| format!("{name} on {ground}"))
             .collect();
-        format!("skill is shown on different test parts: {}", listed(&each))
+        format!(
+            "skill was measured on different test parts: {}",
+            listed(&each)
+        )
     })
 }
 

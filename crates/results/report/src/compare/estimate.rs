@@ -53,7 +53,7 @@ fn estimate(score: &Score) -> Result<Estimate, String> {
     };
     let Some(clusters) = interval.clusters() else {
         return Err(format!(
-            "an interval by `{method}` has no number of clusters"
+            "the interval by `{method}` does not state its number of clusters"
         ));
     };
     let others = u32::try_from(clusters).map_or(0, |clusters| clusters.saturating_sub(1));

@@ -1,6 +1,8 @@
 //! Overview of the decisions of a comparison.
 
-use taceva_metrics::{Better, Verdict};
+use std::collections::BTreeMap;
+
+use taceva_metrics::{Better, Standing, Verdict};
 
 use super::{Answer, Comparison, Remarks};
 use crate::names::listed;
@@ -95,20 +97,41 @@ impl Comparison {
             .iter()
             .filter(|answer| answer.is_shown())
             .count();
-        let without = self
-            .answers
-            .iter()
-            .filter(|answer| answer.difference.is_none());
-        let without = without.count();
         let equivalent = self.answers.iter().filter(|answer| answer.is_equivalent());
         let equivalent = equivalent.count();
+        let mut causes: BTreeMap<&str, usize> = BTreeMap::new();
+        for answer in &self.answers {
+            if answer.difference.is_none() {
+                *causes.entry(answer.cause()).or_default() += 1;
+            }
+        }
+        let without: usize = causes.values().sum();
+        let causes = causes
+            .iter()
+            .map(|(cause, count)| format!("{} ({count})", crate::escape::terminal(cause)));
+        let causes: Vec<String> = causes.collect();
+        let why = match causes.is_empty() {
+            true => String::new(),
+            false => format!(": {}", causes.join(", ")),
+        };
         let kept = all - shown - without - equivalent;
+        let number = |count: usize, one: &str, more: &str| match count {
+            1 => format!("1 {one}"),
+            _ => format!("{count} {more}"),
+        };
+        let pairs = number(all, "pair", "pairs");
+        let shown = number(shown, "differs", "differ");
         let equivalent = match equivalent {
             0 => String::new(),
-            count => format!("{count} are equivalent within the margin, "),
+            count => number(
+                count,
+                "is equivalent within the margin, ",
+                "are equivalent within the margin, ",
+            ),
         };
+        let kept = number(kept, "is not shown to differ", "are not shown to differ");
         format!(
-            "{all} pairs of scores: {shown} differ, {equivalent}{kept} are not shown to, {without} have no answer (5 %, by Holm over each metric)"
+            "{pairs} of scores: {shown}, {equivalent}{kept}, {without} cannot be tested{why} (5 %, by Holm over each metric)"
         )
     }
 
@@ -221,7 +244,7 @@ impl Comparison {
                     (count, _) => (
                         None,
                         format!(
-                            "{start}, better than {count} of {} others ({p}), not than {}",
+                            "{start}, better than {count} of {} others ({p}), undecided against {}",
                             count + open.len(),
                             listed(&open)
                         ),
@@ -265,6 +288,15 @@ impl Answer {
     /// True for scores within the margin of each other.
     fn is_equivalent(&self) -> bool {
         matches!(self.verdict, Verdict::Equivalent { .. })
+    }
+
+    /// Short reason that the pair was not tested: `no skill`.
+    fn cause(&self) -> &str {
+        let sides = [self.standings.a, self.standings.b];
+        let barred = sides.into_iter().find(|standing| !standing.takes_part());
+        let words = barred.and_then(Standing::words);
+        let words = words.or(self.reason.as_deref()).unwrap_or("no value");
+        words.split(':').next().unwrap_or(words)
     }
 
     /// `mae Pz ↓`, or `repeatability.pooled Pz ↓` for a compared variant.
@@ -311,7 +343,7 @@ fn untested(answers: &[&Answer], valued: &[(usize, f64)], names: &[String]) -> S
     let reason = reason.unwrap_or("no value");
     match valued {
         [] => format!("no answer: {reason}"),
-        [(at, _)] => format!("{} alone has a value", names[*at]),
+        [(at, _)] => format!("only {} has a value", names[*at]),
         _ => format!("no winner: {reason}"),
     }
 }

@@ -33,9 +33,7 @@ pub(super) fn difference(
     let a = of(studies.a, scores.a, names.a)?;
     let b = of(studies.b, scores.b, names.b)?;
     if a.truths != b.truths {
-        return Err(known(
-            "the two did not predict the same samples of it".to_owned(),
-        ));
+        return Err(known("they did not predict the same samples".to_owned()));
     }
     let test = SignFlip::default().with_seed(seed);
     Ok(test.test(Sides {
@@ -67,8 +65,8 @@ impl<'a> Errors<'a> {
         let samples = study
             .samples
             .as_ref()
-            .ok_or("no table of samples is beside the result")?;
-        let strange = "the score does not follow from the table of samples";
+            .ok_or("a table of samples is missing beside the result")?;
+        let strange = "the score does not match the table of samples";
         let channel = samples.channel(&score.channel).ok_or(strange)?;
         let rows = scored(samples, channel, score.n).ok_or(strange)?;
         // Samples are their own points only if the interval of the score agrees.
@@ -84,14 +82,14 @@ impl<'a> Errors<'a> {
             let [truth, prediction] = channel.pair(row).ok_or(strange)?;
             let key = samples
                 .word(Samples::KEY, row)
-                .ok_or("no samples are named in the table of samples")?;
+                .ok_or("sample names are missing in the table of samples")?;
             let point = match is_alone {
                 true => Some(key),
                 false => samples.word("point_id", row),
             };
-            let point = point.ok_or("no contact points are in the table of samples")?;
+            let point = point.ok_or("contact points are missing in the table of samples")?;
             if truths.insert(key, truth.to_bits()).is_some() {
-                return Err("a sample comes twice in the table of samples");
+                return Err("a sample occurs twice in the table of samples");
             }
             let error = (truth - prediction).abs();
             sums.try_add(point, error).map_err(|_| strange)?;

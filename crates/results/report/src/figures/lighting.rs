@@ -70,12 +70,12 @@ fn caption(studies: &[Study], names: &[String], others: &[usize]) -> String {
     let without = match lit.is_empty() {
         true => String::new(),
         false => format!(
-            " The results of {} hold no errors by scene and are not drawn.",
+            " The results of {} have no errors by scene and are not drawn.",
             crate::names::listed(&lit)
         ),
     };
     format!(
-        "Mean absolute error in each lighting scene as a ratio to that of the same presses in unchanged light, the scene “{LEARNT_IN}” that models are trained in: 1 is no change, 10 ten times the error; the axis is logarithmic. Predictions are as the model gives them, not brought back to its bounds, as in r_light. Sensors that no light reaches are not shown. Point at a dot for the light itself.{without}"
+        "Mean absolute error in each lighting scene as a ratio to that of the same presses in unchanged light, the scene “{LEARNT_IN}” that models are trained in: 1 is no change, 10 ten times the error; the axis is logarithmic. Predictions are not clamped to the bounds of the model, as in r_light. Sensors that no light reaches are not shown. Point at a dot for the light itself.{without}"
     )
 }
 

@@ -79,7 +79,7 @@ fn caption(bench: &ModelBench) -> String {
         threads => format!("{threads} threads"),
     };
     format!(
-        "Mean absolute error on {} samples, with its 95 % interval by contact point, over the time from one frame to its prediction. {}, {}; fitted on {} samples, split {}; {}, {threads}. Filled and joined: on the Pareto front, no other model is both faster and less far off.{simulated}",
+        "Mean absolute error on {} samples, with its 95 % interval by contact point, over the time from one frame to its prediction. {}, {}; fitted on {} samples, split {}; {}, {threads}. Filled and joined: on the Pareto front, where no other model is both faster and more accurate.{simulated}",
         recording.test,
         recording.name,
         recording.sensor,

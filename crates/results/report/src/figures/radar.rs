@@ -135,7 +135,7 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
     let barred = match barred.is_empty() {
         true => String::new(),
         false => format!(
-            " Not drawn, since they support no claim: {}.",
+            " Not drawn, because they are excluded from verdicts: {}.",
             barred.join("; ")
         ),
     };
@@ -143,7 +143,7 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
         id: id.to_owned(),
         title: title.to_owned(),
         caption: format!(
-            "Each axis shows the share of the best sensor shown: value over best where more is better (↑), best over value where less is (↓). The rim is the best value, which no test need have shown to be better.{gaps}{barred}{}{}",
+            "Each axis shows the share of the best sensor shown: value over best where more is better (↑), best over value where less is (↓). The rim is the best value, whether or not a test shows it to be better.{gaps}{barred}{}{}",
             without_value(studies, axes),
             unproven(studies, axes)
         ),
@@ -187,10 +187,10 @@ fn unproven(studies: &[Study], axes: &[Axis]) -> String {
     let any = |of: fn(&Score) -> bool| studies.iter().flat_map(drawn).any(of);
     let mut out = String::new();
     if any(|score| score.definition == PUBLISHED) {
-        out += " Nobody tested how published values differ.";
+        out += " Differences between published values were not tested.";
     }
     if any(|score| score.standing == Standing::SkillUnknown) {
-        out += " Of some it is not known whether the model has skill.";
+        out += " The skill of some models is unknown.";
     }
     out
 }

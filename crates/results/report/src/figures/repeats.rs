@@ -68,7 +68,7 @@ pub(super) fn volumes(studies: &[Study]) -> Option<Figure> {
         id: "repeatability-volumes".to_owned(),
         title: "Repeatability by place".to_owned(),
         caption: format!(
-            "Predicted places of the same presses at the deepest step that was repeated: each ellipse has the standard deviations of Px and Py as half axes, {LARGER} times as large as they are; the bar beside it is that of Pz, as much enlarged."
+            "Predicted places of the same presses at the deepest step that was repeated: each ellipse has the standard deviations of Px and Py as half axes, enlarged {LARGER} times; the bar beside it is that of Pz, enlarged alike."
         ),
         description: format!(
             "Ellipses of repeated predictions over the surface of {}.",

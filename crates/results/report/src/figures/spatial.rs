@@ -53,7 +53,7 @@ fn one(studies: &[Study], over: &str) -> Option<Figure> {
             _ => "Error against distance from the centre",
         },
         caption: format!(
-            "Mean absolute error of held-out presses in 100 bins of {over}: rolling mean of {WINDOW} non-empty bins, with a band of one standard deviation of these bins to both sides. Scores are made of the bins themselves."
+            "Mean absolute error of held-out presses in 100 bins of {over}: rolling mean of {WINDOW} non-empty bins, with a band of one standard deviation of these bins to both sides. Scores are computed from the bins themselves."
         ),
         description: format!(
             "Mean absolute error over {over} of {}.",

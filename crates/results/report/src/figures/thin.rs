@@ -22,7 +22,9 @@ pub(crate) fn rule(drawn: usize, all: usize) -> String {
     if drawn == all {
         format!("{all} samples, all drawn")
     } else {
-        format!("{all} samples, {drawn} drawn: evenly spaced ones and those furthest off")
+        format!(
+            "{all} samples, {drawn} drawn: evenly spaced ones and those with the largest errors"
+        )
     }
 }
 

@@ -100,7 +100,7 @@ fn pressed(studies: &[Study]) -> String {
     let presses = span(studies, |study| whole(study.made.presses));
     let points = span(studies, points);
     let presses = presses.map(|presses| {
-        format!(" A protocol made {presses} presses for each recording, those without a usable sample included.")
+        format!(" A protocol made {presses} presses for each recording, including those without a usable sample.")
     });
     let points = points.map(|points| format!(" Scored samples lie at {points} contact points."));
     presses.into_iter().chain(points).collect()
@@ -193,21 +193,21 @@ fn unseen(studies: &[Study]) -> String {
     });
     let seen: Vec<String> = seen.collect();
     let predicted = match seen.is_empty() {
-        true => " Every score that is formed from predictions is of samples that the model had not seen;".to_owned(),
+        true => " Every score of predictions uses samples that the model had not seen;".to_owned(),
         false => format!(
-            " Scores of {} are of samples that the model had seen, which is no test;",
+            " Scores of {} use samples that the model had seen, so they are not a test;",
             listed(&seen)
         ),
     };
     predicted
-        + " scores that use no predictions, such as sensitivity, uniformity and hysteresis, are of all samples that they apply to."
+        + " scores without predictions, such as sensitivity, uniformity and hysteresis, use all samples that they apply to."
 }
 
 /// Sentence on the scope of intervals and p values.
 fn scope(studies: &[Study]) -> String {
     let is_own = |study: &Study| study.source != "published" && !study.scores.is_empty();
     match studies.iter().any(is_own) {
-        true => " Intervals and p values hold for other contact points on the same units, read by the same trained models: they do not contain how units and trainings differ.".to_owned(),
+        true => " Intervals and p values apply to other contact points on the same units with the same trained models; they do not include the variation between units and trainings.".to_owned(),
         false => String::new(),
     }
 }

@@ -50,7 +50,7 @@ pub(super) fn section(report: &Report<'_>) -> Option<(usize, Markup)> {
     let sensors = sensors.map(|(at, name)| (format!("s{at}"), name));
     let body = html! {
         p.note {
-            "Of the samples that the model has not seen, those with the greatest and the smallest error, each of another contact point. The error is the mean over channels of |true − predicted| as a part of the range of the true values. "
+            "The samples with the greatest and the smallest error among those that the model has not seen, each of a different contact point. The error is the mean over channels of |true − predicted| divided by the range of the true values. "
             "The circle is the same for all samples of a sensor; in it the true place (ring) and the predicted one (dot), with the shear force as a line from each."
         } "\n"
         fieldset {

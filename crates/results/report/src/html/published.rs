@@ -46,7 +46,7 @@ pub(super) fn order(studies: &[Study]) -> Option<String> {
     (pairs > 0).then(|| {
         let tau = (f64::from(alike) - f64::from(reversed)) / f64::from(pairs);
         format!(
-            "The order of the sensors is the published one in {alike} of {pairs} pairs over {} (Kendall's τ {}): 1 is the same order, 0 none in common, −1 the reverse.",
+            "The sensors are in the published order in {alike} of {pairs} pairs over {} (Kendall's τ {}): 1 is the same order, 0 no agreement, −1 the reverse.",
             counted(values.len(), "score"),
             minus(&format!("{tau:.2}"))
         )
@@ -79,7 +79,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
             });
         }
     }
-    let note = "Published numbers are of real sensors and other presses; they stand here where metric, channel, unit and definition are the same, and take part in no verdict.";
+    let note = "Published numbers come from real sensors and other presses. They are listed where metric, channel, unit and definition agree, and are excluded from verdicts.";
     let table = html! {
         table.sorts {
             thead { tr { (heads(["sensor", "metric", "channel"])) (right_heads(["here", "published"])) (heads(["source and conditions"])) } }

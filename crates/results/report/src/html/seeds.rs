@@ -16,7 +16,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
     let over = named.filter_map(|(study, name)| Some((study.over_seeds.as_ref()?, name)));
     let over: Vec<(&OverSeeds, String)> =
         over.filter(|(over, _)| !over.scores.is_empty()).collect();
-    let note = "The 95 % interval is that of the mean over seeds; it shows how much a score varies between trainings, and takes part in no verdict.";
+    let note = "The 95 % interval is that of the mean over seeds; it shows how much a score varies between trainings, and is not used in verdicts.";
     let body = html! {
         p.note { (note) } "\n"
         @for (over, name) in &over { (table(over, name)) }
@@ -42,7 +42,7 @@ fn table(over: &OverSeeds, name: &str) -> Markup {
     html! {
         p.note {
             (name) ": seeds " (seeds.join(", ")) "; a seed decides " (over.decides) ". "
-            "Every other score of this page is of seed " (seeds.first().map_or("", String::as_str)) "."
+            "All other scores of this page are of seed " (seeds.first().map_or("", String::as_str)) "."
         } "\n"
         (scroll(&format!("{name}, over seeds"), &table))
     }

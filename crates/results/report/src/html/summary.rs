@@ -12,6 +12,7 @@ use crate::results::Study;
 use crate::scores::{ScoreCell, ScoreRow, ScoreTable};
 use crate::spread;
 use crate::tie::{best, tie};
+use taceva_metrics::Standing;
 use taceva_results::Score;
 
 /// Subtitle.
@@ -73,8 +74,23 @@ fn alone(row: &ScoreRow) -> Option<Markup> {
     }
     Some(html! {
         (phrase(cell, row)) ", n = " (cell.n) "."
-        @if let Some(why) = cell.standing.reason() { " It claims nothing: " (why) "." }
+        @if let Some(why) = cell.standing.reason() { " Not used in verdicts: " (why) "." (remedy(cell.standing)) }
     })
+}
+
+/// Way to a score of this standing that is used in verdicts; empty for one that is.
+fn remedy(standing: Standing) -> &'static str {
+    match standing {
+        Standing::NoSkill | Standing::NoInterval => {
+            " More contact points, or a score of every point (--split cv:5), would narrow this."
+        }
+        Standing::NotAboveConstant => " More presses of gratings would narrow this.",
+        Standing::NotAboveNoiseFloor => " More presses at each place would narrow this.",
+        Standing::Neighbours => " A split by groups or blocks (--split by-block) avoids this.",
+        Standing::LowStimulus => " Stronger light or more different presses avoid this.",
+        Standing::Bounded => " A model fitted on a wider range of labels avoids this.",
+        _ => "",
+    }
 }
 
 /// Verdict on the best of several sensors.
@@ -116,9 +132,9 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
         false => " that takes part",
     };
     let verdict = if known.len() < 2 {
-        format!("alone has a value{that_takes_part}")
+        format!("is the only sensor with a value{that_takes_part}")
     } else if is_demonstration(studies, &row.metric) {
-        "has the best value, which is no verdict on sensors".to_owned()
+        "has the best value, but this demonstration gives no verdict on sensors".to_owned()
     } else if rivals.is_empty() {
         format!("is shown to be better than every other sensor{that_takes_part}")
     } else {
@@ -146,7 +162,7 @@ fn without(row: &ScoreRow, table: &ScoreTable) -> String {
     }
 }
 
-/// Sensors without a part in verdicts, with the reason: ` No part in verdicts: GelSightWM (no skill).`
+/// Sensors without a part in verdicts, with the reason: ` Excluded from verdicts: GelSightWM (no skill).`
 fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
     let barred = known.iter().filter(|known| !known.cell.takes_part());
     let barred: Vec<String> = barred
@@ -157,7 +173,7 @@ fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
         .collect();
     match barred.is_empty() {
         true => String::new(),
-        false => format!(" No part in verdicts: {}.", listed(&barred)),
+        false => format!(" Excluded from verdicts: {}.", listed(&barred)),
     }
 }
 

@@ -82,7 +82,7 @@ pub(super) fn unequal_models(studies: &[Study]) -> Option<String> {
         });
     let each: Vec<String> = each.collect();
     Some(format!(
-        "Unequal models: {}. Differences between sensors are also those of their models.",
+        "Different models: {}. Differences between sensors include those between their models.",
         listed(&each)
     ))
 }
@@ -144,7 +144,8 @@ mod tests {
         assert_eq!(
             unequal_models(&unequal).as_deref(),
             Some(
-                "Unequal models: a by cnn epochs=24 and b by cnn epochs=100. Differences between sensors are also those of their models."
+                "Different models: a by cnn epochs=24 and b by cnn epochs=100. Differences between sensors include those between their \
+                    models."
             )
         );
     }

@@ -42,7 +42,7 @@ fn held(metric: &str, channel: &str, unit: &str, limit: &str) -> Finding {
 }
 
 /// Remark for a value within the limit whose interval crosses it.
-const BY_VALUE: &str = "kept by the value alone: its interval reaches across the limit";
+const BY_VALUE: &str = "met by the value only: its interval crosses the limit";
 
 fn is_kept(limit: &str) -> bool {
     let finding = held("mae", "Fz", "N", limit);
@@ -211,7 +211,7 @@ fn limits_that_name_no_version_are_of_the_first() {
 fn a_value_without_an_interval_is_kept_by_itself_and_that_is_said() {
     let finding = held("mae", "Fx", "N", "most = 0.75");
     assert!(finding.is_kept);
-    let reason = "kept by the value alone: there is no interval";
+    let reason = "met by the value only: there is no interval";
     assert_eq!(finding.reason.as_deref(), Some(reason));
     let finding = held("mae", "Fx", "N", "most = 0.75\nwhole_interval = true");
     assert!(!finding.is_kept);

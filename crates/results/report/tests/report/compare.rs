@@ -77,7 +77,7 @@ fn a_winner_of_two_names_the_other_one() {
         );
         assert_eq!(
             comparison.summary(),
-            "1 pairs of scores: 1 differ, 0 are not shown to, 0 have no answer (5 %, by Holm over each metric)"
+            "1 pair of scores: 1 differs, 0 are not shown to differ, 0 cannot be tested (5 %, by Holm over each metric)"
         );
         let overview = comparison.overview(None);
         let line = "\nNormal force (mae Fz ↓): Fine, 0.25 N, better than Coarse (p < 0.001)\n";
@@ -89,9 +89,9 @@ fn a_winner_of_two_names_the_other_one() {
 fn what_is_not_shown_to_differ_is_counted_as_such_and_has_no_winner() {
     let comparison = of_metric(&errors(&[("one", 0.5), ("two", 0.501)]), "mae");
     assert!(
-        comparison
-            .summary()
-            .starts_with("1 pairs of scores: 0 differ, 1 are not shown to, 0 have no answer")
+        comparison.summary().starts_with(
+            "1 pair of scores: 0 differ, 1 is not shown to differ, 0 cannot be tested"
+        )
     );
     let decision = &comparison.decisions()[0];
     assert_eq!(decision.winner, None);
@@ -145,7 +145,7 @@ fn unknown_skill_is_said_of_those_it_is_unknown_of_and_of_no_other() {
         comparison.answers[0].words(&comparison.names)
     };
     let said = words(&[known.clone(), unknown.clone()]);
-    assert!(said.ends_with("; skill unknown of unknown"), "{said}");
+    assert!(said.ends_with("; unknown skill of unknown"), "{said}");
     let other = Study {
         sensor: "other".to_owned(),
         ..known.clone()
@@ -388,24 +388,28 @@ fn samples_of_one_truth_that_cannot_be_paired_are_said_to_be_none() {
     };
     let b = || sampled("b", 0.0, 0.5);
     for (b, reason) in [
-        (lost(b()), "no table of samples is beside the result of b"),
+        (
+            lost(b()),
+            "a table of samples is missing beside the result of b",
+        ),
         (
             without_points(b()),
-            "no contact points are in the table of samples of b",
+            "contact points are missing in the table of samples of b",
         ),
         (
             twice(b()),
-            "a sample comes twice in the table of samples of b",
+            "a sample occurs twice in the table of samples of b",
         ),
         (
             sampled("b", 0.5, 0.5),
-            "the two did not predict the same samples of it",
+            "they did not predict the same samples",
         ),
     ] {
         let (test, notes) = of_tables(sampled("a", 0.0, 0.25), b, ["sha256:1"; 2]);
         assert!(test.contains("by the intervals of both"), "{test}");
-        let expected =
-            format!("a and b are not compared in pairs, though both are of one truth: {reason}");
+        let expected = format!(
+            "a and b predict the same truth but are not compared sample by sample: {reason}"
+        );
         assert!(notes.contains(&expected), "{notes:?}");
     }
 }
@@ -450,7 +454,7 @@ fn a_difference_of_one_training_of_a_model_that_draws_says_so() {
     let drawn: &[(&str, &str)] = &[("epochs", "24"), ("seed", "11")];
     let (words, note) = compared([drawn, drawn], false);
     assert!(
-        words.ends_with("; one training of Coarse and Fine"),
+        words.ends_with("; only one training of Coarse and Fine"),
         "{words}"
     );
     assert!(
@@ -458,7 +462,7 @@ fn a_difference_of_one_training_of_a_model_that_draws_says_so() {
             .contains("one training of Coarse and Fine")
     );
     let (words, _) = compared([&[], drawn], false);
-    assert!(words.ends_with("; one training of Fine"), "{words}");
+    assert!(words.ends_with("; only one training of Fine"), "{words}");
     // Ridge draws nothing, and several seeds are shown by themselves.
     for (settings, seeds) in [([&[][..], &[]], false), ([drawn, drawn], true)] {
         let (words, note) = compared(settings, seeds);
@@ -546,7 +550,7 @@ fn with_a_margin_a_row_has_one_decision() {
     );
     assert!(
         summary.starts_with(
-            "1 pairs of scores: 0 differ, 1 are equivalent within the margin, 0 are not shown to"
+            "1 pair of scores: 0 differ, 1 is equivalent within the margin, 0 are not shown to differ"
         ),
         "{summary}"
     );

@@ -355,7 +355,7 @@ fn methods_are_true_of_every_part_dataset_and_sensor() {
         let page = page(&[support::study(&result), support::study(&other)]);
         let case = format!("{part} {is_own} {is_same_sensor} {is_pressed}");
         let is_seen = is_own && part != "test";
-        assert_eq!(page.contains("which is no test;"), is_seen, "{case}");
+        assert_eq!(page.contains("so they are not a test;"), is_seen, "{case}");
         assert_eq!(
             page.contains("samples that the model had not seen; scores"),
             !is_seen,
@@ -399,7 +399,7 @@ fn scores_over_seeds_stand_on_the_page_where_there_are_any() {
     let studies = support::read(&result).expect("a result");
     let page = page(&studies);
     assert!(page.contains(
-        "seeds 3, 1, 2; a seed decides first weights. Every other score of this page is of seed 3."
+        "seeds 3, 1, 2; a seed decides first weights. All other scores of this page are of seed 3."
     ));
     assert!(page.contains("</a> ↓</th><td>Pz</td><td>mm</td>") && page.contains("0.05 … 0.35"));
     assert!(page.contains("Each model was fitted with the seeds 3, 1 and 2;"));
@@ -413,13 +413,12 @@ fn scores_over_seeds_stand_on_the_page_where_there_are_any() {
 fn methods_say_that_only_scores_with_skill_are_compared_and_which_marks_there_are() {
     let mut studies = [drawn("one", 30, 1.0), drawn("two", 30, 1.5)];
     let unmarked = page(&studies);
-    assert!(
-        unmarked.contains("Scores formed from predictions are compared where the model has skill")
-    );
-    assert!(unmarked.contains("no score here lacks it"));
+    assert!(unmarked.contains("Scores of predictions are compared only where the model has skill"));
+    assert!(unmarked.contains("No score here is excluded"));
     studies[0].scores[0].standing = taceva_metrics::Standing::NoSkill;
     let marked = page(&studies);
-    assert!(marked.contains("are marked “no skill” (the model is not shown to do better than a constant) and take part in no comparison"));
+    assert!(marked.contains("are marked “no skill” (the model is not shown to do better than a constant) and are excluded from \
+        comparisons"));
 }
 
 #[test]

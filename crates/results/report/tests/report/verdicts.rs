@@ -79,7 +79,7 @@ fn a_score_in_too_little_light_is_never_called_the_best() {
     for words in [
         "dim: errors of unbounded predictions become 1.25 to 22 times as large in the lit scenes; light changed by 0.009 % to 10 %: low stimulus.",
         "lit is shown to be better than every other sensor that takes part",
-        "No part in verdicts: dim (low stimulus).",
+        "Excluded from verdicts: dim (low stimulus).",
     ] {
         assert!(page.contains(words), "{words}: {page}");
     }
@@ -128,7 +128,11 @@ fn the_figure_of_light_draws_ratios_of_the_scores_and_nothing_from_samples_alone
     let said = figure.svg();
     let words = "one, scene S2: error 8 times that in unchanged light, light 2.3 times";
     assert!(said.contains(words), "{said}");
-    assert!(figure.caption.contains("not brought back to its bounds"));
+    assert!(
+        figure
+            .caption
+            .contains("not clamped to the bounds of the model")
+    );
     for score in &mut lit.scores {
         score.variants.retain(|variant| variant.name != "scenes");
     }
@@ -237,8 +241,7 @@ fn a_choice_by_values_alone_says_that_no_test_shows_the_difference() {
         choose_results(&studies, &needs)
     };
     let near = of([2.5, 2.4]);
-    let headline =
-        "one first, two second, by values alone: no test shows one to be better than two";
+    let headline = "one first, two second, by values only: no test shows one to be better than two";
     assert_eq!(near.headline(), headline);
     let text = near.table().text();
     assert!(text.contains("2.3 … 2.7"), "{text}");
@@ -272,7 +275,7 @@ fn skill_that_was_shown_on_one_table_of_truth_was_shown_on_the_same_samples() {
             study.made.truth = Some(truth.to_owned());
         }
         let mut notes = compared(&studies).notes.into_iter();
-        notes.find(|note| note.starts_with("skill is shown on different test parts"))
+        notes.find(|note| note.starts_with("skill was measured on different test parts"))
     };
     assert_eq!(note(["sha256:1", "sha256:1"]), None);
     let apart = note(["sha256:1", "sha256:2"]).expect("two truths");

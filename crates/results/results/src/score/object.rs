@@ -375,7 +375,7 @@ impl Keys {
             };
         }
         Err(E::custom(
-            "expected a value, a map, a curve, a matrix or a reason, found none of them",
+            "expected a value, a map, a curve, a matrix or a reason; found no such key",
         ))
     }
 }
@@ -386,7 +386,7 @@ fn fills<T>(grid: &[Vec<T>], x: &[f64], y: &[f64]) -> bool {
 }
 
 fn shape<E: Error>() -> E {
-    E::custom("expected as many values as there are places for them, found another number")
+    E::custom("expected one value for each place, found another number of values")
 }
 
 /// Standing, parsed from its words.

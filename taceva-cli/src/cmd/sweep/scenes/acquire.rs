@@ -20,7 +20,7 @@ use crate::progress;
 /// Interval at which a waiting process checks whether another has finished a scene.
 const LOOK_EVERY: Duration = Duration::from_millis(200);
 /// Message after an interruption.
-const STOPPED: &str = "stopped while a scene was acquired; the same command goes on from here";
+const STOPPED: &str = "stopped while a scene was acquired; the same command continues from here";
 
 /// Resources of an acquisition.
 pub(crate) struct Acquisition<'a> {
@@ -112,7 +112,7 @@ fn claim(path: &Path, context: &Context) -> anyhow::Result<Claim> {
         match &mut watch {
             None => {
                 context.say(format_args!(
-                    "another process acquires the scene: it is waited for"
+                    "another process is acquiring the scene: waiting for it"
                 ));
                 watch = Some(Watch::new(path));
             }

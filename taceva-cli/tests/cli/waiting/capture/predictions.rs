@@ -86,12 +86,12 @@ fn a_model_of_hand_presses_predicts_what_the_transducer_measures_on_a_page_and_b
     running.interrupt();
     let ran = running.ended();
     for words in [
-        "predictions, not measurements, are by ridge sha256:",
+        "predicted, not measured, by ridge sha256:",
         "predictions by ridge sha256:",
         "frames seen",
         "dropped for newer ones",
         "of their stamps",
-        "lay outside what the model has seen",
+        "were outside what the model has seen",
         "more/predictions.csv: predictions by ridge sha256:",
     ] {
         assert!(ran.err.contains(words), "`{words}` in {}", ran.err);
@@ -160,15 +160,11 @@ fn a_model_of_hand_presses_predicts_what_the_transducer_measures_on_a_page_and_b
     let ran = running.ended();
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(
-        ran.err.contains("pictures went to a browser"),
+        ran.err.contains("pictures were sent to a browser"),
         "{}",
         ran.err
     );
-    assert!(
-        ran.err.contains("predictions, not measurements"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.err.contains("predicted, not measured"), "{}", ran.err);
 }
 
 #[test]
@@ -186,7 +182,7 @@ fn every_frame_of_a_simulated_sensor_is_predicted_and_what_is_unlike_the_trainin
     let header = dataset.header();
     assert_eq!(header.predictions.as_ref().expect("some").rows, 12);
     assert!(header.channels.is_empty(), "a prediction is no label");
-    assert!(ran.err.contains("(100.0 %) lay outside"), "{}", ran.err);
+    assert!(ran.err.contains("(100.0 %) were outside"), "{}", ran.err);
     let text = std::fs::read_to_string(bench.path("seen/predictions.csv")).expect("a table");
     assert!(
         text.starts_with("sample,t_s,distance,Px,Fz\nframe-000001,"),
@@ -209,7 +205,7 @@ fn a_model_of_few_samples_says_that_it_does_not_know_what_it_has_seen() {
         "capture seen --sensor {sensor} --frames 3 --model few.taceva"
     ));
     assert_eq!(ran.code, 0, "{}", ran.err);
-    for words in ["does not know what it has seen", "is not known"] {
+    for words in ["has no record of its training pictures", "is unknown"] {
         assert!(ran.err.contains(words), "{}", ran.err);
     }
     let text = std::fs::read_to_string(bench.path("seen/predictions.csv")).expect("a table");
@@ -283,7 +279,7 @@ fn a_camera_that_changes_its_size_or_goes_ends_a_preview_by_name_and_what_was_se
     emulated.without_camera();
     let ran = running.ended();
     assert_eq!(ran.code, 4, "{}", ran.err);
-    for words in ["camera/mjpeg", "predictions by ridge", "went to a browser"] {
+    for words in ["camera/mjpeg", "predictions by ridge", "sent to a browser"] {
         assert!(ran.err.contains(words), "`{words}` in {}", ran.err);
     }
 }

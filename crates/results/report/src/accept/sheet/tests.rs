@@ -149,11 +149,11 @@ fn a_page_says_its_verdict_in_words_and_counts_what_is_broken() {
     let study = study();
     let findings = held(&study, &[KEPT]);
     let page = sheet(&study, &findings).page();
-    assert!(page.contains("<p class=\"pass\">PASS: every limit is kept.</p>"));
+    assert!(page.contains("<p class=\"pass\">PASS: every limit is met.</p>"));
     assert!(!page.contains("FAIL"));
     let findings = held(&study, &[KEPT, BROKEN, MISSING]);
     let page = sheet(&study, &findings).page();
-    assert!(page.contains("<p class=\"fail\">FAIL: 2 of 3 limits are not kept.</p>"));
+    assert!(page.contains("<p class=\"fail\">FAIL: 2 of 3 limits are not met.</p>"));
     assert!(!page.contains("PASS") && page.contains("there is no such score"));
 }
 

@@ -72,14 +72,14 @@ fn skill(studies: &[Study]) -> String {
         .collect();
     let marks: Vec<String> = marks.into_iter().map(explained).collect();
     let marked = match marks.is_empty() {
-        true => "no score here lacks it".to_owned(),
+        true => "No score here is excluded".to_owned(),
         false => format!(
-            "the others keep their values, are marked {} and take part in no comparison",
+            "The others keep their values, are marked {} and are excluded from comparisons",
             listed(&marks)
         ),
     };
     format!(
-        " Scores formed from predictions are compared where the model has skill: the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant) must lie above zero on each channel that a score is formed from, on samples that the model had not seen, and the interval of a share of right answers (sr, and tolerance where the constant is known) above what a constant answer reaches; {marked}."
+        " Scores of predictions are compared only where the model has skill: on samples that the model had not seen, the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant) exceeds zero on each channel of the score. The interval of a share of right answers (sr, and tolerance where the constant is known) must also exceed the share that a constant answer reaches. {marked}."
     )
 }
 
@@ -102,9 +102,9 @@ fn seeds(studies: &[Study]) -> String {
     match all.as_slice() {
         [] => String::new(),
         [seeds] => format!(
-            " Each model was fitted with the seeds {}; scores are those of the first, and the standard deviation over seeds is given apart.",
+            " Each model was fitted with the seeds {}; scores are those of the first, and the standard deviation over seeds is given separately.",
             listed(seeds)
         ),
-        _ => " Models were fitted with several seeds each; scores are those of the first, and the standard deviation over seeds is given apart.".to_owned(),
+        _ => " Models were fitted with several seeds each; scores are those of the first, and the standard deviation over seeds is given separately.".to_owned(),
     }
 }
