@@ -53,7 +53,7 @@ fn header() -> Header {
         )],
         rotations: vec![["Rx", "Ry", "Rz"].map(str::to_owned).to_vec()],
         left_out: LeftOut::default(),
-        warnings: vec!["zone-unstated: `t` says no time zone".to_owned()],
+        warnings: vec!["zone-unstated: `t` states no time zone".to_owned()],
         unmentioned_columns: vec!["quality_flags".to_owned()],
         frames: Some(FramesInfo {
             count: 3,

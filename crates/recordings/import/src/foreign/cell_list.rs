@@ -211,7 +211,7 @@ fn ends(text: &str, is_separator: impl Fn(char) -> bool) -> Result<Vec<(usize, u
             _ => {}
         }
         if depth > DEEPEST {
-            return Err(format!("lists lie more than {DEEPEST} deep"));
+            return Err(format!("lists are nested more than {DEEPEST} deep"));
         }
     }
     match depth {

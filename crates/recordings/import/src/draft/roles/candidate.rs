@@ -56,8 +56,8 @@ impl fmt::Display for Reason {
             Reason::NameWithUnit => "its name and unit",
             Reason::Words => "the words of its name",
             Reason::MoreWords => "some words of its name",
-            Reason::Parent => "the name of what it is part of",
-            Reason::NoAxis => "a guess: a force without an axis is mostly what presses",
+            Reason::Parent => "the name of its parent",
+            Reason::NoAxis => "a guess: a force without an axis is usually the normal force",
             Reason::Position => "a guess: its place among these numbers",
             Reason::Guess => "a guess",
         })
