@@ -18,7 +18,7 @@ pub(crate) fn absence(path: &Path) -> String {
         return "there is nothing of that name".to_owned();
     }
     if path.is_file() {
-        return "it is a file, and a dataset is a folder".to_owned();
+        return "it is a file, expected a folder".to_owned();
     }
     let missing = "it has no `dataset.toml`";
     if is_run(path) {
@@ -113,7 +113,7 @@ mod tests {
         );
         assert_eq!(
             absence(&empty.path().join("a.txt")),
-            "it is a file, and a dataset is a folder"
+            "it is a file, expected a folder"
         );
         assert_eq!(absence(empty.path()), "it has no `dataset.toml`");
     }

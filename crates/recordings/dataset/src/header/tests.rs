@@ -125,9 +125,8 @@ fn an_earlier_format_is_refused_with_the_command_that_makes_the_dataset_anew() {
     let message = Header::parse(Path::new("dataset.toml"), text);
     let message = message.expect_err("earlier").to_string();
     assert!(
-        message.starts_with(
-            "dataset.toml: format 1.10 was written by a TacEva before release 0.2.0; "
-        ) && message.contains("taceva import FOLDER --map MAP.toml --out DATASET"),
+        message.starts_with("dataset.toml: format 1.10 was written by TacEva before 0.2.0; ")
+            && message.contains("taceva import FOLDER --map MAP.toml --out DATASET"),
         "{message}"
     );
 }
