@@ -67,7 +67,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         ));
     }
     if decoder.more_images() {
-        return Err("TIFF with several pictures: write each into a file of its own".to_owned());
+        return Err("TIFF with several pictures: write each into a separate file".to_owned());
     }
     let pixels = match color {
         ColorType::RGBA(8) => without_alpha::<4, 1>(&pixels)?,

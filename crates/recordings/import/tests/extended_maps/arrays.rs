@@ -120,7 +120,7 @@ fn what_is_no_array_of_frames_is_refused_in_words() {
         (
             npy("|u1", "(2, 3, 2, 2)", &[0; 24]),
             in_file,
-            "`layout = \"nchw\"` says so",
+            "write `layout = \"nchw\"`",
         ),
         (
             npy("|u1", "(1, 1, 1)", &[0]),

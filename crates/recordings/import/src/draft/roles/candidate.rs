@@ -68,7 +68,7 @@ impl fmt::Display for UnitSource {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             UnitSource::Name => "unit by its name",
-            UnitSource::File => "unit by what the file says",
+            UnitSource::File => "unit stated by the file",
         })
     }
 }

@@ -59,7 +59,7 @@ fn guessed_unit(numbers: &[f64], greatest: f64) -> (&'static str, Option<&'stati
             Some("whole numbers that are 1 apart: seconds or counts?"),
         ),
         Some(_) => ("s", None),
-        None => ("s", Some("a guess: one time alone does not say its unit")),
+        None => ("s", Some("a guess: a single time does not show its unit")),
     }
 }
 

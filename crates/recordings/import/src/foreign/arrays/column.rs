@@ -83,7 +83,7 @@ impl ArrayRows {
         let is_scalar = info.shape.is_empty() || (info.rows() == 1 && group.rows != 1);
         if !is_scalar && info.rows() != group.rows as u64 {
             return Err(format!(
-                "{} values along its first axis, where the other arrays have {}",
+                "{} values along its first axis, expected {} as in the other arrays",
                 info.rows(),
                 group.rows
             ));

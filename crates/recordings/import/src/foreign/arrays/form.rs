@@ -151,7 +151,7 @@ fn sides(shape: &[u64], layout: Option<ArrayLayout>) -> Result<(u32, u32, u64, b
         }
         (&[_, 1 | 3, _, _], None) => {
             return Err(format!(
-                "{}, which looks like frame, colour, row, column: `layout = \"nchw\"` says so",
+                "{}, which looks like frame, colour, row, column: write `layout = \"nchw\"`",
                 said()
             ));
         }
