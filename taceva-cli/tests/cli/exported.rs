@@ -35,7 +35,7 @@ fn every_form_is_exported_and_imported_again_by_its_own_map() {
         );
     }
     let header = fs::read_to_string(bench.path("csv/map.toml")).expect("a map");
-    assert!(header.starts_with("# The dataset again:"), "{header}");
+    assert!(header.starts_with("# Restores the dataset:"), "{header}");
 }
 
 #[test]

@@ -135,7 +135,7 @@ fn the_same_rows_and_rows_of_something_else_are_refused_and_change_nothing() {
     bench.refused(
         "import first --map map.toml --extend data",
         3,
-        "sample `s00`, new row 0, is row 0 of the dataset already",
+        "sample `s00`, new row 0, is already row 0 of the dataset",
     );
     // The same pictures and labels under other names.
     let labels = fs::read_to_string(bench.path("first/labels.csv")).expect("drawn");
@@ -145,7 +145,7 @@ fn the_same_rows_and_rows_of_something_else_are_refused_and_change_nothing() {
     bench.refused(
         "import first --map map.toml --extend data",
         3,
-        "42 of 42 rows are in it already",
+        "42 of 42 rows are already in it",
     );
     // And under other labels, as a second look at the same recording gives them.
     let relabelled = format!(
@@ -156,7 +156,7 @@ fn the_same_rows_and_rows_of_something_else_are_refused_and_change_nothing() {
     bench.refused(
         "import first --map map.toml --extend data",
         3,
-        "so have 42 different pictures in all: a recording is not added twice",
+        "as do 42 different pictures in all: a recording is not added twice",
     );
     let map = fs::read_to_string(bench.path("map.toml")).expect("a map");
     for (key, from, to) in [

@@ -35,7 +35,7 @@ fn a_draft_is_refused_by_the_line_of_its_first_open_unit_and_imports_once_they_a
     bench.refused(
         "import lab --map draft.toml --out data",
         3,
-        "`?` is the unit that a draft leaves open",
+        "`?` is a unit that a draft leaves open",
     );
     let text = std::fs::read_to_string(bench.path("draft.toml")).expect("written");
     let units = text.lines().map(|line| {

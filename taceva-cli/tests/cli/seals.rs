@@ -81,7 +81,7 @@ fn a_dataset_without_a_seal_or_of_an_earlier_format_is_refused() {
     bench.refused(
         "check data",
         3,
-        "format 1.4 was written by a TacEva before release 0.2.0",
+        "format 1.4 was written by TacEva before 0.2.0",
     );
     bench.write(
         "data/dataset.toml",

@@ -39,7 +39,7 @@ fn a_gripper_is_imported_checked_fitted_and_predicted_by_one_view_or_both() {
     bench.refused(
         &format!("fit gripper {words} --out m.model"),
         2,
-        "the views `left`, `right`, and none was named: `--view left` takes one",
+        "the views `left`, `right`; choose one by `--view left`",
     );
     bench.refused(
         &format!("fit gripper {words} --view up --out m.model"),

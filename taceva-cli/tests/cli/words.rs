@@ -260,7 +260,7 @@ fn a_folder_that_is_no_dataset_is_answered_with_the_line_to_type() {
         3,
         "taceva import old --preset bristol --out DATASET",
     );
-    bench.refused("check nowhere", 3, "there is nothing of that name");
+    bench.refused("check nowhere", 3, "no such file or folder");
     fs::create_dir_all(bench.path("run")).expect("made");
     bench.write("run/plans.json", "{}");
     fs::create_dir_all(bench.path("run/recordings")).expect("made");

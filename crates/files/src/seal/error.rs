@@ -15,7 +15,8 @@ pub enum SealError {
     },
     /// Missing seal in a file whose version requires one.
     #[error(
-        "the seal is gone, which files of this version have; restore it, or accept the file as it is with `taceva reseal FILE --reason …`"
+        "the seal is gone, but files of this version need one; restore it, or accept the file as it is with `taceva reseal FILE \
+         --reason …`"
     )]
     Gone,
     /// Seal without its file.

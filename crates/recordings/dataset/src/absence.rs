@@ -15,10 +15,10 @@ const LISTED: usize = 8;
 /// Describes the content of `path`, which has no header, and names the datasets inside it.
 pub(crate) fn absence(path: &Path) -> String {
     if !path.exists() {
-        return "there is nothing of that name".to_owned();
+        return "no such file or folder".to_owned();
     }
     if path.is_file() {
-        return "it is a file, and a dataset is a folder".to_owned();
+        return "it is a file, expected a folder".to_owned();
     }
     let missing = "it has no `dataset.toml`";
     if is_run(path) {
@@ -107,13 +107,10 @@ mod tests {
     #[test]
     fn an_absent_path_a_file_and_an_empty_folder_are_distinguished() {
         let empty = folder(&["a.txt"]);
-        assert_eq!(
-            absence(&empty.path().join("b")),
-            "there is nothing of that name"
-        );
+        assert_eq!(absence(&empty.path().join("b")), "no such file or folder");
         assert_eq!(
             absence(&empty.path().join("a.txt")),
-            "it is a file, and a dataset is a folder"
+            "it is a file, expected a folder"
         );
         assert_eq!(absence(empty.path()), "it has no `dataset.toml`");
     }

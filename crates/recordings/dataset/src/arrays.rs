@@ -135,7 +135,7 @@ impl Dataset {
         let Some(frames) = &self.header().frames else {
             return Err(DatasetError::Request {
                 path: self.path().to_owned(),
-                problem: "no frames that could be decoded".to_owned(),
+                problem: "the dataset has no frames to decode".to_owned(),
             });
         };
         let mut pixels = Pixels::new(frames.info);

@@ -168,7 +168,7 @@ pub enum DatasetError {
     },
     /// Two recordings that cannot be joined.
     #[error(
-        "{} and {} cannot be taken as one recording: {problem}",
+        "{} and {} cannot be joined into one recording: {problem}",
         shown_path(one),
         shown_path(other)
     )]
@@ -394,7 +394,8 @@ impl fmt::Display for Place {
 /// The reason why a format is not supported, with the remedy.
 fn unreadable(found: Version) -> String {
     match found.is_earlier() {
-        true => "was written by a TacEva before release 0.2.0; make the dataset anew: taceva import FOLDER --map MAP.toml --out DATASET, or record again"
+        true => "was written by TacEva before 0.2.0; create the dataset again: taceva import FOLDER --map MAP.toml --out DATASET, or \
+            record again"
             .to_owned(),
         false => format!(
             "needs a newer TacEva; this one reads up to {}.x",

@@ -139,7 +139,7 @@ impl Journal {
     /// After an error the state of the file is unknown until it is reopened, so every later append fails, too.
     pub(crate) fn append(&mut self, kind: RecordKind, payload: &[u8]) -> Result<u64, DatasetError> {
         if self.has_failed {
-            let earlier = io::Error::other("an earlier write failed; open the recording anew");
+            let earlier = io::Error::other("an earlier write failed; reopen the recording");
             return Err(DatasetError::io("append to", &self.path)(earlier));
         }
         let length = u32::try_from(payload.len())
@@ -208,7 +208,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
         let Some((header, length)) = header_at(bytes, at) else {
             return match has_record_behind(bytes, at + 1) {
                 false => Ok(scanned),
-                true => Err((at, "no header, and records behind it")),
+                true => Err((at, "no header, but records follow")),
             };
         };
         if header[5..13] != sequence.to_le_bytes() {
@@ -218,7 +218,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
             return Err((at, "a record of an unknown kind"));
         };
         if (kind == RecordKind::Start) != (sequence == 0) {
-            return Err((at, "a record of a kind that does not belong here"));
+            return Err((at, "a record of an unexpected kind"));
         }
         let payload_at = at + HEADER;
         let chain_at = payload_at + length;
@@ -232,7 +232,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
             return if end == bytes.len() {
                 Ok(scanned)
             } else {
-                Err((at, "a changed record, and records behind it"))
+                Err((at, "a changed record, but records follow"))
             };
         }
         scanned.records.push(JournalRecord {

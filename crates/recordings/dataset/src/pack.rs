@@ -207,7 +207,7 @@ pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError
             return Err(DatasetError::Damaged {
                 path,
                 problem: format!(
-                    "{} bytes, the journal names {} of them",
+                    "{} bytes, but the journal names {}",
                     found.len(),
                     end.length
                 ),

@@ -216,7 +216,7 @@ impl Recorder {
         {
             return Err(DatasetError::Request {
                 path: path.to_owned(),
-                problem: "the recording that was begun there is of another sensor, clock or set of channels or taxels, or of frames that were reduced otherwise"
+                problem: "the recording that was begun there has another sensor, clock, set of channels or taxels, or reduction of frames"
                     .to_owned(),
             });
         }

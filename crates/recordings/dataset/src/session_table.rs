@@ -75,7 +75,7 @@ impl SessionTable {
                 let rows: Result<Vec<Session>, csv::Error> = table.deserialize().collect();
                 rows.map_err(|error| {
                     refused(format!(
-                        "{error}; expected the table of sessions that `taceva run` wrote: put it back, or begin another recording"
+                        "{error}; expected the table of sessions that `taceva run` wrote: restore it, or begin another recording"
                     ))
                 })?
             }
@@ -148,7 +148,7 @@ fn note(rows: &[Session]) -> Option<String> {
     let sessions = match rows.len() {
         1 => "1 session".to_owned(),
         count => format!(
-            "{count} sessions, between which the gel began within {:.3} mm and pressed within {:.4} N at one depth",
+            "{count} sessions; between them the surface of the gel varied by {:.3} mm and the force at one depth by {:.4} N",
             spread(|row| row.height_mm),
             spread(|row| row.fz_n)
         ),
@@ -163,7 +163,10 @@ fn note(rows: &[Session]) -> Option<String> {
     .collect();
     let unseen = match unseen[..] {
         [] => String::new(),
-        _ => format!("; of {} the gentle touch showed nothing", unseen.join(", ")),
+        _ => format!(
+            "; the gentle touch showed no change of {}",
+            unseen.join(", ")
+        ),
     };
     Some(format!("recorded in {sessions}{unseen}"))
 }
@@ -214,14 +217,13 @@ mod tests {
         let said = note(&recording).expect("one");
         assert_eq!(
             said,
-            "recorded in 1 session; of Fy the gentle touch showed nothing"
+            "recorded in 1 session; the gentle touch showed no change of Fy"
         );
         let mut sessions = SessionTable::of(&recording).expect("one");
         assert_eq!(sessions.rows[0].unit, "a, with \"quotes\"");
         sessions.add(session(0.14, 0.0615)).expect("written");
         let said = note(&recording).expect("two");
-        let expected =
-            "2 sessions, between which the gel began within 0.040 mm and pressed within 0.0015 N";
+        let expected = "2 sessions; between them the surface of the gel varied by 0.040 mm and the force at one depth by 0.0015 N";
         assert!(said.contains(expected), "{said}");
         let text = fs::read_to_string(place(&recording)).expect("there");
         assert!(
@@ -240,7 +242,7 @@ mod tests {
             .expect_err("no table");
         let said = error.to_string();
         assert!(
-            said.contains("1-gel.sessions.csv") && said.contains("put it back"),
+            said.contains("1-gel.sessions.csv") && said.contains("restore it"),
             "{said}"
         );
     }

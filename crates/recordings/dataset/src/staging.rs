@@ -198,7 +198,7 @@ pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
             path: target.to_owned(),
         }),
         (Place::OfDataset, _) if !replacement::is_dataset(target) => {
-            refused("--force replaces datasets only, and this is none".to_owned())
+            refused("--force replaces only datasets, and this is not a dataset".to_owned())
         }
         (Place::OfDataset, Some(stranger)) => refused(format!(
             "holds `{}`, which is no part of a dataset and would be lost; move it before --force",
@@ -213,7 +213,7 @@ fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
     if path.is_symlink() {
         return Err(DatasetError::Request {
             path: path.to_owned(),
-            problem: "in the way, and a link, which is not followed; remove it".to_owned(),
+            problem: "in the way: a link, which is not followed; remove it".to_owned(),
         });
     }
     let is_export = path.join(layout::MARK).is_file();
@@ -221,7 +221,7 @@ fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
         return Err(DatasetError::Request {
             path: path.to_owned(),
             problem: format!(
-                "in the way, and holds `{}`, which no import leaves; move it",
+                "in the way: it holds `{}`, which no import writes; move it",
                 shown(&stranger.to_string_lossy())
             ),
         });

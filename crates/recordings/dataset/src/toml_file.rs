@@ -84,7 +84,7 @@ fn explained(message: &str) -> String {
 fn hint_for(missing: &str) -> &'static str {
     match missing {
         "serial" | "gel" | "clock" | "reference" | "opaque" => {
-            "; write \"unknown\" if nobody wrote it down"
+            "; write \"unknown\" if it was not recorded"
         }
         "unit" => "; every column states its unit, \"1\" if it has none",
         _ => "",

@@ -12,12 +12,12 @@ pub(crate) fn wanted_view(asked: Option<&str>, known: &[String]) -> String {
     let both = known.join(&BESIDE.to_string());
     match (asked, known) {
         (None, _) => format!(
-            "each sample has several pictures, the views {}, and none was named: `--view {}` takes one, `--view {both}` puts them side by side",
+            "each sample has several pictures, the views {}; choose one by `--view {}`, or several side by side by `--view {both}`",
             names.join(", "),
             known.first().map_or("NAME", String::as_str)
         ),
         (Some(asked), []) => format!(
-            "no view `{}`: each sample has one picture, without a name; leave the view out",
+            "no view `{}`: each sample has one picture, without a name; leave out the view",
             shown(asked)
         ),
         (Some(asked), _) => format!(

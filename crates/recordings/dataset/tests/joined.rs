@@ -125,7 +125,7 @@ fn what_differs_is_named_with_both_recordings() {
         .expect_err("other channels")
         .to_string();
     assert!(
-        error.contains("/a and ") && error.contains("/z cannot be taken as one"),
+        error.contains("/a and ") && error.contains("/z cannot be joined into one"),
         "{error}"
     );
     assert!(
@@ -166,7 +166,7 @@ fn recordings_that_share_pictures_under_other_labels_are_two_imports_of_one_and_
         .expect_err("the same pictures")
         .to_string();
     assert!(
-        error.contains("sample `12` of the first is sample `12` of the second, the same picture under other labels"),
+        error.contains("sample `12` of the first is sample `12` of the second, the same picture with other labels"),
         "{error}"
     );
     // A dark picture or two may be the same anywhere.

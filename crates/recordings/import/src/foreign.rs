@@ -353,8 +353,8 @@ impl ForeignTable {
             ForeignTable::Columns(table) => table.pictures(names),
             _ => Err(DatasetError::Table {
                 place: Place::file(self.path()),
-                problem: "there are no pictures in a table of this form: files are named by `column` or `pattern`, an array of another file is \
-                          `array = { file = \"…\" }`"
+                problem: "a table of this form holds no pictures: name picture files by `column` or `pattern`, or an array of another \
+                    file by `array = { file = \"…\" }`"
                     .to_owned(),
             }),
         }
@@ -376,7 +376,7 @@ impl ForeignTable {
             format!(", did you mean `{}`", shown(guess))
         });
         let known = match names.is_empty() {
-            true => "it has none of its own".to_owned(),
+            true => "the table has no columns of its own".to_owned(),
             false => format!("the columns are {}", listed(&names)),
         };
         DatasetError::Table {

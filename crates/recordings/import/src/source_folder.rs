@@ -48,7 +48,8 @@ impl SourceFolder {
         };
         if relative.is_empty() {
             return Err(refused(
-                "empty, expected a path relative to the folder; `frames_named = [\"\"]` under [drop] leaves rows without a picture out",
+                "empty, expected a path relative to the folder; write `frames_named = [\"\"]` under [drop] to leave out rows without a \
+                 picture",
             ));
         }
         check_relative(relative).map_err(refused)?;
@@ -58,7 +59,8 @@ impl SourceFolder {
             .map_err(|error| refused(&format!("no such file: {error}")))?;
         if !canonical.starts_with(&self.canonical) {
             return Err(refused(
-                "leads out of the folder through a link: copy the folder with what its links lead to (`cp -rL`), or start from the folder that holds both",
+                "a link leads out of the folder: copy the folder with the targets of its links (`cp -rL`), or import the folder that \
+                 holds both",
             ));
         }
         Ok(path)

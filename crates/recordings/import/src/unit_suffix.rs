@@ -238,7 +238,7 @@ impl UnitSuffix {
                 own.symbol()
             ),
             (None, true) => format!(
-                "`scale` says how many {} one of them is; `scale = 1` if the name is wrong",
+                "set `scale` to the number of {} in one of them, or to 1 if the name is wrong",
                 unit.symbol()
             ),
         };

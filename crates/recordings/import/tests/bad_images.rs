@@ -165,7 +165,7 @@ fn a_link_out_of_the_folder_is_not_followed_and_one_inside_is() {
     let link = lab.path("source/images/3.png");
     fs::remove_file(&link).expect("removed");
     std::os::unix::fs::symlink(lab.path("secret.png"), &link).expect("linked");
-    lab.is_refused_with(&["line 5, column `file`", "through a link"]);
+    lab.is_refused_with(&["line 5, column `file`", "a link leads out"]);
     fs::remove_file(&link).expect("removed");
     std::os::unix::fs::symlink("2.png", &link).expect("linked");
     lab.import().expect("a link inside");
@@ -187,7 +187,7 @@ fn what_is_no_regular_file_is_refused_without_waiting() {
     lab.is_refused_with(&["line 5, column `file`", "not a regular file"]);
     fs::remove_file(&path).expect("removed");
     std::os::unix::fs::symlink("/dev/zero", &path).expect("linked");
-    lab.is_refused_with(&["line 5, column `file`", "through a link"]);
+    lab.is_refused_with(&["line 5, column `file`", "a link leads out"]);
 }
 
 #[test]

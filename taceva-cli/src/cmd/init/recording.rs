@@ -143,13 +143,16 @@ mod tests {
             unit.as_deref(),
             Some("unit of Fx, such as N, mN, gf, mm or um")
         );
-        let from = question("Fz = { from = \"?\", unit = \"?\" }   # a, b fit alike");
+        let from = question("Fz = { from = \"?\", unit = \"?\" }   # a, b match equally");
         assert_eq!(from.as_deref(), Some("column that holds Fz"));
         assert_eq!(
             question("model = \"?\"").as_deref(),
             Some("name of the sensor")
         );
-        assert_eq!(question("# Every \"?\" is to be filled in"), None);
+        assert_eq!(
+            question("# Replace every \"?\": an import refuses it"),
+            None
+        );
         assert_eq!(question("clock = \"unknown\""), None);
     }
 }

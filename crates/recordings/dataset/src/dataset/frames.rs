@@ -146,7 +146,8 @@ impl Dataset {
         let mut frames = self.table.frames().iter().flatten();
         frames.find(is_first).ok_or_else(|| DatasetError::Damaged {
             path: self.path().join(&entry.path),
-            problem: "no row names its first frame, which others are differences to".to_owned(),
+            problem: "no row names its first frame, from which the differences of others are taken"
+                .to_owned(),
         })
     }
 

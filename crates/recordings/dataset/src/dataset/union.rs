@@ -189,7 +189,7 @@ fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
                 .or_insert((at, row));
             let same = |place: (usize, usize), problem: &str| {
                 let problem = format!(
-                    "sample `{}` of the first is sample `{}` of the second, {problem}: one would be learnt and the other tested",
+                    "sample `{}` of the first is sample `{}` of the second, {problem}: a model could learn one and be tested on the other",
                     shown(&recordings[place.0].table.samples()[place.1]),
                     shown(&table.samples()[row])
                 );
@@ -205,7 +205,7 @@ fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
                 if shared.len() == SAME_PICTURES {
                     return Err(same(
                         place,
-                        "the same picture under other labels, and so are others, as in two imports of one recording",
+                        "the same picture with other labels, as are other samples, as in two imports of one recording",
                     ));
                 }
             }
@@ -224,7 +224,9 @@ fn check_alike(one: &Dataset, other: &Dataset) -> Result<(), DatasetError> {
         }) => Err(unlike(
             one,
             other,
-            format!("`{key}` is {own} in the first and {found} in the second; evaluate them apart"),
+            format!(
+                "`{key}` is {own} in the first and {found} in the second; evaluate them separately"
+            ),
         )),
     }
 }

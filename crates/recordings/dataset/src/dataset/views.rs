@@ -175,7 +175,7 @@ fn info_of(views: &[&ViewInfo]) -> Result<FrameInfo, String> {
         let own = other.frames.info;
         if own.height != info.height || own.format != info.format {
             return Err(format!(
-                "pictures stand side by side if they have one height and one format; `{}` is {}, `{}` is {own}: name one view",
+                "views side by side need one height and one format; `{}` is {}, `{}` is {own}: name one view",
                 first.name, first.frames.info, other.name
             ));
         }

@@ -39,7 +39,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         ColorType::RGBA(16) => (PixelFormat::Rgb16, 4),
         other => {
             return Err(format!(
-                "TIFF with pixels of type {other:?} is not read: expected 8 or 16 bits, gray or RGB; write it anew so, or as PNG"
+                "TIFF with pixels of type {other:?} is not read: expected 8 or 16 bits, gray or RGB; convert it, or write it as PNG"
             ));
         }
     };
@@ -62,12 +62,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     };
     if pixels.len() != length {
         return Err(format!(
-            "TIFF with {} bytes of pixels for {width}×{height}: planes of colours one behind the other are not read",
+            "TIFF with {} bytes of pixels for {width}×{height}: separate planes of colours are not read",
             pixels.len()
         ));
     }
     if decoder.more_images() {
-        return Err("TIFF with several pictures: write each into a file of its own".to_owned());
+        return Err("TIFF with several pictures: write each into a separate file".to_owned());
     }
     let pixels = match color {
         ColorType::RGBA(8) => without_alpha::<4, 1>(&pixels)?,
@@ -81,7 +81,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
 fn text(error: TiffError) -> String {
     match error {
         TiffError::UnsupportedError(what) => format!(
-            "TIFF is not read: {what}; write it anew plain or packed by LZW, Deflate or PackBits, or as PNG"
+            "TIFF is not read: {what}; write it uncompressed, with LZW, Deflate or PackBits, or as PNG"
         ),
         other => other.to_string(),
     }
@@ -101,7 +101,7 @@ fn check_pieces(decoder: &mut Decoder<Cursor<&[u8]>>, length: u64) -> Result<(),
         for (at, bytes) in pieces {
             if at.checked_add(bytes).is_none_or(|end| end > length) {
                 return Err(format!(
-                    "cut short or damaged: {bytes} bytes of the picture lie at byte {at}, the file has {length}"
+                    "cut short or damaged: the picture has {bytes} bytes from byte {at} on, but the file has {length}"
                 ));
             }
         }

@@ -46,7 +46,8 @@ pub struct MappedColumn {
 }
 
 /// Remedy for a column that was recorded otherwise.
-const OTHER_COLUMN: &str = "if the column was recorded otherwise this time, rename it in the table";
+const OTHER_COLUMN: &str =
+    "if the column was recorded differently this time, rename it in the table";
 
 impl MappedColumn {
     /// `label`, read from `from` in `unit`, without conversion.

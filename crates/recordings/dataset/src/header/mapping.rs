@@ -24,12 +24,12 @@ pub struct Mapping {
 
 /// Remedy for a join that was recorded otherwise.
 const OTHER_JOIN: &str =
-    "if that table was recorded otherwise this time, give the join another name in the map";
+    "if that table was recorded differently this time, give the join another name in the map";
 /// Remedy for a longer list of classes.
-const LONGER_LIST: &str = "write the list as it was, with new names at its end";
+const LONGER_LIST: &str = "keep the list as it was, and add new names at its end";
 /// Remedy for an array that was written otherwise.
 const OTHER_ARRAY: &str =
-    "if the pictures were written otherwise this time, give their array another name";
+    "if the pictures were written differently this time, give their array another name";
 
 impl Mapping {
     /// True if no map is known: the dataset was recorded.

@@ -53,7 +53,7 @@ fn header() -> Header {
         )],
         rotations: vec![["Rx", "Ry", "Rz"].map(str::to_owned).to_vec()],
         left_out: LeftOut::default(),
-        warnings: vec!["zone-unstated: `t` says no time zone".to_owned()],
+        warnings: vec!["zone-unstated: `t` states no time zone".to_owned()],
         unmentioned_columns: vec!["quality_flags".to_owned()],
         frames: Some(FramesInfo {
             count: 3,
@@ -125,9 +125,8 @@ fn an_earlier_format_is_refused_with_the_command_that_makes_the_dataset_anew() {
     let message = Header::parse(Path::new("dataset.toml"), text);
     let message = message.expect_err("earlier").to_string();
     assert!(
-        message.starts_with(
-            "dataset.toml: format 1.10 was written by a TacEva before release 0.2.0; "
-        ) && message.contains("taceva import FOLDER --map MAP.toml --out DATASET"),
+        message.starts_with("dataset.toml: format 1.10 was written by TacEva before 0.2.0; ")
+            && message.contains("taceva import FOLDER --map MAP.toml --out DATASET"),
         "{message}"
     );
 }

@@ -69,10 +69,7 @@ impl<'a> Reader<'a> {
                 self.position += fills + 1;
                 Ok(*kind)
             }
-            Some(_) => Err(format!(
-                "no marker at byte {}, where one is due",
-                self.position
-            )),
+            Some(_) => Err(format!("no marker at byte {}, expected one", self.position)),
         }
     }
 

@@ -64,7 +64,7 @@ impl Recorder {
             from_parquet(file, &header.channels, &header.attributes, &[]).map_err(damaged)?;
         if read != self.table {
             return Err(damaged(
-                "it does not read back as it was written".to_owned(),
+                "read back, it differs from what was written".to_owned(),
             ));
         }
         Ok(())

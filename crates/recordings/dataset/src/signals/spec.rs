@@ -101,7 +101,7 @@ impl SignalsSpec {
         match self.rest.iter().find(wrong) {
             None => Ok(()),
             Some([first, last]) => Err(format!(
-                "rows {first} to {last} are said to be without contact, and there are {rows} rows, from 0"
+                "rows {first} to {last} are stated to be without contact, but there are only {rows} rows, from 0"
             )),
         }
     }

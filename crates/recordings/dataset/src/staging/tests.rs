@@ -160,7 +160,7 @@ fn nothing_but_a_dataset_is_replaced() {
     assert!(message.contains("holds `notes.txt`"), "{message}");
     let other = check_place(folder.path(), Place::OfDataset).expect_err("no dataset");
     assert!(
-        other.to_string().contains("replaces datasets only"),
+        other.to_string().contains("replaces only datasets"),
         "{other}"
     );
 }

@@ -101,5 +101,5 @@ fn another_recording_is_not_continued() {
     let mut other = spec();
     other.facts.sensor.serial = "2".into();
     let error = Recorder::open(&path, &other).expect_err("another sensor");
-    assert!(error.to_string().contains("of another sensor"), "{error}");
+    assert!(error.to_string().contains("has another sensor"), "{error}");
 }

@@ -168,13 +168,13 @@ fn number_hint(cell: &str) -> &'static str {
         .all(|byte| byte.is_ascii_digit() || b"+-.,' ".contains(&byte));
     let is_truth = cell.eq_ignore_ascii_case("true") || cell.eq_ignore_ascii_case("false");
     if is_truth {
-        "; true and false are a class, which [classes] of a map reads"
+        "; read true and false as a class, by [classes] of the map"
     } else if cell.matches(':').count() == 2 {
-        "; times as text are read in [time] of a map as ISO 8601 (2024-10-27 02:59:59.5) or as times of day (02:59:59.5)"
+        "; [time] of a map reads times as text: ISO 8601 (2024-10-27 02:59:59.5) or times of day (02:59:59.5)"
     } else if is_numeric && cell.contains([',', '\'', ' ']) {
-        "; write it without thousands separators and with a decimal point, or say `decimal` and `thousands` in the table of a map"
+        "; write it without thousands separators and with a decimal point, or set `decimal` and `thousands` of the table in the map"
     } else if UnitSuffix::of(&format!("cell {cell}")).is_some() {
-        "; `units_row = true` in the table of a map says that the line below the header holds units"
+        "; if the line below the header holds units, set `units_row = true` of the table in the map"
     } else {
         "; leave the cell empty where there is no value"
     }

@@ -84,7 +84,7 @@ fn read_text(path: &Path, text: String, form: &TextForm) -> Result<TableWithUnit
     if at >= text.len() {
         let lines = text.lines().count();
         let problem = format!(
-            "nothing but comments and skipped lines among its {lines}: `skip_lines` and `comment` of the map leave no header"
+            "all {lines} lines are comments or skipped, so no header is left: correct `skip_lines` and `comment` of the map"
         );
         return Err(wrong(1, problem));
     }

@@ -99,7 +99,7 @@ impl TextForm {
                 sign => format!(" and `{sign}` between groups of three digits"),
             };
             return Err(format!(
-                "is no number with `{}` before its fraction{groups}, as the table of the map says",
+                "is no number with the decimal sign `{}`{groups}, which the map states for this table",
                 self.decimal
             ));
         }

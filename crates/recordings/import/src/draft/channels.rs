@@ -95,7 +95,7 @@ pub(super) fn lines(offered: &[Offered<'_>]) -> String {
                 };
                 let _ = writeln!(
                     text,
-                    "{channel} = {{ from = \"?\", unit = {unit:?} }}   # {} fit alike by {}: name the one that was measured",
+                    "{channel} = {{ from = \"?\", unit = {unit:?} }}   # {} match equally by {}: name the measured one",
                     names.join(", "),
                     first.candidate.reason
                 );

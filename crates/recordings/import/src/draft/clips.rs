@@ -69,8 +69,9 @@ fn other_length(clip: &Path, rows: usize) -> Option<String> {
     (frames != rows as u64).then(|| {
         let name = clip.file_name().unwrap_or_default().to_string_lossy();
         format!(
-            "index = \"?\"   # {frames} frames beside {rows} rows: the column with the number of the frame; or, of clocks of their own,\n\
-             # table = {{ file = {name:?}, format = \"clip\", rate = FRAMES_A_SECOND }} above, this table by [[join]] with `time`, and no `index`"
+            "index = \"?\"   # {frames} frames, {rows} rows: name the column with the frame number. If their clocks differ, write\n\
+             # table = {{ file = {name:?}, format = \"clip\", rate = FRAMES_A_SECOND }} above, join this table by [[join]] with `time`, \
+             and omit `index`"
         )
     })
 }

@@ -158,7 +158,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
     let first = column.cells.iter().find(|cell| !cell.is_empty())?;
     let begin: Vec<&str> = first.split('/').take(above).collect();
     let comment = format!(
-        "# A guess: cells of {:?} begin with {:?}, {above} folders above what lies here; their end leads to the pictures.",
+        "# A guess: paths in {:?} begin with {:?}, {above} folders above this one; only their ends name the pictures.",
         column.name,
         begin.join("/")
     );
@@ -175,7 +175,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
             lines: vec![
                 comment,
                 format!(
-                    "column = \"?\"   # {:?}, once the draft is made of the folder in which its paths begin",
+                    "column = \"?\"   # {:?}, if you make the draft of the folder in which its paths begin",
                     column.name
                 ),
             ],
@@ -324,7 +324,7 @@ pub(super) fn are_pairs(tables: &FileGroup, files: &FileGroup) -> bool {
 /// Line for pictures in one file that several tables share. By default each table would begin with the first picture.
 pub(super) fn counted_through(tables: &FileGroup) -> String {
     format!(
-        "index = \"?\"   # {} tables share it: the column that counts through its pictures",
+        "index = \"?\"   # {} tables share it: name the column that numbers its pictures",
         tables.paths.len()
     )
 }
@@ -363,13 +363,13 @@ impl Beside {
             _ if are_pairs(tables, files) => named(&files.parts.of_table(), None),
             (_, 1) if is_counted => {
                 let comment = format!(
-                    "# A guess: the rows count through the pictures of all {count} files, in the order of their names."
+                    "# A guess: rows match the pictures of all {count} files one by one, in the order of the file names."
                 );
                 named(files.pattern(), Some(comment))
             }
             _ => {
                 let comment = format!(
-                    "# Pictures are in {count} files, {}: which of them those of a row are in, their names do not say.",
+                    "# Pictures are in {count} files, {}: their names do not show which file belongs to which row.",
                     files.pattern()
                 );
                 named("?", Some(comment))

@@ -70,7 +70,7 @@ fn beside(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<(String, Vec<St
         let written = format!("{:?}", other.group.parts.of_table());
         (
             written,
-            vec!["on = \"all\"   # its only row, for every row".to_owned()],
+            vec!["on = \"all\"   # its only row belongs to every row".to_owned()],
         )
     })
 }
@@ -144,8 +144,7 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
             "tolerance_ms = {:.3}   # the time between two of its rows",
             spacing_ms.max(0.001)
         ),
-        "lag_ms = 0   # how much later its clock shows the same instant: the files do not say it"
-            .to_owned(),
+        "lag_ms = 0   # how far its clock is ahead: the files do not state it".to_owned(),
         "unmatched = \"drop\"".to_owned(),
     ])
 }

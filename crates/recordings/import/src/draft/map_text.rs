@@ -17,8 +17,8 @@ use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::is_attribute_name;
 
 const HEAD: &str = "\
-# A draft: made from names, headers and the first rows. Every \"?\" is to be filled in; an import refuses it and names its line.
-# Lines with \"a guess\" may be wrong. `taceva import FOLDER --map THIS --explain` says what would be read.
+# A draft from names, headers and the first rows. Replace every \"?\": an import refuses it and names its line.
+# Lines with \"a guess\" may be wrong. Check them with `taceva import FOLDER --map THIS --explain`.
 map_version = 2
 ";
 
@@ -35,8 +35,9 @@ pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
 pub(super) fn bare_clips(clips: &FileGroup) -> String {
     let clip = clips.first();
     format!(
-        "{clip} has frames and nothing here has labels: write a table beside it, such as labels.csv with the columns `frame` (from 0) and `Fz`, and \
-         draft again (`video = {clip:?}`, `index = \"frame\"`); `ffmpeg -i {clip} %06d.png` writes its frames as pictures, which need no table"
+        "{clip} has frames, but no file here has labels: write a table beside it, such as labels.csv with the columns `frame` (from 0) \
+         and `Fz`, and draft again (`video = {clip:?}`, `index = \"frame\"`); or write its frames as pictures, which need no table: \
+         `ffmpeg -i {clip} %06d.png`"
     )
 }
 
@@ -179,7 +180,7 @@ pub(super) fn of_table(
     }
     let mut comments = String::new();
     for (said, names) in [
-        ("Numbers whose names say nothing", numbers),
+        ("Numbers with unknown names", numbers),
         ("No channels", excluded),
     ] {
         if !names.is_empty() {
@@ -272,13 +273,13 @@ fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {
         .find(|column| column.name == "episode_index")
     {
         return format!(
-            "point_id = {:?}   # a guess: rows of an episode belong together, intervals and --split by-point go by it\n",
+            "point_id = {:?}   # a guess: groups the rows of an episode, for intervals and --split by-point\n",
             episode.name
         );
     }
     if let Some(column) = columns.find(several) {
         return format!(
-            "# point_id = {:?}   # what repeats share: intervals and --split by-point go by it\n",
+            "# point_id = {:?}   # groups repeats, for intervals and --split by-point\n",
             column.name
         );
     }
@@ -293,7 +294,7 @@ fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {
     match names.is_empty() {
         true => String::new(),
         false => format!(
-            "# point_id = [{}]   # rows of a file, if they share a contact or a session: intervals and --split by-point go by it\n",
+            "# point_id = [{}]   # groups the rows of a file if they share a contact or a session, for intervals and --split by-point\n",
             names.join(", ")
         ),
     }
@@ -369,7 +370,7 @@ fn signals(taxels: &Taxels, others: &[String]) -> String {
         let reasons: Vec<&str> = reasons.collect();
         let _ = writeln!(
             text,
-            "placeholders = [{}]   # a guess, nothing was measured: {}",
+            "placeholders = [{}]   # a guess: codes of missing readings: {}",
             codes.join(", "),
             reasons.join("; ")
         );
@@ -393,7 +394,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     if group.parts.names.is_empty() {
         line(
             &mut text,
-            "# Nothing varies in their names that could be a label.",
+            "# Their names have no varying part that could be a label.",
         );
     } else {
         add_path(&mut text, &group.parts);
@@ -554,12 +555,13 @@ fn add_frames(text: &mut String, frames: &[FrameLines]) {
 
 fn add_frame(text: &mut String, frame: &FrameLines) {
     let name = frame.view.iter();
-    let name = name.map(|view| format!("name = {view:?}   # a guess: a view of each row; [frame] without a name takes one picture alone\n"));
+    let name = name.map(|view| format!("name = {view:?}   # a guess: each row has this view; for a single picture write [frame] without a \
+        name\n"));
     let lines = frame.lines.iter().map(|line| format!("{line}\n"));
     let mut lines: String = name.chain(lines).collect();
     lines += match (frame.is_gray, frame.order) {
-        (_, Some(ChannelOrder::Bgr)) => "channel_order = \"bgr\"   # the messages say so\n",
-        (_, Some(ChannelOrder::Rgb)) => "channel_order = \"rgb\"   # the messages say so\n",
+        (_, Some(ChannelOrder::Bgr)) => "channel_order = \"bgr\"   # stated by the messages\n",
+        (_, Some(ChannelOrder::Rgb)) => "channel_order = \"rgb\"   # stated by the messages\n",
         (true, _) | (_, Some(ChannelOrder::Gray)) => "channel_order = \"gray\"\n",
         (false, _) => {
             "channel_order = \"rgb\"   # a guess: OpenCV writes arrays as \"bgr\"; pictures without colours are \"gray\"\n"

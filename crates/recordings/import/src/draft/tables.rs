@@ -315,7 +315,7 @@ fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
         let is_place = candidate.channel.starts_with('P');
         if is_zero && !is_place && looked_at >= LEAST_ZEROS {
             candidate.open = Some(format!(
-                "is 0 in all {looked_at} rows that were looked at: name it if 0 was measured"
+                "is 0 in all {looked_at} rows that the draft read: name it if 0 was measured"
             ));
         }
     }
@@ -353,7 +353,7 @@ fn open_invalid(columns: &mut [SeenColumn]) {
         if let Some((name, _)) = said {
             for candidate in candidates {
                 candidate.open = Some(format!(
-                    "is not valid by `{name}` in any row that was looked at: name it if it is"
+                    "is invalid by `{name}` in every row that the draft read: name it if it is valid"
                 ));
             }
         }

@@ -33,19 +33,17 @@ impl Exported<'_> {
         let pictures = table.frames().iter().flatten().count();
         let parts = [
             (!header.settings.is_empty(), "the settings of the camera"),
-            (
-                !header.presses.is_empty(),
-                "how many presses ended in which way",
-            ),
-            (header.stream.is_some(), "what was lost of the stream"),
+            (!header.presses.is_empty(), "counts of presses by outcome"),
+            (header.stream.is_some(), "losses of the stream"),
             (
                 !header.extended.is_empty(),
-                "which rows were added later: its import is another recording, whose parts are drawn anew; a model of this one has seen samples of it, so test none on it",
+                "which rows were added later: an import of this export is another recording with new parts, so do not test a model of \
+                 this dataset on it",
             ),
-            (!header.left_out.is_empty(), "what its own import left out"),
+            (!header.left_out.is_empty(), "omissions of its own import"),
             (
                 !header.unmentioned_columns.is_empty(),
-                "the names of columns that its own import left behind",
+                "the names of columns that its own import did not read",
             ),
             (
                 header
@@ -53,7 +51,7 @@ impl Exported<'_> {
                     .iter()
                     .chain(header.views.iter().map(|view| &view.frames))
                     .any(|frames| frames.codec.is_some()),
-                "how the clips were coded",
+                "the coding of the clips",
             ),
             (
                 pictures == 0 && header.views.is_empty() && header.frames.is_some(),
@@ -61,7 +59,7 @@ impl Exported<'_> {
             ),
             (
                 self.has_blanks(),
-                "blanks around texts, which an import takes off",
+                "blanks around texts, which an import strips",
             ),
             (
                 self.is_partly(),

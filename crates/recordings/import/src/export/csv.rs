@@ -137,7 +137,7 @@ fn write_table(
         return Err(DatasetError::Request {
             path: exported.dataset.path().to_owned(),
             problem: format!(
-                "a channel or an attribute is called `{name}` as a number of a taxel is, and a table has each name once: --format huggingface keeps both"
+                "a channel or attribute has the name `{name}` of a taxel column, and a table needs unique names: use --format huggingface"
             ),
         });
     }

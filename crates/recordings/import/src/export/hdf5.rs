@@ -166,7 +166,7 @@ fn check_text(
 ) -> Result<(), DatasetError> {
     let problem = if text.len() > TEXT_BYTES {
         format!(
-            "`{name}` has {} bytes, at most {TEXT_BYTES} are written, since all texts of an array have the room of the longest",
+            "`{name}` has {} bytes, but at most {TEXT_BYTES} are written: all texts of an array take as many bytes as the longest",
             text.len()
         )
     } else if text.contains('\0') {

@@ -75,7 +75,7 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     let table = exported.dataset.table();
     let has = |name: &str| exported.columns.iter().any(|column| column.name == name);
     let mut text = String::from(
-        "# The dataset again: taceva import FOLDER --map FOLDER/map.toml --out DATASET\n",
+        "# Restores the dataset: taceva import FOLDER --map FOLDER/map.toml --out DATASET\n",
     );
     // Writing to a string never fails.
     let mut line = |words: std::fmt::Arguments<'_>| {

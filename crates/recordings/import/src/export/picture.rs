@@ -117,7 +117,7 @@ impl<'a> Pictures<'a> {
     pub(super) fn none(&self, row: usize) -> DatasetError {
         DatasetError::Sample {
             id: self.dataset.table().samples()[row].clone(),
-            problem: "no picture, and this form wants one of each sample or of none; `--format huggingface` and `csv` keep such samples"
+            problem: "no picture, and this format needs pictures for all samples or none; use `--format huggingface` or `csv`"
                 .to_owned(),
         }
     }

@@ -59,8 +59,7 @@ pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String
         let parts = parts(found)?;
         if parts.contains(&"...") {
             return Err(
-                "`...` stands for values that are not there: the array was cut when it was printed"
-                    .to_owned(),
+                "`...` replaces values: the array was shortened when it was printed".to_owned(),
             );
         }
         found = parts.get(*position).copied().ok_or_else(|| {
@@ -211,7 +210,7 @@ fn ends(text: &str, is_separator: impl Fn(char) -> bool) -> Result<Vec<(usize, u
             _ => {}
         }
         if depth > DEEPEST {
-            return Err(format!("lists lie more than {DEEPEST} deep"));
+            return Err(format!("lists are nested more than {DEEPEST} deep"));
         }
     }
     match depth {
@@ -301,7 +300,7 @@ mod tests {
     fn what_is_not_there_or_not_closed_is_said() {
         for (cell, index, expected) in [
             ("[1, 2]", &[2][..], "no value [2] among the 2"),
-            ("[1. 2. ... 8. 9.]", &[1], "`...` stands for values"),
+            ("[1. 2. ... 8. 9.]", &[1], "`...` replaces values"),
             ("[1, 2, 3]", &[1, 0], "`2` is one value"),
             ("", &[0], "no value [0] among the 0"),
             ("[1, [2, 3]", &[0], "never closed"),

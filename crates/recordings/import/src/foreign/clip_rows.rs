@@ -28,7 +28,7 @@ impl ClipRows {
     pub(super) fn open(path: &Path, rate: Option<f64>, start_s: f64) -> Result<ClipRows, String> {
         let video = Video::open(path, &Decoders::default()).map_err(|error| {
             format!(
-                "{}; frames of such a clip are no table: write a CSV with the columns `index` and `t` and name the clip by `video` of [frame]",
+                "{}; such a clip cannot be a table: write a CSV with the columns `index` and `t`, and name the clip by `video` of [frame]",
                 said(path, &error)
             )
         })?;
@@ -42,7 +42,7 @@ impl ClipRows {
                 let first = times.first().copied().unwrap_or(0.0);
                 if let Some(frame) = times.windows(2).position(|pair| pair[1] <= pair[0]) {
                     return Err(format!(
-                        "frame {} is stated at {} s, not after the frame before it: `rate = FRAMES_A_SECOND` says when frames were taken",
+                        "frame {} is at {} s, no later than the frame before it: state the frame rate by `rate = FRAMES_A_SECOND`",
                         frame + 1,
                         times[frame + 1]
                     ));
@@ -51,7 +51,7 @@ impl ClipRows {
             }
             (None, None) => {
                 return Err(
-                    "it states no times of its frames: `rate = FRAMES_A_SECOND` says when they were taken"
+                    "the clip states no frame times: state the frame rate by `rate = FRAMES_A_SECOND`"
                         .to_owned(),
                 );
             }

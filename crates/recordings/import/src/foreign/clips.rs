@@ -104,7 +104,7 @@ fn of_depth(picture: &taceva_video::Picture, depth: &DepthPixels) -> Result<Pict
     } = picture
     else {
         return Err(format!(
-            "{picture:?} where a depth map has codes of 12 bits (gray12le): the clip was coded anew, or another program wrote it"
+            "{picture:?}, expected codes of 12 bits (gray12le) of a depth map: the clip was re-encoded, or another program wrote it"
         ));
     };
     let pixels = depth.of(samples, *bits)?.into_iter();
@@ -147,9 +147,7 @@ fn kept(picture: taceva_video::Picture, format: PixelFormat) -> Result<Picture, 
             (width, height, PixelFormat::Gray16, bytes.collect())
         }
         other => {
-            return Err(format!(
-                "pictures of a kind that is not known here: {other:?}"
-            ));
+            return Err(format!("unknown kind of picture: {other:?}"));
         }
     };
     framed(

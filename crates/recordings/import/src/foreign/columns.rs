@@ -82,9 +82,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
 
     /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
     fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, String> {
-        Err(format!(
-            "no clips belong to its rows that `{key}` could name"
-        ))
+        Err(format!("`{key}` names no clip: this table has no clips"))
     }
 
     /// Distances of the codes of `key`, if it is a depth map.

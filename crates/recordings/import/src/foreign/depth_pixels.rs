@@ -21,8 +21,8 @@ impl DepthPixels {
             .filter(|range| !codes.is_finer_than_millimetres() && range.pixel(greatest).is_some());
         let range = range.or(whole).ok_or_else(|| {
             format!(
-                "a depth map from {least} mm to {greatest} mm whose codes whole millimetres of 16 bits cannot hold: write \
-                 `range = [{least}, {greatest}]` and `bits = 16` under [frame], the distances of black and of full in mm"
+                "a depth map from {least} mm to {greatest} mm, which whole millimetres of 16 bits cannot represent: write `range = \
+                 [{least}, {greatest}]` and `bits = 16` under [frame], the distances of black and of full in mm"
             )
         })?;
         let pixels = (0..).map_while(|code| codes.millimetres(code));
@@ -42,7 +42,7 @@ impl DepthPixels {
     pub(crate) fn of(&self, codes: &[u16], bits: u32) -> Result<Vec<u16>, String> {
         if bits != 12 {
             return Err(format!(
-                "a depth map of {bits} bits, its codes have 12 (gray12le): the clip was coded anew, or another program wrote it"
+                "a depth map of {bits} bits, expected 12 (gray12le): the clip was re-encoded, or another program wrote it"
             ));
         }
         let pixel = |code: &u16| {

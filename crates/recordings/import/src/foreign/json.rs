@@ -53,7 +53,7 @@ impl JsonRows {
             found = within.collect();
             if found.is_empty() {
                 return Err(wrong(format!(
-                    "there is nothing at `{}`, where the map says that the rows are",
+                    "nothing at `{}`, the path of the rows in the map",
                     shown(&ways[..=depth].join("/*"))
                 )));
             }
@@ -75,7 +75,7 @@ impl JsonRows {
             };
             found = each.ok_or_else(|| {
                 wrong(format!(
-                    "`{}` is no list and no object, so that it has no members",
+                    "`{}` is neither a list nor an object, so it has no members",
                     shown(&ways[..=depth].join("/*"))
                 ))
             })?;
@@ -299,7 +299,7 @@ pub(super) fn json_problem(text: &str, error: &serde_json::Error) -> String {
     let written = text.lines().nth(line.saturating_sub(1)).unwrap_or_default();
     match word_at(written, column) {
         Some(word) => format!(
-            "`{word}` in column {column}: JSON has no such number, write `null` where there is none"
+            "`{word}` in column {column}: JSON has no such number; write `null` for a missing value"
         ),
         None if column == 0 => said.to_owned(),
         None => format!("{said} in column {column}"),

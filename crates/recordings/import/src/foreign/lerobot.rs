@@ -100,10 +100,7 @@ impl ColumnSource for LeRobotRows {
 
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
         let FrameNames::Bytes(feature) = names else {
-            return Err(
-                "frames of LeRobot are a `video` or `bytes`, by the name of their feature"
-                    .to_owned(),
-            );
+            return Err("name the feature of LeRobot frames by `video` or `bytes`".to_owned());
         };
         Ok(Arc::new(EncodedPictures {
             table: Arc::clone(&self.dataset),

@@ -68,7 +68,7 @@ impl MessageRows {
             (None, several) => {
                 let names: Vec<&str> = several.iter().map(|topic| topic.name.as_str()).collect();
                 return Err(format!(
-                    "it holds several topics, of which `rows` names one: {}",
+                    "the file holds several topics; name one by `rows`: {}",
                     names.join(", ")
                 ));
             }
@@ -82,8 +82,8 @@ impl MessageRows {
             .into_iter()
             .map(|field| {
                 format!(
-                    "topic {topic}: `{field}` states the shape of an array, and its numbers were left out when it was written: write it with them \
-                     (tacstack: `write_episode_mcap(…, embed_payloads=True)`)"
+                    "topic {topic}: `{field}` states the shape of an array, but the file was written without its numbers: write it with \
+                     them (tacstack: `write_episode_mcap(…, embed_payloads=True)`)"
                 )
             });
         Ok(MessageRows {
@@ -178,7 +178,7 @@ impl ColumnSource for MessageRows {
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
         let FrameNames::Bytes(field) = names else {
             return Err(
-                "pictures in messages: `bytes` names their field, mostly `data`".to_owned(),
+                "pictures in messages: name their field by `bytes`, usually `data`".to_owned(),
             );
         };
         if !self.has(field) {
@@ -237,9 +237,7 @@ fn kept(picture: taceva_tables::Picture, order: ChannelOrder) -> Result<Picture,
         taceva_tables::Picture::Encoded(bytes) => return Ok(Picture::Encoded(bytes)),
         taceva_tables::Picture::Samples(samples) => samples,
         other => {
-            return Err(format!(
-                "pictures of a kind that is not known here: {other:?}"
-            ));
+            return Err(format!("unknown kind of picture: {other:?}"));
         }
     };
     let (format, stored) = match samples.form {

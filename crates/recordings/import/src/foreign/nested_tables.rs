@@ -122,7 +122,7 @@ impl<T: NestedTable> ColumnSource for NestedRows<T> {
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
         let FrameNames::Bytes(column) = names else {
             return Err(
-                "pictures in a table of this form are encoded: `bytes` names their column"
+                "pictures in a table of this form are encoded: name their column by `bytes`"
                     .to_owned(),
             );
         };

@@ -22,11 +22,11 @@ pub(crate) const EMPTY_MEMBERS: u64 = 20_000;
 pub(crate) enum TarError {
     #[error("{0}")]
     Read(#[from] io::Error),
-    #[error("no tar: the checksum of the header at byte {0} is not what it states")]
+    #[error("not a tar archive: the header at byte {0} has a wrong checksum")]
     Sum(u64),
-    #[error("cut short: it ends at byte {0}, without the two empty blocks of its end")]
+    #[error("cut short: it ends at byte {0}, without the two empty end blocks")]
     Cut(u64),
-    #[error("`{name}` at byte {at} states {size} bytes, more than the archive has behind it")]
+    #[error("`{name}` at byte {at} states {size} bytes, more than the archive has left")]
     Size { name: String, at: u64, size: u64 },
     #[error("the header at byte {0} has no number where one is expected")]
     Number(u64),
@@ -48,7 +48,7 @@ pub(crate) enum TarError {
         "more than the {EMPTY_MEMBERS} empty files and folders that are accepted: leave them out, or unpack the archive and import its folder"
     )]
     EmptyMembers,
-    #[error("`{0}` stands twice in it")]
+    #[error("`{0}` is in it twice")]
     Twice(String),
 }
 

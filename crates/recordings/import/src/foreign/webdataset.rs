@@ -45,7 +45,8 @@ impl Shard {
         let is_packed = path.extension().is_some_and(|ending| ending != "tar");
         if is_packed {
             return Err(
-                "shards are read where they lie, which a compressed one does not allow: `gunzip` it first".to_owned(),
+                "shards are read in place, and this one is compressed: `gunzip` it first"
+                    .to_owned(),
             );
         }
         let samples = samples(path).map_err(|error| error.to_string())?;
@@ -348,7 +349,7 @@ impl ColumnSource for Shard {
 
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
         let FrameNames::Bytes(ending) = names else {
-            return Err("pictures in a shard are encoded: `bytes` says what their names end with, such as \"jpg\"".to_owned());
+            return Err("pictures in a shard are encoded: set `bytes` to the ending of their names, such as \"jpg\"".to_owned());
         };
         let ending = ending.to_ascii_lowercase();
         if let Some(without) = self

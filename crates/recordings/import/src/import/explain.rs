@@ -50,7 +50,7 @@ impl fmt::Display for ImportSummary {
         for (array, count) in &self.absent_chunks {
             writeln!(
                 f,
-                "chunks that were never written: {count} of {}; their numbers are its fill value",
+                "chunks that were never written: {count} of {}; read as the fill value",
                 shown(array)
             )?;
         }
@@ -63,7 +63,7 @@ impl fmt::Display for ImportSummary {
         }
         if self.unnamed_images > 0 || self.has_more_files {
             let more = match self.has_more_files {
-                true => ", and perhaps more: there are more files than are looked at",
+                true => ", and perhaps more: the folder has more files than are searched",
                 false => "",
             };
             writeln!(f, "images that no row names: {}{more}", self.unnamed_images)?;
@@ -120,7 +120,8 @@ impl ImportSummary {
             if names_quality(name) {
                 writeln!(
                     f,
-                    "warning  unmentioned-quality: `{}` may say which rows are bad, and no rule reads it; name it under [drop] or [attributes] of the map",
+                    "warning  unmentioned-quality: `{}` may mark bad rows, but no rule of the map reads it; name it under [drop] or \
+                     [attributes]",
                     shown(name)
                 )?;
             }

@@ -135,7 +135,8 @@ impl ImportPlan {
         };
         if !header.presses.is_empty() || header.stream.is_some() {
             return Err(refused(
-                "recorded by a run or a capture, which alone add to it; import these rows as a dataset of their own, and name both where they are evaluated"
+                "recorded by a run or a capture, and only they can extend it; import these rows as a separate dataset, and name both when \
+                 you evaluate"
                     .to_owned(),
             ));
         }
@@ -198,7 +199,7 @@ impl ImportPlan {
         let known = header.mapping();
         if known.is_empty() && !self.mapping.is_empty() {
             return Err(refused(
-                "recorded and not imported, so no map says how its labels were read; import these rows as a dataset of their own"
+                "recorded, not imported, so it has no map to compare with; import these rows as a separate dataset"
                     .to_owned(),
             ));
         }
@@ -238,7 +239,8 @@ impl ImportPlan {
 
 fn differs(key: &str, own: &str, other: &str) -> String {
     format!(
-        "`{key}` is {own} in the dataset and {other} in the map; rows are added only where both agree; import these as a dataset of their own"
+        "`{key}` is {own} in the dataset and {other} in the map, and rows are added only if both agree; import these rows as a separate \
+         dataset"
     )
 }
 

@@ -51,8 +51,8 @@ pub(super) fn count(
         return Err(DatasetError::Request {
             path: folder.path().join(array),
             problem: format!(
-                "{count} of its chunks were never written, or are lost with a damaged index: `fill = true` below `map_version` takes their elements as the \
-                 fill value, mostly 0; to see which, `h5dump -H -p`, or read the array by h5py"
+                "{count} of its chunks were never written, or are lost with a damaged index: write `fill = true` below `map_version` to \
+                 read their elements as the fill value, usually 0; to find them, run `h5dump -H -p` or read the array by h5py"
             ),
         });
     }

@@ -61,7 +61,7 @@ fn each_once(folder: &SourceFolder, pattern: &str, found: &[PathBuf]) -> Result<
                 place: None,
                 written: pattern.to_owned(),
                 problem: format!(
-                    "leads to one file twice, as {} and through a link as {}: narrow the pattern, or its rows count twice",
+                    "matches one file twice, as {} and through a link as {}: narrow the pattern, or its rows are read twice",
                     shown(&first),
                     shown(&again)
                 ),

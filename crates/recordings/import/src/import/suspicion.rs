@@ -39,7 +39,7 @@ impl fmt::Display for Suspicion {
         };
         write!(
             f,
-            "{}: `{}` is {which} {} {}, which few gels show; are the numbers in {}?",
+            "{}: `{}` is {which} {} {}, unusual for a gel; are the numbers in {}?",
             self.code, self.channel, self.magnitude, self.unit, self.perhaps
         )
     }
@@ -93,7 +93,7 @@ fn plausible(channel: &Channel) -> Option<Plausible> {
 /// let metres = [0.0012, 0.0025, 0.0031];
 /// let suspicion = magnitude_suspicion(&Channel::PZ, metres).expect("no press is 3 µm deep");
 /// assert_eq!(suspicion.code, "magnitude-small");
-/// assert_eq!(suspicion.perhaps, "m and said to be mm, or in mm and said to be um");
+/// assert_eq!(suspicion.perhaps, "m but labelled mm, or in mm but labelled um");
 /// assert_eq!(magnitude_suspicion(&Channel::PZ, [1.2, 2.5, 3.1]), None);
 /// ```
 pub fn magnitude_suspicion(
@@ -105,7 +105,7 @@ pub fn magnitude_suspicion(
     // The unit stated by the map is unknown here.
     let pairs = plausible.written.iter().filter_map(|said| {
         let meant = meant(&plausible, said, found.typical);
-        (!meant.is_empty()).then(|| format!("{} and said to be {said}", meant.join(" or ")))
+        (!meant.is_empty()).then(|| format!("{} but labelled {said}", meant.join(" or ")))
     });
     let perhaps = pairs.collect::<Vec<_>>().join(", or in ");
     Some(found.suspicion(channel, perhaps))

@@ -80,18 +80,20 @@ impl fmt::Display for ImportWarning {
                 cells,
             } => write!(
                 f,
-                "`{}` has three digits behind each point in {cells} cells, as `{example}`, and no whole number above 999: write `thousands = \".\"` in the \
+                "`{}` has three digits after each point in {cells} cells, such as `{example}`, and no whole number above 999: write \
+                 `thousands = \".\"` in the \
                  table of the map if points group digits, `thousands = \"\"` if not",
                 taceva_core::shown(column)
             ),
             ImportWarning::ZoneUnstated { column } => write!(
                 f,
-                "`{}` says no time zone: its times are of the clock that was read; `zone = \"+00:00\"` in [time] states how far that clock is before UTC",
+                "`{}` states no time zone, so its times are not converted to UTC; state the offset of its clock from UTC by `zone = \
+                 \"+00:00\"` in [time]",
                 taceva_core::shown(column)
             ),
             ImportWarning::Midnight { column, days } => write!(
                 f,
-                "`{}` holds times of day that pass midnight {days} times: later rows are taken for those of the next day",
+                "`{}` holds times of day that pass midnight {days} times: later rows are read as times of the next day",
                 taceva_core::shown(column)
             ),
             ImportWarning::ZeroSpread { channel, rule } => write!(

@@ -37,7 +37,7 @@ pub(super) fn text(comments: &str, source: &Path) -> Result<String, DatasetError
         false => Ok(text),
         true => Err(DatasetError::Request {
             path: source.to_owned(),
-            problem: "more than units is open in it: `--draft` writes a map to be filled in"
+            problem: "its draft leaves more open than units: write it by `--draft` and fill it in"
                 .to_owned(),
         }),
     }

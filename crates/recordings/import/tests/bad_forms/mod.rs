@@ -185,7 +185,7 @@ fn a_pattern_that_matches_nothing_or_one_file_twice_is_refused() {
     refused(
         folder.path(),
         &map("*.csv"),
-        &["leads to one file twice", "a.csv", "b.csv"],
+        &["matches one file twice", "a.csv", "b.csv"],
     );
     assert!(imported(folder.path(), &map("a*.csv")).is_ok());
 }
@@ -301,7 +301,7 @@ fn a_join_without_any_match_or_with_several_names_its_row() {
     refused(
         folder.path(),
         &map("twice.csv"),
-        &["run.csv, line 2", "two rows of join `ft` belong to it"],
+        &["run.csv, line 2", "two rows of join `ft` match it"],
     );
 }
 

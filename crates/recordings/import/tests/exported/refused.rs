@@ -148,7 +148,7 @@ fn samples_without_a_picture_are_kept_where_the_form_can_and_named_where_not() {
         );
         let message = refused.expect_err("one is missing").to_string();
         assert!(
-            message.starts_with("sample `without`: no picture, and this form wants one"),
+            message.starts_with("sample `without`: no picture, and this format needs pictures"),
             "{message}"
         );
         assert!(!folder.path().join("out").exists());
@@ -201,7 +201,7 @@ fn texts_that_a_form_cannot_hold_are_named() {
     let (_, report) = exported(&dataset, ExportForm::Csv);
     assert_eq!(
         report.left_out,
-        ["blanks around texts, which an import takes off"]
+        ["blanks around texts, which an import strips"]
     );
 }
 
@@ -224,7 +224,7 @@ fn a_channel_that_is_called_as_a_taxel_has_no_place_in_a_table_and_one_elsewhere
     let target = folder.path().join("out");
     let refused = export(&dataset, (ExportForm::Csv, &target), &SilentProgress);
     let message = refused.expect_err("twice").to_string();
-    assert!(message.contains("is called `taxel_0_1_p`"), "{message}");
+    assert!(message.contains("has the name `taxel_0_1_p`"), "{message}");
     for form in [
         ExportForm::HuggingFace,
         ExportForm::Hdf5,

@@ -92,7 +92,7 @@ fn refused(from: &str, to: &str, [key, own, other]: [&str; 3]) {
     let words = format!("`{key}` is {own} in the dataset and {other} in the map");
     assert!(problem.contains(&words), "{words}: {problem}");
     assert!(
-        problem.contains("import these as a dataset of their own"),
+        problem.contains("import these rows as a separate dataset"),
         "{problem}"
     );
     let after = std::fs::read(target.join("dataset.toml")).expect("a header");
@@ -311,5 +311,5 @@ fn a_dataset_that_does_not_say_how_it_was_read_is_not_extended() {
     let kept = taceva_files::seal::toml_text::seal(&kept).expect("TOML");
     std::fs::write(&header, kept).expect("written");
     let problem = added(second.path(), MAP, &target).expect_err("no map is known");
-    assert!(problem.contains("recorded and not imported"), "{problem}");
+    assert!(problem.contains("recorded, not imported"), "{problem}");
 }

@@ -120,7 +120,7 @@ fn what_is_no_array_of_frames_is_refused_in_words() {
         (
             npy("|u1", "(2, 3, 2, 2)", &[0; 24]),
             in_file,
-            "`layout = \"nchw\"` says so",
+            "write `layout = \"nchw\"`",
         ),
         (
             npy("|u1", "(1, 1, 1)", &[0]),
@@ -147,7 +147,7 @@ fn what_is_no_array_of_frames_is_refused_in_words() {
         (
             npy("|u1", "(2, 1, 1)", &[0; 2]),
             "bytes = \"value\"",
-            "where `bytes` are encoded pictures",
+            "expected encoded pictures",
         ),
     ] {
         let problem = problem(&frames, frame);
@@ -160,27 +160,27 @@ fn keys_of_frames_that_do_not_go_together_name_their_line() {
     for (frame, expected) in [
         (
             "array = { file = \"frames.npy\" }\nrange = [0, 1]",
-            "`bits` 8 or 16",
+            "`bits` is 8 or 16",
         ),
         (
             "array = { file = \"frames.npy\" }\nrange = [1, 1]\nbits = 8",
-            "`bits` 8 or 16",
+            "`bits` is 8 or 16",
         ),
         (
             "array = { file = \"frames.npy\" }\nrange = [0, 1]\nbits = 12",
-            "`bits` 8 or 16",
+            "`bits` is 8 or 16",
         ),
         (
             "column = \"value\"\nlayout = \"nchw\"",
-            "`layout` is for an `array`",
+            "`layout` needs an `array`",
         ),
         (
             "bytes = \"value\"\nrange = [0, 1]\nbits = 8",
-            "for a depth map as `video`",
+            "or a depth map as `video`",
         ),
         (
             "bytes = \"value\"\nindex = \"row\"",
-            "expected one of the five",
+            "expected one key for the frames",
         ),
         (
             "array = { file = \"../frames.npy\" }",
@@ -299,8 +299,8 @@ fn an_array_that_several_tables_share_without_an_index_is_refused_and_not_begun_
             "s1/labels.csv, line 2",
             array,
             "`array`",
-            "s0/labels.csv already",
-            "each of the 3 tables would begin with the first picture again",
+            "s0/labels.csv, and each",
+            "each of the 3 tables would start again at the first picture",
             "`index = \"COLUMN\"`",
             "`{path.NAME}`",
         ] {
@@ -328,8 +328,8 @@ fn pictures_that_are_called_by_the_row_belong_to_one_table_alone() {
     for expected in [
         "s1/labels.csv, line 2",
         "`images/0.png`",
-        "s0/labels.csv already",
-        "`{row}` in `pattern` begins with 0 in each of the 3 tables",
+        "s0/labels.csv: `{row}`",
+        "`{row}` in `pattern` starts at 0 in each of the 3 tables",
     ] {
         assert!(problem.contains(expected), "{expected}: {problem}");
     }

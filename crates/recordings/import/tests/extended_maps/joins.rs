@@ -44,7 +44,7 @@ fn a_joined_table_whose_rows_are_counted_belongs_to_one_table_alone() {
             "on = \"row\"",
             [
                 "each of the 2 files",
-                "their order is no promise",
+                "in no reliable order",
                 "on = { \"path.NAME\" = \"COLUMN\" }",
             ],
         ),

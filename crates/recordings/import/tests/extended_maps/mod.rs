@@ -211,7 +211,7 @@ fn a_matrix_gives_channels_in_the_order_in_which_they_are_written() {
     let (_, found) = imported(&files, &map, &["Fz", "Fx"]);
     assert_eq!(found, [["52.0", ""], ["5.2", ""]]);
     let map = map.replace("\"m.csv\"", "[[1, 2, 3]]");
-    assert!(refused(&files, &map).contains("expected 2 rows of 2 numbers"));
+    assert!(refused(&files, &map).contains("expected 2 rows, one per channel, of 2 numbers"));
 }
 
 #[test]
@@ -250,7 +250,7 @@ fn joins_that_match_twice_or_nothing_and_times_that_go_back_are_refused_with_the
     let timed = "table = \"a.csv\"\n[[join]]\nname = \"b\"\ntable = \"b.csv\"\ntime = { column = \"t\", unit = \"s\" }\ntolerance_ms = 1\nlag_ms = 0\n[columns]\nFz = { from = \"b.f\", unit = \"N\" }\n[time]\nclock = \"unix\"\ncolumn = \"k\"\nunit = \"s\"\n";
     let message = refused(&[main, ("b.csv", "t,f\n2,1\n1,1\n")], timed);
     assert!(
-        message.contains("b.csv, line 3") && message.contains("goes back"),
+        message.contains("b.csv, line 3") && message.contains("decreases"),
         "{message}"
     );
 }
@@ -298,11 +298,11 @@ fn a_map_of_version_1_is_refused_with_what_to_write() {
     for (more, expected) in [
         (
             "table = \"a.csv\"",
-            "line 1: map version 1 is not read any more: write `map_version = 2`",
+            "line 1: map version 1 is no longer read: write `map_version = 2`",
         ),
         (
             "table = \"a.csv\"\n[frame]\narray = \"x.npy\"\nindex = \"n\"\nchannel_order = \"gray\"\nreference = \"unknown\"",
-            "write `map_version = 2`, and in [frame] `array = { file = \"x.npy\" }` for `array = \"x.npy\"`",
+            "write `map_version = 2`, and in [frame] `array = { file = \"x.npy\" }` instead of `array = \"x.npy\"`",
         ),
     ] {
         let text = format!("map_version = 1\n{more}\n{NO_TIME}{FACTS}");

@@ -246,7 +246,7 @@ fn every_key_that_the_table_of_layouts_names_without_a_value_is_one() {
 fn the_whole_map_of_the_page_is_read_once_what_only_a_lab_knows_is_filled_in() {
     let maps = PAGE
         .split("```\n")
-        .filter(|block| block.starts_with("# A draft:"));
+        .filter(|block| block.starts_with("# A draft from"));
     let maps: Vec<&str> = maps.collect();
     assert_eq!(maps.len(), 1, "maps in a fence");
     let open = parsed(maps[0]).expect_err("it is a draft");

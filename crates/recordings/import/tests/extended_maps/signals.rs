@@ -154,7 +154,7 @@ places = [2, 1]
 channels = ["x", "y"]
 order = "place-first""#;
     for (from, to, said) in [
-        ("order = \"place-first\"", "", "says `order`"),
+        ("order = \"place-first\"", "", "needs `order`"),
         ("[2, 1]", "[3, 1]", "4 columns for 3×1 places of 2"),
         ("[2, 1]", "[0, 1]", "at most 16384"),
         (

@@ -124,8 +124,8 @@ fn files_that_are_counted_through_are_refused_where_10_stands_before_2() {
     let problem = planned(folder.path(), &map).expect_err("which order?");
     for word in [
         "`frames_*.npy`",
-        "frames_11.npy stands before frames_2.npy",
-        "as many digits",
+        "frames_11.npy sorts before frames_2.npy",
+        "same count of digits",
     ] {
         assert!(problem.contains(word), "{word}: {problem}");
     }

@@ -198,9 +198,13 @@ fn hostile_archives_are_refused_by_member_and_leave_nothing_behind() {
             file(b"a", 1 << 30, EntryType::GNULongName),
             "a name of 1073741824 bytes",
         ),
-        ("sum", wrong_sum, "checksum of the header at byte 0"),
-        ("binary sum", binary_sum, "checksum of the header at byte 0"),
-        ("twice", twice, "stands twice"),
+        ("sum", wrong_sum, "header at byte 0 has a wrong checksum"),
+        (
+            "binary sum",
+            binary_sum,
+            "header at byte 0 has a wrong checksum",
+        ),
+        ("twice", twice, "is in it twice"),
         (
             "no text",
             file(b"\xff\xfe", 0, regular),

@@ -160,5 +160,5 @@ fn colours_of_a_depth_map_and_a_range_of_ordinary_clips_are_refused() {
         "channel_order = \"gray\"\nrange = [0, 10]\nbits = 8",
     );
     let refused = ends(&folder("lerobot-v3-h264"), &map, None).expect_err("no depth map");
-    assert!(refused.contains("for a depth map of LeRobot"), "{refused}");
+    assert!(refused.contains("or a depth map of LeRobot"), "{refused}");
 }

@@ -161,7 +161,7 @@ fn numbers_without_names_are_no_wrench_and_are_listed() {
         let folder = lab(&[(name, text)]);
         let draft = draft(folder.path());
         assert!(!draft.contains("Fz = "), "{draft}");
-        let listed = line(&draft, "# Numbers whose names say nothing: ");
+        let listed = line(&draft, "# Numbers with unknown names: ");
         assert!(listed.contains("state"), "{draft}");
     }
 }

@@ -121,7 +121,7 @@ fn keys_of_text_are_refused_of_other_tables_and_signs_that_are_none() {
             "`thousands",
         ),
         ("{ file = \"t.csv\", comment = \"\" }", "`comment`"),
-        ("{ file = \"t.csv\", skip_lines = 9 }", "leave no header"),
+        ("{ file = \"t.csv\", skip_lines = 9 }", "no header is left"),
     ] {
         let problem = planned(
             folder.path(),

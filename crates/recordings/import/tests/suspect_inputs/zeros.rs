@@ -77,10 +77,13 @@ fn a_zero_beyond_the_recording_or_without_rows_or_columns_is_refused_with_the_li
     let folder = lab(&[("1.csv", FIRST), ("2.csv", SECOND)]);
     for (zero, words) in [
         ("from = \"first 6\"", "write `from = \"first 5\"` or fewer"),
-        ("from = \"first 3\"\nblock = \"take\"", "block `b` has 2"),
+        (
+            "from = \"first 3\"\nblock = \"take\"",
+            "block `b` keeps only 2",
+        ),
         (
             "from = \"without contact\"",
-            "needs the column that says so",
+            "needs a column that shows contact",
         ),
         (
             "from = \"without contact\"\ncolumn = \"gap\"\nabove = 50",
@@ -88,7 +91,7 @@ fn a_zero_beyond_the_recording_or_without_rows_or_columns_is_refused_with_the_li
         ),
         (
             "from = \"without contact\"\ncolumn = \"gap\"\nabove = 1\nbelow = 3",
-            "needs the column",
+            "needs a column",
         ),
         (
             "from = \"without contact\"\ncolumn = \"gab\"\nbelow = 1",
@@ -183,7 +186,7 @@ fn gravity_without_orientation_or_with_half_of_one_is_refused() {
     let folder = lab(&[("t.csv", TOOL), ("e.csv", "")]);
     let body = "mass = 1\ncentre = [0, 0, 100]\n";
     for (rest, words) in [
-        (body.to_owned(), "[gravity] without `orientation`"),
+        (body.to_owned(), "[gravity] needs `orientation`"),
         (
             format!("{body}orientation = [\"rx\", \"ry\"]\n"),
             "three columns",
@@ -195,7 +198,7 @@ fn gravity_without_orientation_or_with_half_of_one_is_refused() {
         (
             format!("{body}orientation = [\"rx\", \"ry\", \"rz\", \"w\"]\n")
                 .replace("mass = 1", "mass = 0"),
-            "`mass` is in kg",
+            "`mass` must be in kg",
         ),
         (
             format!("{body}orientation = [\"fx\", \"fy\", \"rz\", \"rz\"]\n"),

@@ -90,7 +90,7 @@ fn rows_with_other_views_or_those_that_are_there_are_not_added() {
     let problem = extend(lab.path(), &two(), &path)
         .expect_err("twice")
         .to_string();
-    assert!(problem.contains("not added twice"), "{problem}");
+    assert!(problem.contains("no row is added twice"), "{problem}");
     // The pictures of one finger under other labels.
     let twice = tempfile::tempdir().expect("a folder");
     fill(twice.path(), ROWS, 4);
@@ -104,7 +104,7 @@ fn rows_with_other_views_or_those_that_are_there_are_not_added() {
     let problem = extend(twice.path(), &two(), &path)
         .expect_err("twice")
         .to_string();
-    assert!(problem.contains("under other labels"), "{problem}");
+    assert!(problem.contains("with other labels"), "{problem}");
     assert_eq!(Dataset::open(&path).expect("as it was").table().rows(), 6);
 }
 

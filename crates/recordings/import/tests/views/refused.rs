@@ -13,11 +13,7 @@ fn lists_of_pictures_that_are_none_are_refused_with_their_line() {
             "name = \"left\"",
             "two views are called `left`",
         ),
-        (
-            "name = \"right\"\n",
-            "",
-            "a picture of several has a `name`",
-        ),
+        ("name = \"right\"\n", "", "each [[frame]] needs a `name`"),
         (
             "name = \"right\"",
             "name = \"right+\"",
@@ -33,7 +29,11 @@ fn lists_of_pictures_that_are_none_are_refused_with_their_line() {
             "nam = \"right\"",
             "`nam`: unknown key, did you mean `name`?",
         ),
-        ("column = \"right_path\"\n", "", "expected one of the five"),
+        (
+            "column = \"right_path\"\n",
+            "",
+            "expected one key for the frames",
+        ),
     ] {
         assert!(map.contains(from), "{from}");
         let problem = refusal(lab.path(), &map.replacen(from, to, 1));

@@ -25,7 +25,7 @@ pub(super) fn in_array(
             let [least, greatest] = codes.ends_mm();
             lines.push(format!("video = {name:?}   # a depth map: distances from {least} mm to {greatest} mm, in whole millimetres"));
             if codes.is_finer_than_millimetres() || greatest > 65_535.0 {
-                lines.push(format!("range = [{least}, {greatest}]   # mm: its codes are finer than millimetres, or go further than 16 bits"));
+                lines.push(format!("range = [{least}, {greatest}]   # mm: its codes are finer than 1 mm or exceed 16 bits"));
                 lines.push("bits = 16".to_owned());
             }
         }

@@ -56,8 +56,8 @@ impl fmt::Display for Reason {
             Reason::NameWithUnit => "its name and unit",
             Reason::Words => "the words of its name",
             Reason::MoreWords => "some words of its name",
-            Reason::Parent => "the name of what it is part of",
-            Reason::NoAxis => "a guess: a force without an axis is mostly what presses",
+            Reason::Parent => "the name of its parent",
+            Reason::NoAxis => "a guess: a force without an axis is usually the normal force",
             Reason::Position => "a guess: its place among these numbers",
             Reason::Guess => "a guess",
         })
@@ -68,7 +68,7 @@ impl fmt::Display for UnitSource {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             UnitSource::Name => "unit by its name",
-            UnitSource::File => "unit by what the file says",
+            UnitSource::File => "unit stated by the file",
         })
     }
 }

@@ -18,7 +18,7 @@ impl fmt::Display for Exclusion {
         match self {
             Exclusion::Counting => f.write_str("counts up by one"),
             Exclusion::Word { word, said } => write!(f, "by `{word}` {said}"),
-            Exclusion::Unit(unit) => write!(f, "by `{unit}` another quantity"),
+            Exclusion::Unit(unit) => write!(f, "another quantity by its unit `{unit}`"),
         }
     }
 }

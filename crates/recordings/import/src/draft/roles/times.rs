@@ -51,15 +51,15 @@ fn guessed_unit(numbers: &[f64], greatest: f64) -> (&'static str, Option<&'stati
         Some(step) if step >= 2.0 => (
             "ms",
             Some(
-                "a guess: the times are 2 to 2000 apart, and from one row to the next it is rarely as many seconds",
+                "a guess: the times are 2 to 2000 apart, and rows are rarely that many seconds apart",
             ),
         ),
         Some(_) if are_counts(numbers) => (
             "?",
-            Some("whole numbers that are 1 apart: seconds, or no times but counts?"),
+            Some("whole numbers that are 1 apart: seconds or counts?"),
         ),
         Some(_) => ("s", None),
-        None => ("s", Some("a guess: one time alone does not say its unit")),
+        None => ("s", Some("a guess: a single time does not show its unit")),
     }
 }
 

@@ -23,7 +23,8 @@ impl ArrayRows {
         let elements = elements.unwrap_or(u64::MAX);
         if elements > CELL_VALUES {
             return Err(format!(
-                "{elements} values, more than the {CELL_VALUES} that a cell holds; without `whole = true` each of them along the first axis is a row"
+                "{elements} values, more than the {CELL_VALUES} that a cell holds; without `whole = true` each position along the first \
+                 axis is a row"
             ));
         }
         let read = self.file.read(path, 0..info.rows()).map_err(problem)?;
@@ -82,7 +83,7 @@ impl ArrayRows {
         let is_scalar = info.shape.is_empty() || (info.rows() == 1 && group.rows != 1);
         if !is_scalar && info.rows() != group.rows as u64 {
             return Err(format!(
-                "{} values along its first axis, where the other arrays have {}",
+                "{} values along its first axis, expected {} as in the other arrays",
                 info.rows(),
                 group.rows
             ));

@@ -73,13 +73,13 @@ pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64
             // Fixed-length fields other than text are read as bytes.
             Element::Bytes | Element::Text => Ok((Form::Encoded, READ_BYTES / 16)),
             other => Err(format!(
-                "{other}, where `bytes` are encoded pictures of any length"
+                "{other}, expected encoded pictures of any length for `bytes`"
             )),
         };
     }
     let FrameNames::Array(frames) = names else {
         return Err(
-            "more than one axis, where `bytes` are encoded pictures: `array` reads frames"
+            "more than one axis, expected encoded pictures for `bytes`: read frames by `array`"
                 .to_owned(),
         );
     };
@@ -93,7 +93,7 @@ pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64
         (_, Some(range)) => (range.bits(), Some(range)),
         (other, None) => {
             return Err(format!(
-                "numbers of {other}, which do not state what is black and what is full: write `range = [BLACK, FULL]` and `bits = 8` or 16"
+                "numbers of {other}, whose values of black and full are unknown: write `range = [BLACK, FULL]` and `bits = 8` or 16"
             ));
         }
     };
@@ -151,14 +151,14 @@ fn sides(shape: &[u64], layout: Option<ArrayLayout>) -> Result<(u32, u32, u64, b
         }
         (&[_, 1 | 3, _, _], None) => {
             return Err(format!(
-                "{}, which looks like frame, colour, row, column: `layout = \"nchw\"` says so",
+                "{}, which looks like frame, colour, row, column: write `layout = \"nchw\"`",
                 said()
             ));
         }
         _ => {
             return Err(format!(
-                "{}, expected (n, height, width), (n, height, width, 3), or with `layout = \"nchw\"` (n, 3, height, width); other numbers of colours are no \
-                 picture here",
+                "{}, expected (n, height, width), (n, height, width, 3), or with `layout = \"nchw\"` (n, 3, height, width); a picture has \
+                 1 or 3 colours",
                 said()
             ));
         }

@@ -47,7 +47,7 @@ impl ArrayPictures {
                 (None, [only]) => only.clone(),
                 (None, _) => {
                     return Err(format!(
-                        "it holds several arrays, of which `path` names one: {}",
+                        "the file holds several arrays; name one by `path`: {}",
                         listed(&names_there)
                     ));
                 }

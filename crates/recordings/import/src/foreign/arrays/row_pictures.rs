@@ -16,7 +16,8 @@ impl ArrayRows {
             && !["row", OWN_ROW].contains(&array.index.as_str())
         {
             return Err(format!(
-                "`index = \"{}\"` counts in which of the {} groups? A row of a group has the picture of its own place: leave `index` out",
+                "`index = \"{}\"` does not name one of the {} groups. Leave out `index`: a row of a group has the picture at its own \
+                 position",
                 array.index,
                 self.groups.len()
             ));
@@ -24,7 +25,7 @@ impl ArrayRows {
         let name = match names {
             FrameNames::Array(array) => array.path.as_deref().unwrap_or("value"),
             FrameNames::Bytes(column) => column,
-            _ => return Err("frames of another kind than arrays or bytes".to_owned()),
+            _ => return Err("frames that are neither arrays nor bytes".to_owned()),
         };
         let parts: Result<Vec<String>, String> = self
             .groups

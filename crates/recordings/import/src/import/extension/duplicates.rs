@@ -29,7 +29,8 @@ pub(super) fn refuse_twice(
     for (row, name) in table.samples().iter().enumerate().skip(old) {
         if let Some(own) = known.get(name.as_str()) {
             return Err(refused(format!(
-                "sample `{}`, {}, is row {own} of the dataset already; the same rows are not added twice, and others of the same name need names of their own (`[ids] sample`)",
+                "sample `{}`, {}, is already row {own} of the dataset; leave out rows that were added before, and give other rows new \
+                 names (`[ids] sample`)",
                 shown(name),
                 origin(table, row, old)
             )));
@@ -76,7 +77,7 @@ pub(super) fn refuse_twice(
             all.try_for_each(|frames| refuse_same_pictures(table, frames, old, refused))
         }
         Some((row, before)) => Err(refused(format!(
-            "{} says what row {before} of the dataset says, sample `{}`; {} of {} rows are in it already, and the same rows are not added twice",
+            "{} repeats row {before} of the dataset, sample `{}`; {} of {} rows are already in it, and no row is added twice",
             origin(table, *row, old),
             shown(&table.samples()[*before]),
             twice.len(),
@@ -112,7 +113,8 @@ fn refuse_same_pictures(
         return Ok(());
     }
     Err(refused(format!(
-        "{} has the picture of row {before} of the dataset, sample `{}`, under other labels or another time, and so have {} different pictures in all: a recording is not added twice",
+        "{} has the picture of row {before} of the dataset, sample `{}`, with other labels or another time, as do {} different pictures \
+         in all: a recording is not added twice",
         origin(table, *row, old),
         shown(&table.samples()[*before]),
         again.len()

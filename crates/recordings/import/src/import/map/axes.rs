@@ -34,7 +34,7 @@ impl SignalsMap {
             false => String::new(),
         };
         Err(format!(
-            "a row has the shape {}; places = [{rows}, {columns}] of {channels} number{}{stated} say {}{mend}",
+            "a row has the shape {}; places = [{rows}, {columns}] of {channels} number{}{stated} give {}{mend}",
             said(shape),
             if channels == 1 { "" } else { "s" },
             expected.join(" or ")

@@ -30,7 +30,7 @@ impl Check<'_> {
         if unit.get_ref() == "?" {
             return Err(self.at(
                 unit.span().start,
-                "`?` is the unit that a draft leaves open: write the one that the numbers are in, such as \"N\", \"mN\", \"gf\" or \"mm\"",
+                "`?` is a unit that a draft leaves open: write the unit of the numbers, such as \"N\", \"mN\", \"gf\" or \"mm\"",
             ));
         }
         SourceUnit::parse(unit.get_ref())

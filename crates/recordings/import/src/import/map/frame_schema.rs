@@ -140,7 +140,7 @@ impl Check<'_> {
                 if let Some(name) = &frame.name {
                     return Err(self.at(
                         name.span().start,
-                        "`name` tells several pictures of a row apart: write [[frame]] for each, or leave it out where a row has one",
+                        "`name` is for several pictures of a row: write [[frame]] for each, or remove `name` if a row has one picture",
                     ));
                 }
                 return Ok(vec![self.frame(*frame, start)?]);
@@ -158,9 +158,10 @@ impl Check<'_> {
                     "a list of one picture: write [frame], without a `name`",
                 ));
             }
-            let name = view.name.as_ref().ok_or_else(|| {
-                self.at(start, "a picture of several has a `name`, such as \"left\"")
-            })?;
+            let name = view
+                .name
+                .as_ref()
+                .ok_or_else(|| self.at(start, "each [[frame]] needs a `name`, such as \"left\""))?;
             let text = name.get_ref();
             if !is_attribute_name(text) {
                 return Err(self.at(
@@ -173,7 +174,7 @@ impl Check<'_> {
             if frames.iter().any(|known| known.view.as_ref() == Some(text)) {
                 return Err(self.at(
                     name.span().start,
-                    &format!("two views are called `{text}`: each has a `name` of its own"),
+                    &format!("two views are called `{text}`: give each its own `name`"),
                 ));
             }
             frames.push(self.frame(view, start)?);
@@ -190,7 +191,7 @@ impl Check<'_> {
         if written.array.is_none()
             && (written.layout.is_some() || written.video.is_none() && range.is_some())
         {
-            return Err(self.at(offset, "`layout` is for an `array`, `range` and `bits` for one or for a depth map as `video`"));
+            return Err(self.at(offset, "`layout` needs an `array`; `range` and `bits` need an `array` or a depth map as `video`"));
         }
         let given = (
             written.column,
@@ -232,8 +233,8 @@ impl Check<'_> {
             _ => {
                 return Err(self.at(
                     offset,
-                    "frames are in files named by `column` or `pattern`, in an `array` or a `video` (with the column of the position as `index`), or as \
-                     `bytes` in the table: expected one of the five",
+                    "expected one key for the frames: `column` or `pattern` for files, `array` or `video` (with the column of the \
+                     position as `index`), or `bytes` for a column of the table",
                 ));
             }
         };
@@ -269,7 +270,7 @@ impl Check<'_> {
         range.map(Some).ok_or_else(|| {
             self.at(
                 offset,
-                "`range` is the number of black and that of full, `bits` 8 or 16: such as range = [0, 1] and bits = 8",
+                "`range` needs the values of black and of full, and `bits` is 8 or 16, such as range = [0, 1] and bits = 8",
             )
         })
     }

@@ -39,7 +39,7 @@ impl MatrixMap {
         if rows.len() != height || rows.iter().any(|row| row.len() != width) {
             let found: Vec<String> = rows.iter().map(|row| row.len().to_string()).collect();
             return Some(format!(
-                "expected {height} rows of {width} numbers, one a channel and a column; found {} rows of {} numbers",
+                "expected {height} rows, one per channel, of {width} numbers, one per column; found {} rows of {} numbers",
                 rows.len(),
                 found.join(", ")
             ));

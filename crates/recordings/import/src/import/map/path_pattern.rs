@@ -62,7 +62,7 @@ impl PathPattern {
                 .iter()
                 .any(|piece| matches!(piece, Piece::Named { name: known, .. } if *known == name))
             {
-                return Err(format!("`{name}` stands twice in the pattern"));
+                return Err(format!("`{name}` is in the pattern twice"));
             }
             pieces.push(Piece::Text(before.to_owned()));
             pieces.push(Piece::Named { name, kind });

@@ -37,7 +37,8 @@ impl RotationMap {
     pub(crate) fn no_rotation(cells: &[f64]) -> String {
         let length = cells.iter().map(|cell| cell * cell).sum::<f64>().sqrt();
         format!(
-            "{cells:?} is no quaternion: its norm is {length}, expected 1; if it stands for nothing, leave the row out by [drop.placeholders] or correct the table"
+            "{cells:?} is no quaternion: its norm is {length}, expected 1; if it marks a missing value, leave out the row by \
+             [drop.placeholders], or correct the table"
         )
     }
 
@@ -189,7 +190,7 @@ impl Check<'_> {
             return Err(self.at(
                 offset,
                 &format!(
-                    "the parts of a rotation stand in one table and one unit, outside of [[matrix]]: correct `from` and `unit` of {}",
+                    "the parts of a rotation must be in one table and one unit, outside of [[matrix]]: correct `from` and `unit` of {}",
                     names.join(", ")
                 ),
             ));

@@ -128,7 +128,9 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         {
             return Err(check.at(
                 offset,
-                &format!("`{name}` is taken or no name: a letter, then letters, digits or `_`"),
+                &format!(
+                    "`{name}` is taken or not valid: expected a letter, then letters, digits or `_`"
+                ),
             ));
         }
     }
@@ -141,7 +143,8 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         return Err(toml_error(
             path,
             Some(line),
-            "`\"?\"` is what a draft leaves open, since only the lab knows it: write it, or \"unknown\" where that is accepted",
+            "`\"?\"` is a value that a draft leaves open: write the value, which only your lab knows, or \"unknown\" where that is \
+             accepted",
         ));
     }
     let mut facts = RecordingFacts::new(written.source, written.time.clock, written.sensor);
@@ -193,13 +196,13 @@ impl Check<'_> {
         let array = array.and_then(|frames| frames.get_ref().array_name());
         let problem = match (*written.map_version.get_ref(), array) {
             (2, _) => return Ok(()),
-            (1, None) => "map version 1 is not read any more: write `map_version = 2`".to_owned(),
+            (1, None) => "map version 1 is no longer read: write `map_version = 2`".to_owned(),
             (1, Some(array)) => format!(
-                "map version 1 is not read any more: write `map_version = 2`, and in [frame] `array = {{ file = \"{0}\" }}` for `array = \"{0}\"`, which \
-                 names an array in the table's own file now",
+                "map version 1 is no longer read: write `map_version = 2`, and in [frame] `array = {{ file = \"{0}\" }}` instead of \
+                 `array = \"{0}\"`, which now names an array in the table's own file",
                 shown(array)
             ),
-            (other, _) => format!("map version {other} is not known here, expected 2"),
+            (other, _) => format!("unknown map version {other}, expected 2"),
         };
         Err(self.at(written.map_version.span().start, &problem))
     }
@@ -248,7 +251,7 @@ impl Check<'_> {
             if scale == 0.0 || !is_scorable(scale) || !is_scorable(column.offset.unwrap_or(0.0)) {
                 return Err(self.at(
                     offset,
-                    "`offset` and `scale` are finite numbers, and a scale is not 0",
+                    "`offset` and `scale` must be finite, and `scale` must not be 0",
                 ));
             }
             let map = ColumnMap {
@@ -278,7 +281,7 @@ impl Check<'_> {
             toml_error(
                 self.path,
                 None,
-                "[time] has a `column` and no `unit`, such as \"s\" or \"ns\"",
+                "[time] has a `column` but no `unit`, such as \"s\" or \"ns\"",
             )
         })?;
         self.time_of(column.clone(), unit, written.zone.as_ref())
@@ -295,7 +298,7 @@ impl Check<'_> {
         let zone_s = zone.map(|zone| {
             zone_seconds(zone.get_ref()).ok_or_else(|| {
                 let problem = format!(
-                    "`{}` is no time zone, expected how far the clock is before UTC: \"+02:00\", \"-05:30\", \"Z\"",
+                    "`{}` is no time zone, expected the offset of the clock from UTC: \"+02:00\", \"-05:30\", \"Z\"",
                     shown(zone.get_ref())
                 );
                 self.at(zone.span().start, &problem)

@@ -124,7 +124,7 @@ impl Check<'_> {
                 return Err(self.at(
                     offset,
                     &format!(
-                        "`{}` is taken or no name of a join: letters, digits or `_`",
+                        "`{}` is taken or not valid as a name of a join: expected letters, digits or `_`",
                         join.name
                     ),
                 ));
@@ -140,7 +140,7 @@ impl Check<'_> {
     fn join(&self, written: WrittenJoin, offset: usize) -> Result<JoinMap, DatasetError> {
         let (file, form) = self.table(&written.table)?;
         if form == TableForm::Files {
-            return Err(self.at(offset, "what is joined is a table, no files"));
+            return Err(self.at(offset, "a join needs a table, not `files`"));
         }
         let times = (written.pick, written.tolerance_ms, written.lag_ms);
         let by = match (written.on, written.time, times) {
@@ -148,7 +148,8 @@ impl Check<'_> {
                 JoinBy::Until(written.until.map(ColumnName::into_name).unwrap_or_default())
             }
             _ if written.until.is_some() => {
-                return Err(self.at(offset, "`until` stands alone: the first row whose number there is above that of the row belongs to it"));
+                return Err(self.at(offset, "`until` excludes `on`, `time`, `pick`, `tolerance_ms` and `lag_ms`: it joins the first row \
+                    whose number exceeds the number of the row"));
             }
             (Some(on), None, (None, None, None)) => match on {
                 WrittenOn::Word(word) if word == "row" => JoinBy::Row,
@@ -167,7 +168,7 @@ impl Check<'_> {
                 };
                 let is_finite = numbers.iter().all(|lag| lag.is_finite());
                 if !(tolerance_ms >= 0.0 && tolerance_ms.is_finite() && is_finite) {
-                    return Err(self.at(offset, "`tolerance_ms` is at least 0, and `lag_ms` a finite number"));
+                    return Err(self.at(offset, "`tolerance_ms` must be at least 0, and `lag_ms` must be finite"));
                 }
                 JoinBy::Time(TimeJoin {
                     time: self.time_of(time.column, &time.unit, time.zone.as_ref())?,
@@ -181,7 +182,8 @@ impl Check<'_> {
                 })
             }
             (None, Some(_), _) => {
-                return Err(self.at(offset, "a join by time says `tolerance_ms`, the greatest distance, and `lag_ms`, how much later this table's clock shows the same instant; 0 if both are one clock"));
+                return Err(self.at(offset, "a join by time needs `tolerance_ms`, the greatest time between matched rows, and `lag_ms`, \
+                    how far this table's clock is ahead (0 for one clock)"));
             }
             _ => return Err(self.at(offset, "a join has `on`, or `time` with `pick`, `tolerance_ms` and `lag_ms`, or `until`: expected one of the three")),
         };

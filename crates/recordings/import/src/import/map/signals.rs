@@ -124,8 +124,8 @@ impl Check<'_> {
         if has_order && written.order.is_none() {
             return Err(self.at(
                 offset,
-                "of several numbers at several places [signals] says `order`: \"place-first\" if all numbers of a place stand together, \
-                 \"channel-first\" if those of all places",
+                "[signals] with several numbers at several places needs `order`: \"place-first\" if the numbers of a place are adjacent, \
+                 \"channel-first\" if those of a channel are",
             ));
         }
         let from_at = written.from.span().start;

@@ -121,8 +121,8 @@ pub(crate) fn converter(path: &str) -> Option<String> {
     if let Some((table, _)) = format!("{path}/").split_once(".lance/") {
         let (folder, name) = table.rsplit_once('/').unwrap_or((".", table));
         return Some(format!(
-            "in Python `pyarrow.parquet.write_table(lancedb.connect({folder:?}).open_table({name:?}).to_arrow(), \"{name}.parquet\")` \
-             of the package lancedb writes a table that is"
+            "write a table in Python, with the package lancedb, by \
+             `pyarrow.parquet.write_table(lancedb.connect({folder:?}).open_table({name:?}).to_arrow(), \"{name}.parquet\")`"
         ));
     }
     let (stem, ending) = path.rsplit_once('.')?;
@@ -132,13 +132,14 @@ pub(crate) fn converter(path: &str) -> Option<String> {
     };
     Some(match ending.to_ascii_lowercase().as_str() {
         "xlsx" | "xls" | "ods" => {
-            format!("`libreoffice --headless --convert-to csv {file}` writes a table that is")
+            format!("write a table by `libreoffice --headless --convert-to csv {file}`")
         }
-        "zst" | "zstd" => format!("`zstd -d {file} -o {stem}` writes a file that is"),
+        "zst" | "zstd" => format!("decompress it by `zstd -d {file} -o {stem}`"),
         "rrd" => format!(
-            "in Python `t = pyarrow.Table.from_batches(rerun.server.Server(datasets={{\"d\": [{file:?}]}}).client().get_dataset(name=\"d\")\
-             .reader(index=\"frame\").collect())` of `rerun-sdk[catalog]`, and `pyarrow.parquet.write_table(t, \"{stem}.parquet\")` of its columns \
-             without tensors, write a table that is"
+            "write a table in Python by `t = pyarrow.Table.from_batches(rerun.server.Server(datasets={{\"d\": \
+             [{file:?}]}}).client().get_dataset(name=\"d\")\
+             .reader(index=\"frame\").collect())` of `rerun-sdk[catalog]`, and `pyarrow.parquet.write_table(t, \"{stem}.parquet\")` of \
+             its columns without tensors"
         ),
         _ => return None,
     })
@@ -158,7 +159,7 @@ impl Check<'_> {
         if let Some(remedy) = converter(file) {
             return Err(self.at(
                 offset,
-                &format!("`{file}` is of a form that is not read: {remedy}"),
+                &format!("`{file}` has a format that is not read: {remedy}"),
             ));
         }
         self.relative(file, offset)?;
@@ -174,10 +175,7 @@ impl Check<'_> {
             (Some(file), None) => (file, form_of(file, described.format)),
             (None, Some(files)) => (files, TableForm::Files),
             _ => {
-                return Err(self.at(
-                    offset,
-                    "a table is one `file`, or rows are `files`: expected one of both",
-                ));
+                return Err(self.at(offset, "a table needs either `file` or `files`"));
             }
         };
         let form = match (form, described.whole) {
@@ -192,7 +190,7 @@ impl Check<'_> {
             (_, true) => {
                 return Err(self.at(
                     offset,
-                    "`whole = true` makes one row of a file of arrays, without `rows`",
+                    "`whole = true` makes a file of arrays one row, and excludes `rows`",
                 ));
             }
         };
@@ -258,8 +256,8 @@ impl Check<'_> {
             }
             _ => Err(self.at(
                 offset,
-                "frames of a clip are a table by `format = \"clip\"`, perhaps `rate` (frames a second, above 0; without it the times that the clip states) and \
-                 `start_s` (time of the first frame), and no other key but `file`",
+                "a table of the frames of a clip has `file`, `format = \"clip\"`, optionally `rate` (frames a second, above 0; by default \
+                 the times that the clip states) and `start_s` (time of the first frame), and no other key",
             )),
         }
     }
@@ -296,7 +294,7 @@ impl Check<'_> {
         {
             return Err(self.at(
                 offset,
-                "`comment` is what lines begin with that are no rows, such as \"#\"",
+                "`comment` must be the text that begins a comment line, such as \"#\"",
             ));
         }
         Ok(TextForm {

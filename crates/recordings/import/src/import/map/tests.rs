@@ -45,7 +45,7 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
         (
             "map_version = 2",
             "map_version = 3",
-            "line 1: map version 3",
+            "line 1: unknown map version 3",
         ),
         (
             "\"N\"",
@@ -96,7 +96,7 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
         (
             "column = \"file\"",
             "column = \"file\"\narray = \"x.npy\"",
-            "expected one of the five",
+            "expected one key for the frames",
         ),
         (
             "\"labels.csv\"",
@@ -117,7 +117,7 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
         (
             "map_version = 2",
             "map_version = 1",
-            "line 1: map version 1 is not read any more",
+            "line 1: map version 1 is no longer read",
         ),
     ] {
         let message = message(from, to);

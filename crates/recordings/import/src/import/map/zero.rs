@@ -131,8 +131,8 @@ impl Check<'_> {
             ("without contact", ..) => {
                 return Err(self.at(
                     offset,
-                    "`from = \"without contact\"` needs the column that says so and a limit: `column = \"contact\", below = 0.5`, or `above`; an import does \
-                     not look at pictures",
+                    "`from = \"without contact\"` needs a column that shows contact and a limit: `column = \"contact\", below = 0.5`, or \
+                     `above`; an import does not detect contact in pictures",
                 ));
             }
             _ => {
@@ -165,7 +165,7 @@ impl Check<'_> {
         if found.is_empty() {
             return Err(self.at(
                 offset,
-                "[zero] is taken from forces and torques, and [columns] has none; `channels = [\"NAME\"]` names others",
+                "[zero] applies to forces and torques, and [columns] has none; name other channels by `channels = [\"NAME\"]`",
             ));
         }
         Ok(ZeroMap {
@@ -185,8 +185,9 @@ impl Check<'_> {
         let Some(orientation) = written.orientation else {
             return Err(self.at(
                 offset,
-                "[gravity] without `orientation`: the weight of a tool that turns is known only with how it is turned; write `orientation = [\"rx\", \"ry\", \
-                 \"rz\"]` with `unit`, or four columns of a quaternion x, y, z, w; of a tool that never turns use [zero]",
+                "[gravity] needs `orientation`, which decides how the weight of the tool splits into axes; write `orientation = [\"rx\", \
+                 \"ry\", \
+                 \"rz\"]` with `unit`, or four columns of a quaternion x, y, z, w; for a tool that never turns use [zero]",
             ));
         };
         let columns = orientation.get_ref().iter().cloned();
@@ -199,14 +200,15 @@ impl Check<'_> {
         let Some(unit) = unit else {
             return Err(self.at(
                 orientation.span().start,
-                "`orientation` names three columns of a rotation vector with `unit = \"rad\"` or \"deg\", or four of a quaternion x, y, z, w without a unit",
+                "`orientation` must name three columns of a rotation vector with `unit = \"rad\"` or \"deg\", or four of a quaternion x, \
+                 y, z, w without a unit",
             ));
         };
         let numbers = [&[written.mass][..], &written.centre].concat();
         if written.mass <= 0.0 || numbers.iter().any(|number| !number.is_finite()) {
             return Err(self.at(
                 offset,
-                "`mass` is in kg and above 0, and `centre` three lengths in mm",
+                "`mass` must be in kg and above 0, and `centre` must be three lengths in mm",
             ));
         }
         let names = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
@@ -218,7 +220,7 @@ impl Check<'_> {
         if found.iter().all(Option::is_none) {
             return Err(self.at(
                 offset,
-                "[gravity] is taken from Fx, Fy, Fz, Tx, Ty and Tz, of which [columns] has none",
+                "[gravity] applies to Fx, Fy, Fz, Tx, Ty and Tz, and [columns] has none of them",
             ));
         }
         Ok(GravityMap {

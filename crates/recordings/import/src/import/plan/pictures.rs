@@ -40,15 +40,16 @@ impl Reading<'_> {
             }
         };
         let each = match self.map.form {
-            TableForm::Files => format!("{} files, of which each is a row,", self.count),
+            TableForm::Files => format!("{} files, each of them a row,", self.count),
             _ => format!("{} tables", self.count),
         };
         Err(DatasetError::Path {
             place: None,
             written: file.to_owned(),
             problem: format!(
-                "the pictures of `{key}` belong to the rows of {} already, and each of the {each} would begin with the first picture again: \
-                 `index = \"COLUMN\"` names a column that counts through the pictures of all of them, and `{{path.NAME}}` in `{key}` a file for each",
+                "the pictures of `{key}` already belong to the rows of {}, and each of the {each} would start again at the first picture: \
+                 set `index = \"COLUMN\"` to a column that numbers the pictures of all of them, or put `{{path.NAME}}` in `{key}` to name \
+                 a file for each",
                 shown(&self.folder.inside(first, ""))
             ),
         })
@@ -80,8 +81,8 @@ impl Reading<'_> {
             place: Some(Box::new(Place::file(&self.current))),
             path: pictures.path().to_owned(),
             problem: format!(
-                "{count} pictures for {rows} rows, and no `index` says which of them a row has: name the column that does, or write \
-                 `index = \"row\"` if the first {} belong to each other; the axes may be others, too (`layout`)",
+                "{count} pictures for {rows} rows, and no `index`: name the column with the number of the picture, or write \
+                 `index = \"row\"` if the first {} match in order; the order of the axes may be wrong, too (`layout`)",
                 count.min(rows)
             ),
         });
@@ -105,8 +106,8 @@ impl Reading<'_> {
             Some(first) if *first != self.current => Err(DatasetError::Path {
                 place: None,
                 problem: format!(
-                    "the picture of a row of {} already: `{{row}}` in `pattern` begins with 0 in each of the {} tables; \
-                     a column that counts through the pictures of all of them in its place, or `{{path.NAME}}` before it, tells them apart",
+                    "already the picture of a row of {}: `{{row}}` in `pattern` starts at 0 in each of the {} tables; \
+                     replace it by a column that numbers the pictures of all of them, or put `{{path.NAME}}` before it",
                     shown(&self.folder.inside(first, "")),
                     self.count
                 ),
@@ -136,8 +137,8 @@ impl Reading<'_> {
                 place: None,
                 written: relative.to_owned(),
                 problem: format!(
-                    "counts through these files by their names, in which {} stands before {}: nobody can say which order is meant; give their \
-                     numbers as many digits each, or name a file for each table with `{{path.NAME}}`",
+                    "numbers pictures through these files in the order of their names, and {} sorts before {}: the order is ambiguous; \
+                     give their numbers the same count of digits, or name a file for each table by `{{path.NAME}}`",
                     shown(&self.folder.inside(first, "")),
                     shown(&self.folder.inside(second, ""))
                 ),

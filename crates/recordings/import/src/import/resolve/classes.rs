@@ -46,9 +46,9 @@ impl Sources<'_> {
         Err(DatasetError::Table {
             place: Place::file(self.main.path()).in_column(&class.from),
             problem: format!(
-                "[classes] {key}: `names` has \"{}\", which is also the position of \"{}\", and nothing says whether a cell `{position}` is a name or a \
-                 position. If cells are positions, write the names so that none is one, such as \"class {}\"; if they are names, `[attributes]` keeps \
-                 them as they are, without `names`",
+                "[classes] {key}: `names` has \"{}\", which is also the position of \"{}\", so a cell `{position}` is ambiguous. If cells \
+                 are positions, use names that are no positions, such as \"class {}\"; if cells are names, use `[attributes]`, which \
+                 needs no `names`",
                 shown(name),
                 shown(other),
                 shown(name)

@@ -94,8 +94,8 @@ fn changed(column: &FrameColumn, known: &StatedFrame, found: &StatedFrame) -> Da
     DatasetError::Table {
         place: found.place.clone(),
         problem: format!(
-            "`{}` has 2 frames: `{second}` here{}, `{first}` before ({}). Numbers of two frames are never one channel: \
-             `frame_id = {first:?}` {whose} takes the rows of that frame alone and counts the others",
+            "`{}` has 2 frames: `{second}` here{}, `{first}` before ({}). A channel needs one frame: write `frame_id = {first:?}` {whose} \
+             to read only the rows of that frame and count the others",
             shown(&name),
             at.unwrap_or_default(),
             known.place

@@ -87,7 +87,7 @@ impl<'a> Joined<'a> {
                 return Err(DatasetError::Table {
                     place: sources.main.place(row, ""),
                     problem: format!(
-                        "no row of {} belongs to it (join `{}`); `unmatched = \"drop\"` leaves such rows out and counts them",
+                        "no row of {} matches it (join `{}`); write `unmatched = \"drop\"` to leave out and count such rows",
                         shown(&joined.tables[table].table.path().to_string_lossy()),
                         map.name
                     ),
@@ -305,7 +305,7 @@ impl<'a> Joined<'a> {
                     Some([first, second, ..]) => Err(DatasetError::Table {
                         place: sources.main.place(row, &columns[0].0),
                         problem: format!(
-                            "two rows of join `{}` belong to it: {} and {}",
+                            "two rows of join `{}` match it: {} and {}",
                             self.map.name,
                             candidates.table.place(*first, ""),
                             candidates.table.place(*second, "")

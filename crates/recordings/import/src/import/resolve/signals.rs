@@ -90,13 +90,15 @@ fn nested(cell: &str) -> Result<Vec<u64>, String> {
         if let Some(members) = open.last_mut() {
             *members += u64::from(begins || !is_between && !is_in_number);
         } else if !is_between {
-            return Err("numbers beside the brackets".to_owned());
+            return Err("numbers outside the brackets".to_owned());
         }
         is_in_number = !is_between;
         if begins {
             open.push(0);
         } else if matches!(letter, ']' | ')') {
-            let members = open.pop().ok_or("a bracket that nothing opens")?;
+            let members = open
+                .pop()
+                .ok_or("a closing bracket without an opening one")?;
             if sides.len() <= open.len() {
                 sides.resize(open.len() + 1, None);
             }
@@ -114,7 +116,7 @@ fn nested(cell: &str) -> Result<Vec<u64>, String> {
     let is_whole = open.is_empty();
     sides
         .filter(|_| is_whole)
-        .ok_or_else(|| "a bracket that nothing closes".to_owned())
+        .ok_or_else(|| "an opening bracket without a closing one".to_owned())
 }
 
 /// Numbers in one cell, ignoring its list structure.
@@ -169,8 +171,8 @@ mod tests {
         }
         for (cell, word) in [
             ("[[1, 2], [3]]", "lists of 2 and of 1"),
-            ("[1, 2", "nothing closes"),
-            ("[1] 2", "beside"),
+            ("[1, 2", "without a closing one"),
+            ("[1] 2", "outside"),
         ] {
             assert!(nested(cell).expect_err("refused").contains(word), "{cell}");
         }

@@ -24,7 +24,7 @@ pub(super) fn check(
         stated => Err(DatasetError::Table {
             place: Place::file(table.path()).in_column(name),
             problem: format!(
-                "the file says that these are times, counted in {counted}, and they are read in seconds by that; the map says `unit = \"{stated}\"`: \
+                "the file states that these are times in {counted}, which are converted to seconds; the map says `unit = \"{stated}\"`: \
                  write `unit = \"s\"`"
             ),
         }),
@@ -60,7 +60,7 @@ impl TextTimes {
         };
         if map.unit.symbol() != "s" {
             let problem = format!(
-                "texts of times are read in seconds, and the map says `unit = \"{}\"`: write `unit = \"s\"`",
+                "times as text are converted to seconds, but the map says `unit = \"{}\"`: write `unit = \"s\"`",
                 map.unit.symbol()
             );
             return Err((0, problem));
@@ -81,7 +81,7 @@ impl TextTimes {
             });
             let instant = instant.ok_or_else(|| {
                 let problem = format!(
-                    "`{}` is no time as the rows before have them: all have a date and a time zone, or none has",
+                    "`{}` has another form than the times before it: either all have a date and a time zone, or none has",
                     shown(cell)
                 );
                 (row, problem)

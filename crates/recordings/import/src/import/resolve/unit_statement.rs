@@ -91,20 +91,22 @@ fn problem(stated: &Stated, unit: &SourceUnit, of: Of) -> Option<String> {
     if let Some([factor, added]) = stated.packed {
         let remedy = match of {
             Of::Labels => format!(
-                "write `scale = {factor:?}, offset = {:?}`, or `scale = 1` if they are what they are",
+                "write `scale = {factor:?}, offset = {:?}`, or `scale = 1` if the numbers need no conversion",
                 0.0 - added / factor
             ),
             Of::Others => format!(
-                "write them as numbers × {factor:?} + {added:?} without these attributes, or take the attributes away if they are what they are"
+                "write them as numbers × {factor:?} + {added:?} without these attributes, or remove the attributes if the numbers need no \
+                 conversion"
             ),
         };
         return Some(format!(
-            "the file says that its numbers are packed (`scale_factor` {factor}, `add_offset` {added}), and the map reads them as they lie: {remedy}"
+            "the file says that its numbers are packed (`scale_factor` {factor}, `add_offset` {added}), and the map does not unpack them: \
+             {remedy}"
         ));
     }
     contradicted(stated.unit.as_deref()?, unit).map(|own| {
         let remedy = match of {
-            Of::Labels => ", or write `scale = 1` if it is the attribute",
+            Of::Labels => ", or write `scale = 1` if the attribute is wrong",
             Of::Others => "",
         };
         format!(

@@ -45,7 +45,7 @@ impl MappedView {
                     (Some(codes), range) => DepthPixels::new(codes, range).map(Some),
                     (None, None) => Ok(None),
                     (None, Some(_)) => Err(format!(
-                        "`range` and `bits` are for an `array`, and for a depth map of LeRobot, which `{}` is not",
+                        "`range` and `bits` need an `array` or a depth map of LeRobot, and `{}` is neither",
                         shown(&video.file)
                     )),
                 };

@@ -124,12 +124,12 @@ impl MappedTable<'_> {
         match &map.rows {
             ZeroRows::First(wanted) if count < *wanted => {
                 return Err(refused(format!(
-                    "[zero] takes the mean of the first {wanted} rows, and {whose} has {count} that are kept: write `from = \"first {count}\"` or fewer"
+                    "[zero] averages the first {wanted} rows, but {whose} keeps only {count}: write `from = \"first {count}\"` or fewer"
                 )));
             }
             ZeroRows::Beside { column, limit, .. } if count == 0 => {
                 return Err(refused(format!(
-                    "[zero] takes the mean of the {}, and {whose} has none: correct the limit {limit} of `{}`, or write `from = \"first 10\"`",
+                    "[zero] averages the {}, but {whose} has none: correct the limit {limit} of `{}`, or write `from = \"first 10\"`",
                     map.rule().trim_start_matches("mean of the "),
                     shown(column)
                 )));
@@ -147,7 +147,7 @@ impl MappedTable<'_> {
             let at_zero: Vec<f64> = pairs.filter_map(|(_, labels)| labels[*position]).collect();
             if at_zero.is_empty() {
                 return Err(refused(format!(
-                    "`{channel}` has no value in the rows of {whose} that [zero] takes the mean of: leave it out by `channels` of [zero]"
+                    "`{channel}` has no value in the rows of {whose} that [zero] averages: leave it out by `channels` of [zero]"
                 )));
             }
             #[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]

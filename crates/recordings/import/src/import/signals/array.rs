@@ -36,7 +36,7 @@ impl ArraySignals {
         let wrong = |problem| wrong(path, problem);
         let format = ArrayFormat::of(path).ok_or_else(|| {
             wrong(
-                "no file of arrays by its name: .npy, .npz, .h5, .hdf5, .zarr, .mat or .pkl"
+                "not a file of arrays by its name: expected .npy, .npz, .h5, .hdf5, .zarr, .mat or .pkl"
                     .to_owned(),
             )
         })?;
@@ -49,7 +49,7 @@ impl ArraySignals {
             (None, _) => {
                 let some: Vec<&str> = names.iter().take(16).map(String::as_str).collect();
                 return Err(wrong(format!(
-                    "{} arrays ({}): `from = {{ file = …, path = … }}` says which",
+                    "{} arrays ({}): name one by `from = {{ file = …, path = … }}`",
                     names.len(),
                     taceva_dataset::internal::shown(&some.join(", "))
                 )));
@@ -194,7 +194,7 @@ impl ArraySignals {
         let numbers = read.values.to_f64();
         numbers.ok_or_else(|| {
             wrong(format!(
-                "`{}` holds no numbers, or some that 64 bits of floating point cannot say",
+                "`{}` holds no numbers, or some that 64 bits of floating point cannot represent",
                 taceva_dataset::internal::shown(&self.name)
             ))
         })

@@ -101,7 +101,7 @@ impl Candidates {
                     let end = end.ok_or_else(|| DatasetError::Table {
                         place: table.place(*row, column),
                         problem: format!(
-                            "`{}`: expected a whole number that is not below the one before it, where join `{}` counts through",
+                            "`{}`: expected a whole number no smaller than the one before it, as join `{}` counts through",
                             shown(&cell),
                             map.name
                         ),
@@ -151,7 +151,8 @@ impl Candidates {
                     return Err(DatasetError::Table {
                         place: table.place(*row, &join.time.column),
                         problem: format!(
-                            "the time of join `{}` goes back here, so that it is no time to join by: cut the table where its clock was set",
+                            "the time of join `{}` decreases here, so rows cannot be matched by it: split the table where its clock was \
+                             set",
                             map.name
                         ),
                     });

@@ -119,7 +119,7 @@ impl Gap<'_> {
                     problem: format!(
                         "{after} follows {before}, more than half a turn of `{channel}`, and `pick = \"linear\"` would invent angles between: write \
                          `rotation = [\"Rx\", \"Ry\", \"Rz\"]` above the first [section] of the map if it is a part of a rotation vector, \
-                         `period = 360` in `{channel} = {{ … }}` if it is one angle that begins again, or `pick = \"nearest\"` in the join"
+                         `period = 360` in `{channel} = {{ … }}` if it is one angle that wraps around, or `pick = \"nearest\"` in the join"
                     ),
                 });
             }
@@ -174,7 +174,8 @@ impl Gap<'_> {
             return Err(DatasetError::Table {
                 place: self.table.place(self.rows[1], &columns[0]),
                 problem: format!(
-                    "this rotation is {apart:.1} degrees from the one before, so that two ways lead from one to the other: write `pick = \"nearest\"` in the join"
+                    "this rotation is {apart:.1} degrees from the one before, so its interpolation is ambiguous: write `pick = \
+                     \"nearest\"` in the join"
                 ),
             });
         }

@@ -62,9 +62,7 @@ impl JoinMatches {
         };
         let (each, remedy) = match are_files {
             true => (
-                format!(
-                    "{tables} files, of which each is a table of one row, and their order is no promise"
-                ),
+                format!("{tables} files with one row each, in no reliable order"),
                 "join by a number in the name, `on = { \"path.NAME\" = \"COLUMN\" }` with a part of [path] and a column of that table",
             ),
             false => (
