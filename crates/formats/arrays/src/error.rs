@@ -69,7 +69,7 @@ pub enum Problem {
     TooLarge {
         /// The thing that is too large, with its unit.
         what: String,
-        /// Its size.
+        /// Size in that unit.
         size: u64,
         /// The limit.
         limit: u64,

@@ -19,7 +19,7 @@ pub(super) static CHECK: Check = Check {
 const LEAST: u64 = 5;
 /// At least one in this many samples has it.
 const SHARE: u64 = 100;
-/// It occurs more than this many times as often as the next value.
+/// Least ratio of its frequency to that of the next value.
 const TIMES: u64 = 3;
 /// Maximum taxels named in a message; the rest are counted.
 const NAMED: usize = 5;

@@ -58,7 +58,7 @@ impl JoinedRecording {
         &self.name
     }
 
-    /// Its rows in the joined table, from 0.
+    /// Rows of the recording in the joined table, from 0.
     pub fn rows(&self) -> Range<usize> {
         self.rows.clone()
     }

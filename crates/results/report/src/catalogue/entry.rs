@@ -34,7 +34,7 @@ pub struct Sensor {
     pub intrinsic: Option<Intrinsic>,
     /// Limits.
     pub limits: Option<Limits>,
-    /// Its outer dimensions.
+    /// Outer dimensions.
     pub size: Option<Size>,
     /// Prices that were seen.
     #[serde(default, rename = "price")]
