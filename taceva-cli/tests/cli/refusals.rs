@@ -143,12 +143,12 @@ fn tables_of_different_length_or_ids_are_refused() {
     bench.refused(
         "score --truth truth.csv --pred twice.csv",
         3,
-        "twice.csv: id `a` comes twice",
+        "twice.csv: id `a` occurs twice",
     );
     bench.refused(
         "score --truth twice.csv --pred truth.csv",
         3,
-        "twice.csv: id `a` comes twice",
+        "twice.csv: id `a` occurs twice",
     );
     bench.write("more.csv", "id,Fz\na,1\nb,2\nc,3\n");
     bench.refused(
@@ -166,7 +166,7 @@ fn tables_of_different_channels_are_refused() {
     bench.refused(
         "score --truth truth.csv --pred pred.csv",
         3,
-        "no column `Fx`, which truth.csv has",
+        "no column `Fx`, although truth.csv has it",
     );
     bench.refused("score --truth pred.csv --pred truth.csv", 3, "Fx");
     bench.write("none.csv", "id,point_id\n1,1\n");

@@ -50,7 +50,7 @@ fn a_table_that_changes_between_submission_and_execution_fails_its_tasks_and_say
     assert_eq!(ran.code, 1, "{}", ran.err);
     assert!(
         ran.err
-            .contains("another table than when the sweep was planned"),
+            .contains("the table has changed since the sweep was planned"),
         "{}",
         ran.err
     );

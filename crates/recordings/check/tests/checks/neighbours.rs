@@ -37,7 +37,7 @@ fn neighbours_in_time_on_both_sides_of_a_division_leak() {
     let report = labelled(pressed).check("random");
     let found = of(&report, "TAC007");
     assert!(
-        matches!(&found[..], [(Severity::Warning, said)] if said.contains("a neighbour that was learnt from")),
+        matches!(&found[..], [(Severity::Warning, said)] if said.contains("a neighbour in the training part")),
         "{found:?}"
     );
 }
