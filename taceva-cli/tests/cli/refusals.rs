@@ -38,7 +38,7 @@ fn arguments_that_cannot_be_meant_are_usage_errors() {
             "evaluate data --model ridge --channels Fq",
             "the dataset has Px, Fz",
         ),
-        ("check data --only TAC999", "no such check"),
+        ("check data --only TAC999", "unknown check `TAC999`"),
         (
             "score --truth map.toml --pred map.toml --units Fz",
             "expected NAME=UNIT",
@@ -137,7 +137,7 @@ fn tables_of_different_length_or_ids_are_refused() {
     bench.refused(
         "score --truth truth.csv --pred other.csv",
         3,
-        "other.csv: no row with id `b`, which truth.csv has",
+        "other.csv: no row with id `b`, although truth.csv has one",
     );
     bench.write("twice.csv", "id,Fz\na,1\na,2\n");
     bench.refused(
