@@ -83,17 +83,17 @@ impl SpacingClassifier {
     pub(crate) const fn note(&self) -> &'static str {
         match self {
             SpacingClassifier::Spectrum => {
-                "sr: spacings are predicted from the radial spectrum of each picture minus the mean picture, by linear discriminants, \
-                 separately for lines and dots, fitted on the other two thirds of the presses of every board; each answer is the spacing \
+                "sr: spacings are predicted from the radial spectrum of each picture minus the mean picture, by linear discriminants; \
+                 lines and dots are fitted separately, on the other two thirds of the presses of every board; each answer is the spacing \
                  of one of these boards"
             }
             SpacingClassifier::Model(_) => {
                 "sr: spacings are predicted from the radial spectrum of each picture minus the mean picture, by multinomial logistic \
-                 regression of linfa, separately for lines and dots, fitted on the other two thirds of the presses of every board; each \
+                 regression of linfa; lines and dots are fitted separately, on the other two thirds of the presses of every board; each \
                  answer is the spacing of one of these boards"
             }
             SpacingClassifier::Network(_) => {
-                "sr: spacings are predicted by a convolutional network, separately for lines and dots, fitted on the other two thirds of \
+                "sr: spacings are predicted by a convolutional network; lines and dots are fitted separately, on the other two thirds of \
                  the presses of every board; each answer is the spacing of one of these boards"
             }
         }
