@@ -59,7 +59,7 @@ def test_a_model_of_scikit_learn_is_fitted_on_the_training_part_and_scored_on_th
     assert provenance["model"]["settings"]["alpha"] == "1.0"
     assert provenance["model"]["fitted_on"] == drawn.digest
     assert provenance["samples"]["test"] == len(rows.test)
-    assert any("fitted here on the training part alone" in note for note in result.notes)
+    assert any("fitted here on the training part only" in note for note in result.notes)
 
 
 def test_the_mean_has_no_skill_and_is_in_no_verdict(drawn: taceva.Dataset) -> None:
@@ -87,10 +87,10 @@ def test_a_callable_is_taken_as_it_is_and_nobody_knows_what_it_has_learnt(drawn:
     assert result["mae", "Fz"].value == 0.0
     assert result["mae", "Fz"].n == len(drawn)
     assert result.to_dict()["provenance"]["model"]["fitted_on"] == "unknown"
-    assert any("is not known" in note for note in result.notes)
+    assert any("training data are unknown" in note for note in result.notes)
     of_test = taceva.evaluate(drawn, perfect, split=SPLIT, batch=1000)
     assert of_test["mae", "Fz"].n == len(drawn.split(SPLIT).test)
-    assert any("caller's word" in note for note in of_test.notes)
+    assert any("the caller states" in note for note in of_test.notes)
 
 
 @pytest.mark.parametrize(

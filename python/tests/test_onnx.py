@@ -61,7 +61,7 @@ def test_a_file_of_any_order_and_batch_is_scored_as_the_function_that_it_holds(d
     assert said["origin"] == "given"
     assert said["settings"]["digest"].startswith("sha256:")
     assert said["settings"]["runtime"].startswith("onnxruntime")
-    assert any("is not known" in note for note in result.notes)
+    assert any("training data are unknown" in note for note in result.notes)
 
 
 def test_whole_numbers_get_pixels_as_they_are(drawn: taceva.Dataset, tmp_path: Path) -> None:

@@ -125,7 +125,7 @@ fn states_of_before_and_after_share_rows_and_are_not_joined() {
     bench.ok("evaluate data --with m.model --state-out before.state -q");
     bench.ok("import second --map map.toml --extend data -q");
     bench.ok("evaluate data --with m.model --state-out after.state -q");
-    bench.refused("merge before.state after.state", 3, "were taken already");
+    bench.refused("merge before.state after.state", 3, "are already in");
 }
 
 #[test]

@@ -104,7 +104,7 @@ fn features_are_made_once_for_every_model_and_found_by_what_they_are_made_of() {
         fs::write(&path, bytes).expect("altered");
     }
     let ran = bench.run("evaluate data --metrics mae --model knn --split by-point --format json");
-    assert!(ran.err.contains("made anew"), "{}", ran.err);
+    assert!(ran.err.contains("made again"), "{}", ran.err);
     let found: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
     assert_eq!(found, bare);
 }
@@ -171,7 +171,7 @@ fn a_size_is_not_chosen_on_a_handful_of_samples() {
     let ran = ran.expect("the program starts");
     assert_eq!(ran.status.code(), Some(2));
     let error = String::from_utf8(ran.stderr).expect("UTF-8");
-    let expected = "18 training samples, at least 30 are needed to choose features by `auto`";
+    let expected = "18 training samples: `auto` needs at least 30 to choose features";
     assert!(error.contains(expected), "{error}");
 }
 

@@ -77,7 +77,7 @@ fn shares_of_gratings_decoded_frames_and_the_unit_come_again_from_the_files_of_a
     assert_eq!(report["subject"]["serial"], "0");
     let notes = report["provenance"]["notes"].to_string();
     for words in [
-        "every score is of unit 0, but inter_sensor of units 0, 1",
+        "every score is for unit 0, except inter_sensor for units 0, 1",
         "detection limit: not verified",
     ] {
         assert!(notes.contains(words), "{notes}");

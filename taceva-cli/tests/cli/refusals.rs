@@ -38,7 +38,7 @@ fn arguments_that_cannot_be_meant_are_usage_errors() {
             "evaluate data --model ridge --channels Fq",
             "the dataset has Px, Fz",
         ),
-        ("check data --only TAC999", "no such check"),
+        ("check data --only TAC999", "unknown check `TAC999`"),
         (
             "score --truth map.toml --pred map.toml --units Fz",
             "expected NAME=UNIT",
@@ -137,18 +137,18 @@ fn tables_of_different_length_or_ids_are_refused() {
     bench.refused(
         "score --truth truth.csv --pred other.csv",
         3,
-        "other.csv: no row with id `b`, which truth.csv has",
+        "other.csv: no row with id `b`, although truth.csv has one",
     );
     bench.write("twice.csv", "id,Fz\na,1\na,2\n");
     bench.refused(
         "score --truth truth.csv --pred twice.csv",
         3,
-        "twice.csv: id `a` comes twice",
+        "twice.csv: id `a` occurs twice",
     );
     bench.refused(
         "score --truth twice.csv --pred truth.csv",
         3,
-        "twice.csv: id `a` comes twice",
+        "twice.csv: id `a` occurs twice",
     );
     bench.write("more.csv", "id,Fz\na,1\nb,2\nc,3\n");
     bench.refused(
@@ -166,7 +166,7 @@ fn tables_of_different_channels_are_refused() {
     bench.refused(
         "score --truth truth.csv --pred pred.csv",
         3,
-        "no column `Fx`, which truth.csv has",
+        "no column `Fx`, although truth.csv has it",
     );
     bench.refused("score --truth pred.csv --pred truth.csv", 3, "Fx");
     bench.write("none.csv", "id,point_id\n1,1\n");

@@ -111,15 +111,19 @@ fn a_run_never_writes_over_another_unless_told_to() {
     bench.refused(
         "run small.toml --out runs/small-1 --resume --seed 8",
         3,
-        "other plans",
+        "a different plan",
     );
     bench.refused(
         "run small.toml --out nowhere --resume",
         3,
-        "no run to go on with",
+        "no run to resume",
     );
     bench.write("mine/notes.txt", "mine");
-    bench.refused("run small.toml --out mine --force", 3, "no run");
+    bench.refused(
+        "run small.toml --out mine --force",
+        3,
+        "not the folder of a run",
+    );
     bench.ok("run small.toml --out runs/small-1 --force --seed 8 -q");
     assert_ne!(first, reports(&bench.path("runs/small-1")));
 }

@@ -92,7 +92,7 @@ fn taxels_are_imported_checked_fitted_and_evaluated() {
     bench.refused(
         "evaluate pictures --with skin.safetensors",
         3,
-        "the dataset has no signals, the model needs them",
+        "the model needs signals, and the dataset has none",
     );
 }
 

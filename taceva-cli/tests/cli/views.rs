@@ -57,7 +57,7 @@ fn a_gripper_is_imported_checked_fitted_and_predicted_by_one_view_or_both() {
     bench.refused(
         "predict gripper --with right.model --view left --out other.csv",
         3,
-        "it was fitted on the view `right`, and the pictures are those of `left`",
+        "it was fitted on the view `right`, but the pictures are of the view `left`",
     );
     let report = bench.json("evaluate gripper --with right.model --metrics accuracy");
     crate::schema::check("evaluation", &report);
@@ -68,7 +68,7 @@ fn a_gripper_is_imported_checked_fitted_and_predicted_by_one_view_or_both() {
     assert_eq!(both["provenance"]["view"], "left+right");
     let notes = both["provenance"]["notes"].to_string();
     assert!(
-        notes.contains("those of left+right are seen, side by side"),
+        notes.contains("the model sees those of left+right, side by side"),
         "{notes}"
     );
     // A page shows the pictures that the model saw.

@@ -208,7 +208,7 @@ fn tables_and_recordings_without_a_row_are_bad_input() {
     bench.refused(
         "score --truth t.csv --pred p.csv",
         3,
-        "t.csv: no row below the header",
+        "t.csv: the table has no row below its header",
     );
     bench.record_nothing("empty");
     for words in [
@@ -225,7 +225,7 @@ fn one_file_given_twice_is_said_to_be_one_file() {
     let bench = Bench::new();
     bench.lab();
     bench.write("t.csv", "Fz\n1\n2\n");
-    bench.refused("score --truth t.csv --pred ./t.csv", 2, "are one file");
+    bench.refused("score --truth t.csv --pred ./t.csv", 2, "are the same file");
     bench.ok("import lab --map map.toml --out data -q");
     bench.ok(
         "evaluate data --model ridge --split by-point --set size=8x8 --format json --out a.json -q",
@@ -286,11 +286,11 @@ fn a_final_model_learns_from_every_sample_and_is_not_tested_on_them() {
         "evaluate data --with m.taceva",
         "evaluate data --model ridge --set size=8x8 --split all",
     ] {
-        bench.refused(words, 2, "none is left to test on");
+        bench.refused(words, 2, "no test part is left");
     }
     let report = bench.json("evaluate data --with m.taceva --part train");
     let notes = report["provenance"]["notes"].to_string();
-    assert!(notes.contains("this is no test"), "{notes}");
+    assert!(notes.contains("this is not a test"), "{notes}");
 }
 
 #[test]

@@ -59,7 +59,7 @@ fn directory(archive: &dyn ByteSource) -> Result<Directory, Problem> {
         Problem::damaged(
             length,
             "the end",
-            "the directory of a zip archive before it: the file was cut short, or is no archive",
+            "the end record of a zip archive: the file is truncated, or not an archive",
         )
     })?;
     let record = &tail[at..];
@@ -112,8 +112,8 @@ fn directory(archive: &dyn ByteSource) -> Result<Directory, Problem> {
     {
         return Err(Problem::damaged(
             end_at,
-            "a directory that does not lie before its end record",
-            "one that does",
+            "a directory that is not before its end record",
+            "a directory before it",
         ));
     }
     Ok(found)
@@ -148,7 +148,7 @@ fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     for size in [&mut bytes, &mut packed_bytes, &mut local_at] {
         if *size == ELSEWHERE {
             *size = number(large, 0, 8).ok_or_else(|| {
-                Problem::damaged(at, "no size of 64 bits", "one, as the entry says")
+                Problem::damaged(at, "no 64-bit size", "a 64-bit size, as the entry states")
             })?;
             large = large.get(8..).unwrap_or(&[]);
         }
@@ -164,8 +164,8 @@ fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     }
     if method != 0 && method != 8 {
         return Err(Problem::unsupported(
-            format!("member `{}` is packed by method {method}", shown(&name)),
-            "save it by `np.savez` or `np.savez_compressed`",
+            format!("member `{}` is compressed by method {method}", shown(&name)),
+            "save it with `np.savez` or `np.savez_compressed`",
         ));
     }
     let member = Packed {
@@ -188,8 +188,11 @@ fn located(archive: &dyn ByteSource, listed: Packed) -> Result<Packed, Problem> 
     if field(0, 4) != u64::from(LOCAL) || field(8, 2) != method {
         return Err(Problem::damaged(
             listed.at,
-            "no header of a member",
-            format!("that of `{}`, as the directory says", shown(&listed.name)),
+            "no member header",
+            format!(
+                "the header of `{}`, as in the directory",
+                shown(&listed.name)
+            ),
         ));
     }
     let at = listed.at + 30 + field(26, 2) + field(28, 2);

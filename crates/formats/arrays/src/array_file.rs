@@ -356,8 +356,8 @@ fn open(path: &Path, format: ArrayFormat) -> Result<Box<dyn Store>, Problem> {
         )?)),
         #[cfg(not(feature = "hdf5"))]
         ArrayFormat::Hdf5 => Err(Problem::unsupported(
-            "HDF5, which this program was built without",
-            "build it with the feature `hdf5`",
+            "an HDF5 file, but this program was built without HDF5",
+            "build the program with the feature `hdf5`",
         )),
         ArrayFormat::Npz => Ok(Box::new(Npz::open(FileBytes::open(path)?)?)),
         ArrayFormat::Npy => Ok(Box::new(NpyArray::open(

@@ -48,7 +48,7 @@ impl Block {
             return Err(Problem::damaged(
                 source.length(),
                 "the end",
-                format!("it at byte {end}, after {rows} rows of {row_bytes} bytes"),
+                format!("the end at byte {end}, after {rows} rows of {row_bytes} bytes"),
             ));
         }
         if shape.len() > limits::AXES {

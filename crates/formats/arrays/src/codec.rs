@@ -62,7 +62,7 @@ pub(crate) fn gzip(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
             ]))
     {
         return Err(Problem::Checksum {
-            what: "what gzip packed".to_owned(),
+            what: "the compressed data of gzip".to_owned(),
             stated,
             computed,
         });
@@ -79,7 +79,7 @@ pub(crate) fn zstd(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     let window = most.max(ZSTD_WINDOW_BYTES).next_power_of_two();
     let log = u8::try_from(window.ilog2()).unwrap_or(u8::MAX);
     let wrong =
-        |problem: &dyn Display| Problem::damaged(0, format!("no frame of zstd: {problem}"), "one");
+        |problem: &dyn Display| Problem::damaged(0, format!("not a zstd frame: {problem}"), "one");
     let limits = DecodeLimits::default().with_max_window_log(log);
     let limits = limits.map_err(|error| wrong(&error))?;
     let limits = limits.with_max_output_bytes(Some(most as u64));
@@ -88,14 +88,14 @@ pub(crate) fn zstd(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     match decoder.decompress_into(packed, &mut bytes) {
         Ok(_) => Ok(bytes),
         Err(DecodeError::ChecksumMismatch { expected, computed }) => Err(Problem::Checksum {
-            what: "a frame of zstd".to_owned(),
+            what: "a zstd frame".to_owned(),
             stated: expected,
             computed,
         }),
         Err(DecodeError::OutputLimitExceeded { .. }) => Err(Problem::damaged(
             0,
             format!("more than {most} bytes"),
-            "no more than a chunk has",
+            "at most the size of a chunk",
         )),
         Err(error) => Err(wrong(&error)),
     }
@@ -108,12 +108,12 @@ pub(crate) fn lz4(packed: &[u8], bytes: &mut [u8]) -> Result<(), Problem> {
         Ok(made) if made == expected => Ok(()),
         Ok(made) => Err(Problem::damaged(
             0,
-            format!("{made} bytes in a block of LZ4"),
+            format!("{made} bytes in an LZ4 block"),
             format!("{expected}"),
         )),
         Err(error) => Err(Problem::damaged(
             0,
-            format!("no block of LZ4: {error}"),
+            format!("not an LZ4 block: {error}"),
             format!("{expected} bytes"),
         )),
     }
@@ -123,12 +123,12 @@ pub(crate) fn lz4(packed: &[u8], bytes: &mut [u8]) -> Result<(), Problem> {
 pub(crate) fn lz4_with_length(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     let length = packed.split_first_chunk::<4>();
     let (length, block) =
-        length.ok_or_else(|| Problem::damaged(0, "the end", "the length of a block of LZ4"))?;
+        length.ok_or_else(|| Problem::damaged(0, "the end", "the length of an LZ4 block"))?;
     let length = usize::try_from(u32::from_le_bytes(*length)).unwrap_or(usize::MAX);
     if length > most {
         return Err(Problem::damaged(
             0,
-            format!("{length} bytes in a block of LZ4"),
+            format!("{length} bytes in an LZ4 block"),
             format!("at most {most}"),
         ));
     }

@@ -76,7 +76,7 @@ pub enum Problem {
     },
     /// A checksum of the file that does not match its content.
     #[error(
-        "{what}: checksum {computed:#010x}, the file states {stated:#010x}: it was damaged after it was written"
+        "{what}: checksum {computed:#010x}, but the file states {stated:#010x}: the file is damaged"
     )]
     Checksum {
         /// The part of the file.

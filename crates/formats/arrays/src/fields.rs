@@ -68,8 +68,8 @@ impl Item {
     fn add(&mut self, descr: &Literal, name: &str, extent: &[u64]) -> Result<(), Problem> {
         let unknown = || {
             Problem::unsupported(
-                format!("a type that is not understood near field `{}`", shown(name)),
-                "save each field as an array of its own",
+                format!("an unsupported type near field `{}`", shown(name)),
+                "save each field as a separate array",
             )
         };
         let count = extent

@@ -196,8 +196,8 @@ impl Hdf5 {
                 Ok((Opened { dataset, at: None }, held))
             }
             Layout::Virtual => Err(Problem::unsupported(
-                "a virtual dataset, whose elements lie in other files",
-                "copy it into one: `h5repack`, or `f2['x'] = f['x'][:]` in h5py",
+                "a virtual dataset, whose elements are in other files",
+                "copy it into one file: `h5repack`, or `f2['x'] = f['x'][:]` in h5py",
             )),
             _ => {
                 self.take_unpacked(index, 0)?;
@@ -353,15 +353,15 @@ pub(crate) fn problem(error: hdf5_pure::Error) -> Problem {
             if words.contains("version 2 B-tree") =>
         {
             Problem::unsupported(
-                "chunks of an array with two axes that grow (`maxshape=(None, None)`) in the newer file format",
-                "let one axis grow, or write the file with `h5py.File(path, 'w', libver=('earliest', 'v108'))`",
+                "chunks of an array with two growing axes (`maxshape=(None, None)`) in the newer file format",
+                "let only one axis grow, or write the file with `h5py.File(path, 'w', libver=('earliest', 'v108'))`",
             )
         }
         Error::Format(FormatError::SignatureNotFound) => {
-            Problem::damaged(0, "no file of HDF5", "`\\x89HDF`")
+            Problem::damaged(0, "not an HDF5 file", "`\\x89HDF`")
         }
         Error::Format(FormatError::UnsupportedExternalStorage) => Problem::unsupported(
-            "a dataset whose elements lie in another file (external storage), which is not opened",
+            "a dataset whose elements are in another file (external storage), which is not opened",
             "copy them into this one: `h5repack -l CONTI FILE COPY`",
         ),
         other => Problem::Structure {

@@ -40,7 +40,7 @@ pub(crate) fn inflated(
         made if made == bytes => Ok(whole),
         made => Err(Problem::damaged(
             used as u64,
-            format!("the end of what is deflated, after {made} bytes"),
+            format!("the end of the deflated data after {made} bytes"),
             format!("{bytes} bytes"),
         )),
     }
@@ -66,15 +66,15 @@ pub(crate) fn inflated_at_most(
 /// The problem for bytes that the decoder rejects, at offset `at` of the deflated bytes.
 fn broken(at: u64, status: TINFLStatus) -> Problem {
     let (found, expected) = match status {
-        TINFLStatus::HasMoreOutput => ("more bytes than are stated", "the end of what is deflated"),
+        TINFLStatus::HasMoreOutput => ("more bytes than stated", "the end of the deflated data"),
         TINFLStatus::Adler32Mismatch => (
-            "a checksum that is not that of what was inflated",
-            "bytes as they were written",
+            "a checksum that does not match the inflated data",
+            "intact bytes",
         ),
         TINFLStatus::FailedCannotMakeProgress | TINFLStatus::NeedsMoreInput => {
             ("the end", "more deflated bytes")
         }
-        _ => ("bytes that are not deflated", "deflated bytes"),
+        _ => ("invalid deflated data", "deflated bytes"),
     };
     Problem::damaged(at, found, expected)
 }

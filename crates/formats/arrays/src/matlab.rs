@@ -37,8 +37,8 @@ pub(crate) fn open(file: FileBytes) -> Result<Box<dyn Store>, Problem> {
         return Ok(Box::new(version_7_3::Matlab73::open(file)?));
         #[cfg(not(feature = "hdf5"))]
         return Err(Problem::unsupported(
-            "a MATLAB file of version 7.3, which is HDF5, and this program was built without it",
-            "build it with the feature `hdf5`, or save it by `save('x.mat', '-v7')`",
+            "a MATLAB file of version 7.3, which is HDF5, but this program was built without HDF5",
+            "build the program with the feature `hdf5`, or save the file with `save('x.mat', '-v7')`",
         ));
     }
     let is_big_endian = match header.get(124..128) {
@@ -47,8 +47,8 @@ pub(crate) fn open(file: FileBytes) -> Result<Box<dyn Store>, Problem> {
         _ => {
             return Err(Problem::damaged(
                 124,
-                "no version and order of bytes of a MATLAB file",
-                "version 5 or 7.3: save it by `save('x.mat', '-v7')`",
+                "no version and byte order of a MATLAB file",
+                "version 5 or 7.3: save it with `save('x.mat', '-v7')`",
             ));
         }
     };
@@ -124,7 +124,7 @@ fn inflated(
     if kind != TYPE_MATRIX {
         return Err(Problem::damaged(
             tag.data_at,
-            format!("an element of type {kind} in what is deflated"),
+            format!("an element of type {kind} in the deflated data"),
             "a matrix, type 14",
         ));
     }

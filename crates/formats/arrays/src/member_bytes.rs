@@ -39,7 +39,7 @@ impl Packed {
             Problem::damaged(
                 self.at,
                 format!(
-                    "`{}` of {} bytes, said to become {}",
+                    "`{}` of {} bytes, which claims to inflate to {} bytes",
                     shown(&self.name),
                     self.packed_bytes,
                     self.bytes
@@ -62,7 +62,8 @@ impl Packed {
         if self.bytes > limits::INFLATED_BYTES && self.bytes > usual {
             return Err(Problem::too_large(
                 format!(
-                    "bytes of `{}` once inflated, {} times as many as it has (above {} times, no more than the limit is accepted; save it without compression)",
+                    "bytes of inflated `{}`, {} times its compressed size (above {} times, at most the limit is accepted; save it without \
+                     compression)",
                     shown(&self.name),
                     self.bytes / self.packed_bytes.max(1),
                     limits::USUAL_RATIO
@@ -214,7 +215,7 @@ impl PackedBytes {
         if filled < into.len() {
             return Err(Problem::damaged(
                 self.packed().end,
-                format!("the end of what is deflated, after {} bytes", part.at),
+                format!("the end of the deflated data after {} bytes", part.at),
                 format!("{} bytes", self.member.bytes),
             ));
         }
@@ -222,7 +223,7 @@ impl PackedBytes {
             if part.inflater.read(&*self.file, &mut [0])? > 0 {
                 return Err(Problem::damaged(
                     self.packed().end,
-                    "more bytes than are stated",
+                    "more bytes than stated",
                     format!("{} bytes", self.member.bytes),
                 ));
             }

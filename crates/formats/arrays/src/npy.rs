@@ -57,7 +57,7 @@ impl NpyHeader {
                     "1, 2 or 3",
                 ));
             }
-            _ => return Err(Problem::damaged(0, "no array of NumPy", "`\\x93NUMPY`")),
+            _ => return Err(Problem::damaged(0, "not a NumPy array", "`\\x93NUMPY`")),
         };
         if length > limits::NPY_HEADER_BYTES {
             return Err(Problem::too_large(
@@ -117,7 +117,7 @@ impl NpyArray {
             return Err(Problem::damaged(
                 length,
                 "the end",
-                format!("it at byte {}", block.end()),
+                format!("the end at byte {}", block.end()),
             ));
         }
         let content = Content::Numbers(block);

@@ -37,7 +37,7 @@ impl Npz {
                 return Err(Problem::damaged(
                     member.at,
                     format!("a second member `{}`", shown(&name)),
-                    "each name once",
+                    "unique names",
                 ));
             }
             let source = Arc::new(PackedBytes::new(&file, member, &mut budget));

@@ -150,7 +150,7 @@ fn stored(
     {
         let Content::Numbers { item, bytes } = content else {
             return Err(Problem::unsupported(
-                "an array of objects among others",
+                "an array of objects",
                 "write arrays of numbers",
             ));
         };

@@ -86,7 +86,7 @@ impl Scalar {
             Some('U') => Kind::WideText,
             Some('c') => {
                 return Err(unknown(
-                    "save the real and the imaginary part as arrays of their own",
+                    "save the real and the imaginary part as separate arrays",
                 ));
             }
             Some('M' | 'm') => {

@@ -54,7 +54,7 @@ impl FileBytes {
         let file = File::open(path).map_err(Problem::io("open"))?;
         let metadata = file.metadata().map_err(Problem::io("open"))?;
         if !metadata.is_file() {
-            return Err(Problem::unsupported("no regular file", "name a file"));
+            return Err(Problem::unsupported("not a regular file", "name a file"));
         }
         Ok(FileBytes {
             #[cfg(unix)]

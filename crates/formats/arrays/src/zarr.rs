@@ -161,7 +161,8 @@ impl Zarr {
                 checked.remove(&index);
                 Err(Problem::too_large(
                     format!(
-                        "bytes of `{}` once unpacked, {} times as many as its chunks have (write it with less compression, or in several arrays)",
+                        "bytes of decompressed `{}`, {} times the size of its chunks (write it with less compression, or in several \
+                         arrays)",
                         array.name,
                         all / there.bytes.max(1)
                     ),
@@ -209,7 +210,7 @@ fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
         Ok(metadata) if metadata.is_file() => {}
         Ok(_) => {
             return Err(Problem::unsupported(
-                format!("chunk `{name}` is no regular file"),
+                format!("chunk `{name}` is not a regular file"),
                 "copy the store",
             ));
         }
@@ -220,7 +221,7 @@ fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
     match real(&path)?.starts_with(real(folder)?) {
         true => Ok(true),
         false => Err(Problem::unsupported(
-            format!("chunk `{name}` is outside of its array, through a link"),
+            format!("chunk `{name}` is a link to outside its array"),
             "copy the store",
         )),
     }
@@ -306,7 +307,7 @@ impl Store for Zarr {
             } else if array.fill.is_none() {
                 let name = array.key(&place);
                 return Err(Problem::unsupported(
-                    format!("chunk `{name}` was not written, and the fill value is not understood"),
+                    format!("chunk `{name}` was not written, and the fill value is not supported"),
                     "write every chunk",
                 ));
             }

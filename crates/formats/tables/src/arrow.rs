@@ -93,7 +93,7 @@ impl ArrowTable {
             }
         }
         let Some(schema) = schema else {
-            return Err(source.damaged(Place::default(), "a stream of Arrow without a schema"));
+            return Err(source.damaged(Place::default(), "an Arrow stream without a schema"));
         };
         Ok(ArrowTable {
             columns: schema.fields.iter().map(Field::node).collect(),
@@ -186,7 +186,7 @@ impl ArrowTable {
         let found = Found::new(&self.source, &self.columns, name)?;
         let field = self.field(name)?;
         if found.kind() != Some(ColumnKind::Bytes) {
-            let problem = "its cells are no bytes".to_owned();
+            let problem = "its cells are not bytes".to_owned();
             return Err(self.source.mismatch(name, problem).into());
         }
         crate::rows::check_sorted(&self.source, name, sorted, self.rows)?;

@@ -61,7 +61,7 @@ pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>
     match unpacked.len() == size {
         true => Ok(unpacked),
         false => Err(format!(
-            "unpacked to {} bytes instead of {size}",
+            "decompressed to {} bytes, expected {size}",
             unpacked.len()
         )),
     }
@@ -92,7 +92,7 @@ pub(crate) fn stream(
             read.map_err(|error| error.to_string())?;
             if whole.len() as u64 > limit || u64::from(size) > limit {
                 return Err(format!(
-                    "a page of {size} bytes, at most {limit} are unpacked at once"
+                    "a page of {size} bytes, at most {limit} are decompressed at once"
                 ));
             }
             Box::new(Cursor::new(unpack(codec, &whole, size as usize)?))
@@ -126,7 +126,7 @@ impl<R: BufRead> Read for ZstdStream<R> {
 }
 
 fn not_whole(error: &DecodeError) -> io::Error {
-    io::Error::other(format!("no whole Zstandard frame: {error}"))
+    io::Error::other(format!("incomplete Zstandard frame: {error}"))
 }
 
 /// A decoder of frames of at most `size` bytes, with windows up to that size or those of level 19.
@@ -147,16 +147,16 @@ fn streamed(name: &str, decoder: impl Read, size: usize) -> Result<Vec<u8>, Stri
     decoder
         .take(size as u64 + 1)
         .read_to_end(&mut unpacked)
-        .map_err(|error| format!("no whole {name}: {error}"))?;
+        .map_err(|error| format!("incomplete {name}: {error}"))?;
     Ok(unpacked)
 }
 
 fn snappy(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
-    let wrong = |error: snap::Error| format!("no whole Snappy block: {error}");
+    let wrong = |error: snap::Error| format!("incomplete Snappy block: {error}");
     let announced = snap::raw::decompress_len(packed).map_err(wrong)?;
     if announced != size || size > packed.len().saturating_mul(SNAPPY_GROWTH) {
         return Err(format!(
-            "{} bytes of snappy announce {announced} instead of {size}",
+            "{} bytes of snappy announce {announced} bytes, expected {size}",
             packed.len()
         ));
     }
@@ -171,7 +171,7 @@ fn lz4_block(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     }
     let mut unpacked = vec![0; size];
     let length = lz4_flex::block::decompress_into(packed, &mut unpacked)
-        .map_err(|error| format!("no whole LZ4 block: {error}"))?;
+        .map_err(|error| format!("incomplete LZ4 block: {error}"))?;
     unpacked.truncate(length);
     Ok(unpacked)
 }
@@ -183,16 +183,16 @@ fn lz4_hadoop(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
         let [a, b, c, d, e, f, g, h] = *sizes;
         let whole = u32::from_be_bytes([a, b, c, d]) as usize;
         let part = u32::from_be_bytes([e, f, g, h]) as usize;
-        let block = after.get(..part).ok_or("a block of LZ4 is cut short")?;
+        let block = after.get(..part).ok_or("an LZ4 block is cut short")?;
         if whole > size - unpacked.len() {
-            return Err(format!("blocks of LZ4 hold more than {size} bytes"));
+            return Err(format!("LZ4 blocks hold more than {size} bytes"));
         }
         unpacked.extend_from_slice(&lz4_block(block, whole)?);
         rest = &after[part..];
     }
     match rest.is_empty() {
         true => Ok(unpacked),
-        false => Err("bytes behind the last block of LZ4".to_owned()),
+        false => Err("bytes after the last LZ4 block".to_owned()),
     }
 }
 
@@ -242,7 +242,7 @@ mod tests {
         assert_eq!(unpack(Codec::Gzip, &packed, 1000), Ok(vec![7; 1000]));
         assert_eq!(
             unpack(Codec::Gzip, &packed, 999),
-            Err("unpacked to 1000 bytes instead of 999".to_owned())
+            Err("decompressed to 1000 bytes, expected 999".to_owned())
         );
         assert!(unpack(Codec::Gzip, &packed[..packed.len() - 1], 1000).is_err());
     }

@@ -21,7 +21,7 @@ impl Growth {
         match self.unpacked <= most {
             true => Ok(()),
             false => Err(format!(
-                "{} bytes unpacked so far, {} times as many as in the file, at most {most} are accepted: write it with less compression",
+                "{} bytes decompressed so far, {} times the size in the file, at most {most} are accepted: write it with less compression",
                 self.unpacked,
                 self.unpacked / self.packed.max(1)
             )),

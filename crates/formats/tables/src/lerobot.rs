@@ -103,7 +103,7 @@ impl LeRobot {
                 true => names = table.names(),
                 false if names == table.names() => {}
                 false => {
-                    let problem = "its columns are not those of the first data file";
+                    let problem = "its columns differ from the columns of the first data file";
                     return Err(Source::new(&path)?.damaged(Place::default(), problem));
                 }
             }
@@ -114,7 +114,9 @@ impl LeRobot {
             });
         }
         if files.is_empty() {
-            return Err(source.damaged(Place::of("data_path"), "no data file is where it leads to"));
+            return Err(
+                source.damaged(Place::of("data_path"), "there is no data file at that path")
+            );
         }
         if rows > limits::ROWS {
             let problem = format!("{rows} rows, at most {} are accepted", limits::ROWS);
@@ -171,7 +173,7 @@ impl LeRobot {
                     let task = self.tasks.get(&index).cloned().map(Cell::Text);
                     task.ok_or_else(|| {
                         self.source
-                            .mismatch("task_index", format!("no task {index} is described"))
+                            .mismatch("task_index", format!("task {index} has no description"))
                     })
                 }
                 _ => Ok(Cell::Null),
@@ -275,7 +277,7 @@ impl DataFile {
             true => Ok(table),
             false => {
                 let problem = format!(
-                    "{} rows, it had {} when it was opened first",
+                    "{} rows, but it had {} when it was first opened",
                     table.rows(),
                     self.rows
                 );

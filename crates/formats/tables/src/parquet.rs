@@ -89,7 +89,7 @@ impl ParquetTable {
         }
         let stated = metadata.file_metadata().num_rows();
         if u64::try_from(stated) != Ok(rows) {
-            let problem = format!("the footer states {stated} rows, its groups have {rows}");
+            let problem = format!("the footer states {stated} rows, but its groups have {rows}");
             return Err(source.damaged(Place::default(), problem));
         }
         Ok(ParquetTable {
@@ -168,7 +168,8 @@ impl ParquetTable {
                     *bytes = bytes.saturating_add(cell.bytes());
                     if *bytes > most {
                         let problem = format!(
-                            "more than {most} bytes in memory, of a file of {}; write it in several files, or ask for a part of a list, as `{name}[0]`",
+                            "more than {most} bytes in memory, of a file of {}; write it in several files, or read a part of a list, such \
+                             as `{name}[0]`",
                             self.source.length()
                         );
                         return Err(self.source.too_large(Place::of(name), problem));
@@ -239,7 +240,7 @@ fn rows_of(group: &RowGroupMetaData) -> usize {
 /// Checks the last 8 bytes: the length of the footer, within the file and the limit, and the mark.
 fn check_footer(source: &Source, file: &mut std::fs::File) -> Result<(), TableError> {
     let Some(at) = source.length().checked_sub(8) else {
-        let problem = format!("{} bytes are no Parquet file", source.length());
+        let problem = format!("{} bytes are too few for a Parquet file", source.length());
         return Err(source.damaged(Place::default(), problem));
     };
     let end = source.bytes(file, at, 8, 8)?;
@@ -251,8 +252,7 @@ fn check_footer(source: &Source, file: &mut std::fs::File) -> Result<(), TableEr
             return Err(source.unsupported(Place::byte(at), problem));
         }
         _ => {
-            let problem =
-                "no Parquet file: it does not end with `PAR1`, as one that was cut short does not";
+            let problem = "not a Parquet file, or cut short: it does not end with `PAR1`";
             return Err(source.damaged(Place::byte(at), problem));
         }
     }
@@ -270,7 +270,7 @@ fn check_footer(source: &Source, file: &mut std::fs::File) -> Result<(), TableEr
         true => Ok(()),
         false => Err(source.damaged(
             Place::byte(at),
-            format!("a footer of {length} bytes, before which there are {at}"),
+            format!("a footer of {length} bytes, but only {at} bytes are before its end"),
         )),
     }
 }

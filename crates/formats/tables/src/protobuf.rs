@@ -156,7 +156,7 @@ impl ProtobufMessage {
         let mut values = vec![Value::Absent; self.fields.len()];
         let mut bytes = Bytes::new(message);
         while !bytes.rest().is_empty() {
-            let (number, value) = next(&mut bytes).ok_or("a field of protobuf is cut short")?;
+            let (number, value) = next(&mut bytes).ok_or("a protobuf field is cut short")?;
             let at = self
                 .fields
                 .iter()
@@ -168,7 +168,7 @@ impl ProtobufMessage {
             };
             if !is_of_kind {
                 return Err(format!(
-                    "`{}` of {} is of another type",
+                    "`{}` of {} has another type",
                     self.fields[at].name, self.name
                 ));
             }
@@ -205,7 +205,7 @@ impl<'m> Value<'m> {
 fn text(bytes: &[u8]) -> Result<String, String> {
     let text = std::str::from_utf8(bytes);
     text.map(str::to_owned)
-        .map_err(|_| "a text that is no UTF-8".to_owned())
+        .map_err(|_| "a text that is not UTF-8".to_owned())
 }
 
 fn cell(column: &Column, value: &Value<'_>) -> Result<Cell, String> {
@@ -217,7 +217,7 @@ fn cell(column: &Column, value: &Value<'_>) -> Result<Cell, String> {
             let (mut seconds, mut nanoseconds) = (0_u64, 0_u64);
             let mut bytes = Bytes::new(value.bytes());
             while !bytes.rest().is_empty() {
-                match next(&mut bytes).ok_or("a time of protobuf is cut short")? {
+                match next(&mut bytes).ok_or("a protobuf time is cut short")? {
                     (1, Value::Number(number)) => seconds = number,
                     (2, Value::Number(number)) => nanoseconds = number,
                     _ => {}

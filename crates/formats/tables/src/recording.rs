@@ -121,20 +121,21 @@ fn store(source: Source) -> Result<Arc<dyn MessageStore>, TableError> {
     if begins(b"#ROSBAG V") && rosbag1::MAGIC.starts_with(&begin) {
         return Err(source.damaged(
             Place::byte(0),
-            "a bag of ROS 1 that is cut short in its first line",
+            "a ROS 1 bag that is cut short in its first line",
         ));
     }
     if begins(b"#ROSBAG V") {
-        let problem = "a bag of another version than 2.0: `rosbag fix FILE OUT.bag` of ROS 1 writes one of it";
+        let problem =
+            "a bag of another version than 2.0: convert it with `rosbag fix FILE OUT.bag` of ROS 1";
         return Err(source.unsupported(Place::byte(0), problem));
     }
     if begins(&ZSTANDARD) {
         let problem =
-            "compressed as a whole by Zstandard: `zstd -d FILE` writes the recording that is read";
+            "the whole file is compressed by Zstandard: decompress it with `zstd -d FILE`";
         return Err(source.unsupported(Place::byte(0), problem));
     }
     if !begins(&mcap::MAGIC) {
-        let problem = "no recording: it begins neither as MCAP nor as SQLite nor as a bag of ROS 1";
+        let problem = "not a recording: it begins like neither MCAP nor SQLite nor a ROS 1 bag";
         return Err(source.damaged(Place::byte(0), problem));
     }
     Ok(Arc::new(mcap::McapFile::open(source)?))

@@ -52,20 +52,20 @@ impl Rosbag1 {
         else {
             return Err(source.damaged(
                 Place::byte(begin),
-                "no bag: its first record is not that of a bag",
+                "not a bag: its first record is not a bag header",
             ));
         };
         let reindex = || cut::remedy(&source);
         if index == 0 {
             let problem = format!(
-                "the recorder did not close it, so that it is cut where it ended: {}",
+                "the recorder did not close it, so it is cut short: {}",
                 reindex()
             );
             return Err(source.damaged(Place::byte(begin), problem));
         }
         if index > source.length() {
             let problem = format!(
-                "its index is said to begin at byte {index}, the file has {}: it is cut short; {}",
+                "its index should begin at byte {index}, but the file has {} bytes: it is cut short; {}",
                 source.length(),
                 reindex()
             );
@@ -86,7 +86,7 @@ impl Rosbag1 {
                     let (Some(connection), Some(chunk)) = (connection, chunk) else {
                         return Err(source.damaged(
                             Place::byte(at),
-                            "an index of no connection or before any chunk",
+                            "an index without a connection or before any chunk",
                         ));
                     };
                     bag.indices.entry(connection).or_default().push((chunk, at));
@@ -120,7 +120,7 @@ impl Rosbag1 {
         }
         if chunks != of_chunks || bag.channels.len() != of_connections as usize {
             let problem = format!(
-                "{chunks} chunks and {} connections, it announces {of_chunks} and {of_connections}: it is cut short or was changed; {}",
+                "{chunks} chunks and {} connections, but it announces {of_chunks} and {of_connections}: it is cut short or was changed; {}",
                 bag.channels.len(),
                 reindex()
             );
@@ -135,7 +135,7 @@ impl Rosbag1 {
         for (connection, indices) in &self.indices {
             let Some(channel) = self.channels.get_mut(connection) else {
                 let problem =
-                    format!("messages of connection {connection}, which nothing describes");
+                    format!("messages of connection {connection}, which has no description");
                 return Err(self.source.damaged(Place::default(), problem));
             };
             for (_, at) in indices {
@@ -175,7 +175,7 @@ impl MessageStore for Rosbag1 {
                 let wrong = || {
                     self.source.damaged(
                         Place::byte(*at),
-                        "an index of another length than it announces",
+                        "an index whose length differs from the announced length",
                     )
                 };
                 if entries.len() + data.len() / 12 > limits::MESSAGES {
@@ -250,7 +250,7 @@ impl<'a> Records<'a> {
         let begin = at + 4;
         let Some(data) = four(begin + length) else {
             return Ok(Err(format!(
-                "a record with a head of {length} bytes, beyond the end of the file"
+                "a record header of {length} bytes, beyond the end of the file"
             )));
         };
         let fields = self
@@ -265,7 +265,7 @@ impl<'a> Records<'a> {
         let head = Head::new(fields, data_at, data_at + data);
         head.map(Ok).ok_or_else(|| {
             self.source
-                .damaged(Place::byte(at), "a head whose fields are longer than it")
+                .damaged(Place::byte(at), "a header whose fields exceed it")
         })
     }
 
@@ -288,11 +288,13 @@ impl<'a> Records<'a> {
         let place = || Place::byte(at).in_name("chunk");
         let size = head.number::<4>("size").map(u32::from_le_bytes);
         let (Some(op::CHUNK), Some(size)) = (head.op(), size) else {
-            return Err(self.source.damaged(place(), "no chunk, or one of no size"));
+            return Err(self
+                .source
+                .damaged(place(), "no chunk, or a chunk without a size"));
         };
         if u64::from(size) > limits::PAGE_BYTES {
             let problem = format!(
-                "{size} bytes unpacked, at most {} are accepted",
+                "{size} decompressed bytes, at most {} are accepted",
                 limits::PAGE_BYTES
             );
             return Err(self.source.too_large(place(), problem));
@@ -303,8 +305,8 @@ impl<'a> Records<'a> {
             Some("bz2") => Codec::Bzip2,
             other => {
                 let problem = format!(
-                    "compressed by `{}`, expected none, lz4 or bz2: `rosbag decompress FILE` writes it without, and so does `rosbags-convert --src FILE --dst OUT` \
-                     without ROS",
+                    "compressed by `{}`, expected none, lz4 or bz2: decompress it with `rosbag decompress FILE`, or without ROS with \
+                     `rosbags-convert --src FILE --dst OUT`",
                     shown(other.unwrap_or_default())
                 );
                 return Err(self.source.unsupported(place(), problem));
@@ -331,7 +333,8 @@ impl MessageReader for Records<'_> {
         };
         let at = usize::try_from(entry.at).unwrap_or(usize::MAX);
         let found = record::within(&held, at);
-        let (head, range) = found.ok_or_else(|| damaged("its index leads to no whole record"))?;
+        let (head, range) =
+            found.ok_or_else(|| damaged("its index leads to an incomplete record"))?;
         let connection = head.number::<4>("conn").map(u32::from_le_bytes);
         let (Some(op::MESSAGE), Some(channel), Some(time)) =
             (head.op(), connection, head.number::<8>("time"))

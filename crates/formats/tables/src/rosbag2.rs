@@ -70,7 +70,7 @@ impl Rosbag2 {
                 Some(channel) => channel.count = count,
                 None => {
                     let problem = format!(
-                        "{count} messages of topic {channel}, which is not in its table of topics"
+                        "{count} messages of topic {channel}, which its table of topics lacks"
                     );
                     return Err(bag.source().damaged(Place::of("messages"), problem));
                 }
@@ -186,7 +186,7 @@ impl MessageReader for Rows<'_> {
         let range = match record.value(columns.data)? {
             Value::Blob(range) => range,
             other => {
-                let problem = format!("a message that is {other:?}, expected bytes");
+                let problem = format!("a message is {other:?}, expected bytes");
                 return Err(bag.source().damaged(Place::of("messages"), problem));
             }
         };
@@ -210,11 +210,11 @@ fn check_schema(database: &Database) -> Result<(), TableError> {
         );
         return Err(source.unsupported(Place::default(), problem));
     }
-    let convert = "`ros2 bag convert` of the ROS that wrote it into `storage_id: mcap` writes a recording that is read";
+    let convert =
+        "convert it to `storage_id: mcap` with `ros2 bag convert` of the ROS that wrote it";
     if let Some(other) = names.iter().find(|name| !TABLES.contains(name)) {
-        let problem = format!(
-            "a table that schemas up to version {VERSION} of rosbag2 don't have: {convert}"
-        );
+        let problem =
+            format!("an unknown table, not in rosbag2 schemas up to version {VERSION}: {convert}");
         return Err(source.unsupported(Place::of(other), problem));
     }
     let versions = database
@@ -228,7 +228,7 @@ fn check_schema(database: &Database) -> Result<(), TableError> {
     database.each_row(table, &mut |_, record| match record.value(position)? {
         Value::Integer(version) if version > VERSION => {
             let problem = format!(
-                "schema version {version} of rosbag2, versions up to {VERSION} are read: {convert}"
+                "rosbag2 schema version {version}, but only versions up to {VERSION} are read: {convert}"
             );
             Err(source.unsupported(Place::of("schema"), problem))
         }
@@ -258,10 +258,12 @@ fn table<'d>(
         .find(|column| table.position(column).is_none());
     let problem = match (unknown, missing) {
         (None, None) => return Ok(table),
-        (_, Some(column)) => format!("no column `{column}`, which every version of rosbag2 writes"),
+        (_, Some(column)) => {
+            format!("no column `{column}`, although every version of rosbag2 writes it")
+        }
         (Some(column), None) => format!(
-            "a column `{}` that schemas up to version {VERSION} of rosbag2 don't have: `ros2 bag convert` of the ROS that wrote it into `storage_id: mcap` \
-             writes a recording that is read",
+            "an unknown column `{}`, not in rosbag2 schemas up to version {VERSION}: convert it to `storage_id: mcap` with `ros2 bag \
+             convert` of the ROS that wrote it",
             crate::error::shown(column)
         ),
     };
@@ -315,7 +317,7 @@ fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
         };
         if channels.insert(id, channel).is_some() || channels.len() > limits::NAMES {
             let problem = format!(
-                "topic {id} is there twice, or there are more than {}",
+                "topic {id} occurs twice, or there are more than {} topics",
                 limits::NAMES
             );
             return Err(source.damaged(Place::of("topics"), problem));

@@ -12,7 +12,7 @@ pub(crate) fn check_sorted(
 ) -> Result<(), TableError> {
     if let Some(pair) = sorted.windows(2).find(|pair| pair[0] > pair[1]) {
         let problem = format!(
-            "row {} is asked for after row {}: rows must ascend",
+            "row {} is requested after row {}: rows must ascend",
             pair[1], pair[0]
         );
         return Err(source.mismatch(name, problem));

@@ -39,7 +39,7 @@ impl<R: BufRead> SnappyStream<R> {
         }
         if announced != u64::from(size) {
             return Err(format!(
-                "snappy announces {announced} bytes instead of {size}"
+                "snappy announces {announced} bytes, expected {size}"
             ));
         }
         Ok(SnappyStream {
@@ -57,7 +57,7 @@ impl<R: BufRead> SnappyStream<R> {
         let extra = numbers(bytes[0]);
         self.packed.read_exact(&mut bytes[1..=extra])?;
         let found = element(&bytes, 0).map(|(element, _)| element);
-        found.ok_or_else(|| wrong("an element of snappy that does not fit the memory"))
+        found.ok_or_else(|| wrong("a snappy element that does not fit in memory"))
     }
 
     /// Unpacks more into the window.
@@ -86,7 +86,7 @@ impl<R: BufRead> SnappyStream<R> {
                     .take(some as u64)
                     .read_to_end(&mut self.window)?;
                 if read < some || some == 0 {
-                    return Err(wrong("the Snappy block is cut short, or too long"));
+                    return Err(wrong("the Snappy block is cut short or too long"));
                 }
                 *length -= some;
                 self.left -= some;
@@ -151,7 +151,7 @@ impl<R: BufRead> Read for SnappyStream<R> {
 fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Result<()> {
     let begin = window.len().checked_sub(from).filter(|_| from > 0);
     let Some(begin) = begin.filter(|_| length <= left) else {
-        return Err(wrong("a copy of snappy from outside of what was unpacked"));
+        return Err(wrong("a snappy copy from outside the decompressed data"));
     };
     if length <= from {
         window.extend_from_within(begin..begin + length);

@@ -48,7 +48,7 @@ impl Source {
             false => Err(self.damaged(
                 Place::default(),
                 format!(
-                    "{length} bytes, it had {} when it was opened first",
+                    "{length} bytes, but it had {} when it was first opened",
                     self.length
                 ),
             )),
@@ -66,7 +66,7 @@ impl Source {
         let end = at.checked_add(count);
         if end.is_none_or(|end| end > self.length) {
             let problem = format!(
-                "{count} bytes are announced here, the file has {}",
+                "{count} bytes are announced here, but the file has {}",
                 self.length
             );
             return Err(self.damaged(Place::byte(at), problem));
@@ -78,7 +78,7 @@ impl Source {
         let size = usize::try_from(count).map_err(|_| {
             self.too_large(
                 Place::byte(at),
-                format!("{count} bytes do not fit the memory"),
+                format!("{count} bytes do not fit in memory"),
             )
         })?;
         let mut bytes = vec![0; size];

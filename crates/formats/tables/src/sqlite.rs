@@ -67,7 +67,7 @@ impl Database {
         let damaged = |problem: String| source.damaged(begin.clone(), problem);
         if head.get(..16) != Some(&MAGIC) {
             return Err(damaged(
-                "no SQLite database: it does not begin with its mark".to_owned(),
+                "not a SQLite database: it does not begin with its magic bytes".to_owned(),
             ));
         }
         let Some(head) = head.first_chunk::<100>() else {
@@ -82,19 +82,19 @@ impl Database {
         let usable = page_bytes.saturating_sub(u32::from(head[20]));
         if !page_bytes.is_power_of_two() || page_bytes < 512 || usable < 480 {
             return Err(damaged(format!(
-                "pages of {page_bytes} bytes, {} of them kept free",
+                "pages of {page_bytes} bytes, {} of them reserved",
                 head[20]
             )));
         }
         if head[21..24] != [64, 32, 32] {
             return Err(damaged(
-                "shares of a page that no version of SQLite writes".to_owned(),
+                "payload fractions that no version of SQLite writes".to_owned(),
             ));
         }
         if head[19] > 2 || four(44) > 4 {
             let problem = format!(
-                "written for a later version of SQLite (read version {}, schema format {}): `sqlite3 FILE \".backup OUT.db3\"` of that version writes \
-                 one that is read",
+                "written for a later version of SQLite (read version {}, schema format {}): copy it with `sqlite3 FILE \".backup \
+                 OUT.db3\"` of that version",
                 head[19],
                 four(44)
             );
@@ -109,7 +109,7 @@ impl Database {
         let pages = stated.unwrap_or(whole);
         if pages > whole {
             return Err(damaged(format!(
-                "{pages} pages of {page_bytes} bytes are announced, the file has {}: it is cut short",
+                "{pages} pages of {page_bytes} bytes are announced, but the file has {}: it is cut short",
                 source.length()
             )));
         }
@@ -210,8 +210,8 @@ fn check_logs(source: &Source) -> Result<(), TableError> {
             .to_string_lossy()
             .into_owned();
         let problem = format!(
-            "`{name}` beside it holds {what}: the recorder did not close it. `sqlite3 FILE \"PRAGMA journal_mode = DELETE\"` on a copy of both files brings \
-             them into one"
+            "`{name}` beside it holds {what}: the recorder did not close it. Merge a copy of both files with `sqlite3 FILE \"PRAGMA \
+             journal_mode = DELETE\"`"
         );
         Err(source.unsupported(Place::default(), problem))
     };
@@ -219,7 +219,7 @@ fn check_logs(source: &Source) -> Result<(), TableError> {
     if log.metadata().is_ok_and(|facts| facts.len() > 0) {
         return refuse(
             &log,
-            "a write-ahead log with messages that are not in this file yet",
+            "a write-ahead log with messages that this file still lacks",
         );
     }
     let journal = beside(source.path(), "-journal");
@@ -228,7 +228,7 @@ fn check_logs(source: &Source) -> Result<(), TableError> {
         && let Ok(begin) = other.bytes(&mut file, 0, 8, 8)
         && begin == JOURNAL
     {
-        return refuse(&journal, "a journal of changes that are to be taken back");
+        return refuse(&journal, "a rollback journal of unfinished changes");
     }
     Ok(())
 }

@@ -166,7 +166,7 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, EvaluateError> {
     {
         let known: Vec<&str> = ALL.iter().map(|check| check.code).collect();
         return Err(EvaluateError::Request(format!(
-            "`{}`: no such check, expected one of {}",
+            "unknown check `{}`, expected one of {}",
             shown(unknown),
             known.join(", ")
         )));

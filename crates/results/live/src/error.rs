@@ -17,7 +17,7 @@ pub enum PageError {
         source: io::Error,
     },
     /// The system provides no random numbers for the token.
-    #[error("this system gives no random numbers for the token of the page: {0}")]
+    #[error("cannot get random numbers for the token of the page: {0}")]
     Random(String),
     /// A thread of the page that cannot be started.
     #[error("cannot start a thread of the page: {0}")]

@@ -43,13 +43,13 @@ impl Status {
     const fn hint(self) -> &'static str {
         match self {
             Status::Unauthorized => {
-                "the header X-Taceva-Token must hold what stands behind # in the address that the program printed\n"
+                "the header X-Taceva-Token must hold the part after # of the address that the program printed\n"
             }
-            Status::Forbidden => "this page answers requests of its own origin alone\n",
-            Status::Misdirected => "open the page by the address that the program printed\n",
-            Status::Conflict => "that question is not open any more\n",
+            Status::Forbidden => "this page answers only requests of its own origin\n",
+            Status::Misdirected => "open the page with the address that the program printed\n",
+            Status::Conflict => "that question has been closed\n",
             Status::Busy => "too many connections: close another window of this page\n",
-            Status::WrongMethod => "GET for what is looked at, POST for /stop and /answer\n",
+            Status::WrongMethod => "use GET to read, and POST for /stop and /answer\n",
             _ => "",
         }
     }

@@ -156,8 +156,8 @@ impl Asked {
             text: question.to_string(),
             done: match question {
                 Question::Enable(robot) => format!("Let {robot} move"),
-                Question::Resume(_) => "Go on all the same".to_owned(),
-                Question::GoOn => "Go on, hands out of reach".to_owned(),
+                Question::Resume(_) => "Continue anyway".to_owned(),
+                Question::GoOn => "Continue, hands out of reach".to_owned(),
                 _ => "Done, hands out of reach".to_owned(),
             },
             can_skip: !matches!(

@@ -181,7 +181,7 @@ impl Cache {
 
     fn note_unwritable(&self, error: &io::Error) {
         self.note(format!(
-            "the cache {} cannot be written, so nothing is kept there: {error}",
+            "cannot write to the cache {}, so results are not stored: {error}",
             shown(&self.folder)
         ));
     }
@@ -216,11 +216,11 @@ impl Cache {
         let entry = self.entry(key);
         let removed = remove(&entry);
         self.note(format!(
-            "{}: {problem}; it is {} and made anew",
+            "{}: {problem}; it is {} and made again",
             shown(&entry),
             match removed {
                 Ok(()) => "removed".to_owned(),
-                Err(error) => format!("left, because it cannot be removed ({error}),"),
+                Err(error) => format!("kept (cannot remove it: {error})"),
             }
         ));
     }

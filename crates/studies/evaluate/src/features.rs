@@ -21,7 +21,9 @@ pub use table::{FeatureTable, feature_table};
 pub fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, EvaluateError> {
     let sight = Sight::of(dataset, &spec)?;
     let sight = sight.map_err(|absent| {
-        EvaluateError::Request(format!("the dataset has no {absent}, the model needs them"))
+        EvaluateError::Request(format!(
+            "the model needs {absent}, and the dataset has none"
+        ))
     })?;
     Ok(Extractor::new(spec, sight.info(), sight.reference())?)
 }

@@ -17,9 +17,9 @@ use taceva_results::EvaluationReport;
 /// # Errors
 /// [`EvaluateError::State`] naming the first file that does not belong with the first; [`EvaluateError::Request`] for no file.
 pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), EvaluateError> {
-    let (first_path, rest) = paths
-        .split_first()
-        .ok_or_else(|| EvaluateError::Request("there is no state to join".to_owned()))?;
+    let (first_path, rest) = paths.split_first().ok_or_else(|| {
+        EvaluateError::Request("no state file is given: name at least one".to_owned())
+    })?;
     let mut all_taken = AllTaken::default();
     let ReadState {
         file: first,
@@ -48,7 +48,8 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
             problem,
         };
         if !file.plan.merges_with(&first.plan) {
-            let problem = "it was made with another plan: metrics, channels, sensor facts and settings must be equal";
+            let problem =
+                "its plan differs: metrics, channels, sensor facts and settings must be equal";
             return Err(wrong(format!(
                 "{problem} to those of {}",
                 shown(first_path)

@@ -234,10 +234,11 @@ impl fmt::Display for Note {
             Note::Split(words) | Note::Sessions(words) => f.write_str(words),
             Note::Neighbours { found, division } => division::write(found, division, f),
             Note::Independent(Independence::Stated) => f.write_str(
-                "each sample is taken as a point of its own, by the word of the caller: intervals are too narrow if samples depend on each other",
+                "the caller declared the samples independent, so each counts as one contact point; intervals are too narrow if samples \
+                 depend on each other",
             ),
             Note::Independent(Independence::Found) => f.write_str(
-                "each sample is taken as a point of its own: no point_id repeats, and neighbouring samples do not resemble each other",
+                "each sample counts as one contact point: no point_id repeats, and neighbouring samples are dissimilar",
             ),
             Note::Clusters {
                 recordings,
@@ -273,7 +274,7 @@ impl fmt::Display for Note {
                 of: all,
             } => write!(
                 f,
-                "{}each sample has several pictures ({}), and those of {} are seen{}",
+                "{}each sample has several pictures ({}); the model sees those of {}{}",
                 of(recording),
                 shown(all),
                 shown(view),
@@ -289,25 +290,27 @@ impl fmt::Display for Note {
                 most,
             } => write!(
                 f,
-                "rotation {}: predictions are turned from the truth by {mean:.2} degrees in the mean of {samples} samples, 95 % by less than {most:.2}; scores of \
-                 single parts depend on how the rotation is written",
+                "rotation {}: mean angle between predictions and truth {mean:.2} degrees over {samples} samples, 95 % below {most:.2}; \
+                 scores of single components depend on how the rotation is written",
                 channels.join(", ")
             ),
             Note::Seen(part) => write!(
                 f,
-                "scored on the part `{part}`, which the model has seen: this is no test"
+                "scored on the part `{part}`, which the model was fitted on: this is not a test"
             ),
             Note::FittedElsewhere(digest) => write!(
                 f,
-                "every sample is scored, because the model was fitted on other data, {digest}; samples that both hold, as an export or a second import of one recording does, are not distinguished"
+                "every sample is scored, because the model was fitted on other data, {digest}; samples that are in both, as after an \
+                 export or a second import, are not detected"
             ),
             Note::Copies { copies, of } => write!(
                 f,
-                "{copies} of {of} pictures of the test part are, byte for byte, also fitted on: the scores flatter (taceva check, TAC002 and TAC007)"
+                "{copies} of {of} pictures of the test part are byte for byte in the fit too: the scores are optimistic (taceva check, \
+                 TAC002 and TAC007)"
             ),
             Note::FittedBefore { rows, now } => write!(
                 f,
-                "the model was fitted when the dataset had {rows} of its {now} samples; the parts are those of now"
+                "the model was fitted when the dataset had {rows} of its {now} samples; the parts are those of the dataset as it is now"
             ),
             Note::LeftOut { part, count } => write!(
                 f,
@@ -320,9 +323,9 @@ impl fmt::Display for Note {
                     .collect();
                 write!(
                     f,
-                    "of the predictions of all samples together, these shares lie beyond the bounds of the model, a quarter of the range of labels \
-                     on either side: {}; a score marked `bounded` gives the share among its own samples; robustness is of predictions as \
-                     they are, every other score of those brought back",
+                    "shares of all predictions outside the bounds of the model (the range of labels, extended by a quarter on each side): \
+                     {}; a score marked `bounded` gives the share among its own samples; robustness uses predictions as they are, every \
+                     other score uses clipped predictions",
                     shares.join(", ")
                 )
             }
@@ -330,7 +333,7 @@ impl fmt::Display for Note {
                 let shares: Vec<String> = channels.iter().map(ToString::to_string).collect();
                 write!(
                     f,
-                    "within 1.96 predicted standard deviations of the truth lie {}; 95 % would if the deviations were calibrated",
+                    "share of samples within 1.96 predicted standard deviations of the truth: {}; calibrated deviations give 95 %",
                     shares.join(", ")
                 )
             }
@@ -341,56 +344,57 @@ impl fmt::Display for Note {
             } => write!(f, "without {fold}: {choice}"),
             Note::EveryRow { metrics, rows } => write!(
                 f,
-                "no prediction enters {}: all {rows} samples count there, in every part",
+                "no predictions are used for {}: computed over all {rows} samples, of every part",
                 metrics.join(", ")
             ),
             Note::CallersModel(learning) => f.write_str(match learning {
                 Learning::Here => {
-                    "the model is one that the caller holds, fitted here on the training part alone"
+                    "the model is the caller's own, fitted here on the training part only"
                 }
                 Learning::Stated => {
-                    "the model is one that the caller holds; that it has learnt from the training part of this split alone is the caller's word"
+                    "the model is the caller's own; the caller states that it was fitted on the training part of this split only"
                 }
                 Learning::Unknown => {
-                    "the model is one that the caller holds; what it has learnt from is not known, so these samples may be among it"
+                    "the model is the caller's own; its training data are unknown and may include these samples"
                 }
             }),
             Note::Unbounded => f.write_str(
-                "predictions were not brought within the bounds of the labels that were learnt, as those of other models are",
+                "predictions were not clipped to the bounds of the training labels, as those of other models are",
             ),
-            Note::States(count) => write!(f, "{count} states joined"),
+            Note::States(count) => write!(f, "{count} states merged"),
             Note::Shards([own, all]) => write!(
                 f,
-                "{own} of {all} rows: the others are in no shard that was joined"
+                "{own} of {all} rows: the others are in shards that were not merged"
             ),
             Note::Shard {
                 shard,
                 rows: [first, end],
                 of,
-            } => write!(f, "shard {shard}: rows {first} to before {end} of {of}, from 0"),
+            } => write!(f, "shard {shard}: rows {first} (from 0) up to but excluding {end}, of {of}"),
             Note::Paired(by) => write!(f, "rows were paired {by}"),
             Note::SameBytes => f.write_str(
-                "truth and predictions are the same bytes: every error is 0, which no sensor reaches",
+                "truth and predictions are byte-identical files: every error is 0, which no sensor reaches",
             ),
             Note::NotPlanned { what, reason } => write!(f, "{what}: {reason}"),
             Note::Untaken { count, of } => write!(
                 f,
-                "{count} of {of} planned samples were not taken: their presses met a limit of the gel, or no gel"
+                "{count} of {of} planned samples were not recorded: their presses reached a limit of the gel, or missed it"
             ),
             Note::MeasuredUnit { unit, metrics, of } => write!(
                 f,
-                "every score is of unit {}, but {} of units {}",
+                "every score is for unit {}, except {} for units {}",
                 shown(unit),
                 metrics.join(", "),
                 shown(&of.join(", "))
             ),
             Note::DetectionLimit => f.write_str(
-                "detection limit: not verified; noise_equivalent_force is of untouched frames alone, and only light presses at many places verify a limit",
+                "detection limit: not verified; noise_equivalent_force uses untouched frames only; light presses at many places would \
+                 verify a limit",
             ),
             Note::Spacings(way) => f.write_str(way),
             Note::FramesRetried(count) => write!(
                 f,
-                "{count} frames were lost, damaged or older than their contact, and were taken again"
+                "{count} frames were lost, damaged or older than their contact, and were recorded again"
             ),
         }
     }
@@ -403,11 +407,9 @@ impl fmt::Display for PairedBy {
             name => format!("`{}`", shown(name)),
         };
         match self {
-            PairedBy::Order => {
-                f.write_str("by order, because no key of rows stands in both tables")
-            }
+            PairedBy::Order => f.write_str("by order, because the tables share no key column"),
             PairedBy::Index => f.write_str("by the index of both data frames"),
-            PairedBy::ChosenOrder => f.write_str("by order, as was asked for"),
+            PairedBy::ChosenOrder => f.write_str("by order, as requested"),
             PairedBy::Key { truth, prediction } if truth == prediction => {
                 write!(f, "by {}", name(truth))
             }
@@ -447,19 +449,19 @@ fn clusters(
     if recordings < least {
         return write!(
             f,
-            "scored on {points} contact points of {recordings} recordings; an interval by contact point within these recordings does not say \
-             how scores vary from recording to recording, which takes {least} recordings with scored samples"
+            "scored on {points} contact points of {recordings} recordings; intervals by contact point do not show how scores vary between \
+             recordings; that takes {least} recordings with scored samples"
         );
     }
     write!(
         f,
-        "intervals of errors, R² and skill are by recording, {recordings} of them with {points} contact points: they say how scores vary from \
-         recording to recording"
+        "intervals of errors, R² and skill are by recording ({recordings} recordings with {points} contact points): they show how scores \
+         vary between recordings"
     )?;
     if recordings < CLUSTERS_MANY {
         write!(
             f,
-            "; {recordings} are few: one recording more or less may change an interval much, and it is as wide as {} degrees of freedom make it",
+            "; {recordings} are few: one more recording may change an interval much, since it has only {} degrees of freedom",
             recordings - 1
         )?;
     }

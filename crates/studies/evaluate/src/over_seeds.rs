@@ -30,7 +30,7 @@ pub fn of(seeds: &[u64], evaluations: &[&Evaluation]) -> OverSeeds {
     });
     OverSeeds {
         seeds: seeds.to_vec(),
-        decides: "first weights, order and augmentation of the training; presses, division and scored samples are the same".to_owned(),
+        decides: "initial weights, order and augmentation of the training; presses, division and scored samples are equal".to_owned(),
         scores: scores.collect(),
     }
 }

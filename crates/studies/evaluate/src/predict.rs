@@ -79,7 +79,9 @@ pub fn model_extractor(
 ) -> Result<taceva_models::Extractor, EvaluateError> {
     let sight = Sight::of(dataset, &model.card().features)?;
     let sight = sight.map_err(|absent| {
-        EvaluateError::Unsuited(format!("the dataset has no {absent}, the model needs them"))
+        EvaluateError::Unsuited(format!(
+            "the model needs {absent}, and the dataset has none"
+        ))
     })?;
     Ok(model.extractor(sight.info(), sight.reference())?)
 }
@@ -165,7 +167,7 @@ pub fn truth(
     let known = table.channels().by_name(channel.name());
     if let Some(known) = known.filter(|known| known.unit() != channel.unit()) {
         return Err(EvaluateError::Unsuited(format!(
-            "the model predicts {channel} in {}, the dataset has it in {}",
+            "the model predicts {channel} in {}, but the dataset has it in {}",
             channel.unit(),
             known.unit()
         )));

@@ -133,7 +133,7 @@ impl AllTaken {
         let known = self.states.iter().find(|(_, known)| known == digest);
         if let Some((before, _)) = known.filter(|_| !is_empty) {
             return Err(format!(
-                "the same state as {}, whose rows would count twice",
+                "the same state as {}: its rows would count twice",
                 before.display()
             ));
         }
@@ -141,7 +141,7 @@ impl AllTaken {
             for (before, old) in &self.taken {
                 if let Some((first, count)) = new.shared(old) {
                     return Err(format!(
-                        "{count} rows of {} were taken already by {}, from row {first} on, and would count twice",
+                        "{count} rows of {} are already in {}, from row {first} on: they would count twice",
                         old.input.split(' ').next().unwrap_or_default(),
                         before.display()
                     ));
@@ -238,7 +238,7 @@ mod tests {
         let rows = all.add(path("c.state"), "3", &[taken("x", &[1, 2])]);
         let rows = rows.expect_err("rows again");
         assert!(
-            rows.contains("1 rows of x were taken already by a.state, from row 1 on"),
+            rows.contains("1 rows of x are already in a.state, from row 1 on"),
             "{rows}"
         );
     }

@@ -88,7 +88,7 @@ impl Divided {
         let divided = match (is_planned, PlannedRows::of(dataset)?) {
             (true, None) => {
                 return Err(EvaluateError::Request(format!(
-                    "{}: the model was fitted on what the plan of a run teaches by; name the recording in the folder of that run",
+                    "{}: the model was fitted on the calibration presses of a run; name the recording in the folder of that run",
                     shown(dataset.path())
                 )));
             }
@@ -219,7 +219,8 @@ impl Divided {
             return Ok(());
         }
         Err(EvaluateError::Request(
-            "split all: the model is fitted on every sample, and none is left to test on; evaluate it on another recording, or score what it has seen with --part train"
+            "split all: the model is fitted on every sample, so no test part is left; evaluate it on another recording, or score its \
+             training samples with --part train"
                 .to_owned(),
         ))
     }
@@ -305,7 +306,7 @@ pub(crate) fn chosen_channels(
     };
     if chosen.is_empty() {
         return Err(EvaluateError::Request(
-            "the dataset has no channel: there is nothing to predict".to_owned(),
+            "the dataset has no channel to predict".to_owned(),
         ));
     }
     Ok(chosen)

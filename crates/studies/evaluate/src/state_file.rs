@@ -141,7 +141,7 @@ impl StateFile {
         };
         let text = read_capped(path).map_err(|error| wrong(error.to_string()))?;
         let head: Head = serde_json::from_str(&text)
-            .map_err(|error| wrong(format!("no state of an evaluation: {error}")))?;
+            .map_err(|error| wrong(format!("not a state file of an evaluation: {error}")))?;
         if head.schema != STATE_SCHEMA {
             return Err(wrong(format!(
                 "its schema is `{}`, expected `{STATE_SCHEMA}`; run the command that wrote it again with this version",

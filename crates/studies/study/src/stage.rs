@@ -230,7 +230,7 @@ impl Learnt {
         let usable = usable(dataset, &rows, need);
         if usable.is_empty() {
             return Err(EvaluateError::Request(format!(
-                "study `{}` has no sample that could be predicted",
+                "study `{}` has no sample to predict",
                 study.plan.name
             )));
         }

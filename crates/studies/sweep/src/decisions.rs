@@ -64,7 +64,8 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
         ]);
     }
     table.note(format!(
-        "Mean absolute errors on test parts, paired sample by sample and summed by contact point over all seeds; signs of contact points are flipped. All {count} tests of the sweep are one family of Holm's procedure, at a level of 5 %."
+        "Sign-flip tests of mean absolute errors on test parts, paired by sample and summed by contact point over all seeds. All {count} \
+         tests of the sweep form one family of Holm's procedure, at a level of 5 %."
     ));
     if let Some(words) = out_of_reach {
         table.note(words);

@@ -41,7 +41,9 @@ pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String])
             }
         }
     }
-    table.note("Each pair is two tasks that differ in this setting alone, on their test parts; a negative difference is a smaller error. A model stands with the settings that it alone has. A channel whose unit is not the same everywhere has no row. The interval takes pairs for independent, which those of one recording are not quite: it describes this sweep. Nothing is chosen by it.");
+    table.note("Each pair is two tasks that differ only in this setting, on their test parts; a negative difference is a smaller error. A \
+        model is listed with the settings that only it has. A channel with several units has no row. The interval assumes independent \
+        pairs, which pairs of one recording are only in part: it describes this sweep. It is not used for choices.");
     table
 }
 

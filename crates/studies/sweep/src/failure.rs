@@ -33,7 +33,7 @@ impl Failure {
                 .map(Some)
                 .map_err(|error| SweepError::Kept {
                     path,
-                    problem: format!("{error}; remove the file, and the task is carried out again"),
+                    problem: format!("{error}; remove the file to run the task again"),
                 }),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(SweepError::io("read", &path)(error)),

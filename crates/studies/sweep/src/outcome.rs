@@ -52,7 +52,7 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
         return Err(SweepError::Changed {
             path: task.path.clone(),
             problem: format!(
-                "the recording is another one than when the sweep was planned: {digest}, expected {}",
+                "the recording has changed since the sweep was planned: digest {digest}, expected {}",
                 task.digest
             ),
         });
@@ -63,7 +63,7 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
         return Err(SweepError::Changed {
             path: task.model.clone().into(),
             problem: format!(
-                "the plugin is another build than when the sweep was planned: {}, expected {}",
+                "the plugin was rebuilt since the sweep was planned: {}, expected {}",
                 said(&build),
                 said(&task.plugin)
             ),

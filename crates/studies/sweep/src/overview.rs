@@ -26,7 +26,7 @@ pub fn show(
     if list.is_of_tables() {
         return Err(SweepError::Condition {
             text: "show".to_owned(),
-            problem: "tasks are shards of two tables, which have no scores of their own: those of all rows are in score.json".to_owned(),
+            problem: "the tasks are shards of two tables and have no separate scores: scores of all rows are in score.json".to_owned(),
         });
     }
     let settings: BTreeSet<&str> = list
@@ -54,7 +54,7 @@ pub fn show(
             .map(|metric| metric.id);
         return Err(SweepError::Condition {
             text: metric.to_owned(),
-            problem: format!("no such metric: {}", Suggestion::of(metric, names)),
+            problem: format!("unknown metric: {}", Suggestion::of(metric, names)),
         });
     }
     let loaded = analysis::load(folder, list)?;
@@ -135,6 +135,7 @@ fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
             table.push(cells);
         }
     }
-    table.note("Means over all tasks with the same words, on test parts; the interval describes their spread, whatever differs between them.");
+    table.note("Means over all tasks with equal values in these columns, on test parts; the interval describes their spread over all \
+        other settings.");
     table
 }

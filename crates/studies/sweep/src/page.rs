@@ -25,7 +25,7 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
     let mut best = vec![PagePart::Table(choices::table(&groups, &choices))];
     if partial > 0 {
         best.push(PagePart::Words(format!(
-            "{partial} of {} configurations lack a result for some seed and take no part in the choice.",
+            "{partial} of {} configurations lack a result for some seed and are excluded from the choice.",
             groups.len()
         )));
     }
@@ -55,7 +55,7 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
         section("failed", "Without a result", vec![PagePart::Table(left)]);
     }
     let lead = format!(
-        "{} tasks: {} scored, {} failed, {} not carried out.",
+        "{} tasks: {} scored, {} failed, {} not run.",
         list.tasks.len(),
         collected.scored,
         collected.failed,
@@ -103,7 +103,7 @@ fn left(loaded: &[Loaded<'_>]) -> Table {
         let why = match &one.found {
             Found::Result(_) => continue,
             Found::Failed(reason) => reason.as_str(),
-            Found::Missing => "not carried out yet",
+            Found::Missing => "not run yet",
         };
         table.push([
             Cell::text(one.task.key.as_str()),

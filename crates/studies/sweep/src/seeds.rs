@@ -4,7 +4,7 @@ use crate::limits::MOST_TASKS;
 
 /// The greatest seed: tables store signed 64-bit numbers.
 const GREATEST: u64 = i64::MAX.unsigned_abs();
-const EXPECTED: &str = "expected a list such as [1, 2, 3], or the first and the last as in \"1-5\"";
+const EXPECTED: &str = "expected a list such as [1, 2, 3], or a range such as \"1-5\"";
 
 /// Parses seeds; the error is a message.
 pub(crate) fn seeds(written: &toml::Value) -> Result<Vec<u64>, String> {
@@ -12,7 +12,7 @@ pub(crate) fn seeds(written: &toml::Value) -> Result<Vec<u64>, String> {
         toml::Value::Array(list) => list.iter().map(one).collect(),
         toml::Value::String(text) => range(text),
         toml::Value::Integer(seed) if *seed >= 0 => Err(format!(
-            "`seeds = {seed}`: {EXPECTED}; one seed is [{seed}]"
+            "`seeds = {seed}`: {EXPECTED}; for one seed write [{seed}]"
         )),
         _ => Err(format!("`seeds`: {EXPECTED}")),
     }
@@ -40,7 +40,7 @@ fn range(text: &str) -> Result<Vec<u64>, String> {
     match last - first {
         span if span < MOST_TASKS => Ok((first..=last).collect()),
         span => Err(format!(
-            "a grid of {} tasks for each model by its seeds alone, {MOST_TASKS} are the most",
+            "the seeds alone make {} tasks for each model, at most {MOST_TASKS} are allowed",
             span + 1
         )),
     }
@@ -65,7 +65,7 @@ mod tests {
     #[test]
     fn what_is_neither_is_refused_with_what_would_be() {
         for (text, message) in [
-            ("3", "one seed is [3]"),
+            ("3", "for one seed write [3]"),
             ("-3", "expected a list"),
             ("[-1]", "expected whole numbers from 0"),
             ("[1.5]", "expected whole numbers from 0"),

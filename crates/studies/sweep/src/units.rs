@@ -71,7 +71,7 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
             let wrong = |problem: String| SweepError::Kept {
                 path: path.clone(),
                 problem: format!(
-                    "{problem}; remove it and the file of the same name in `results`, and the task is carried out again"
+                    "{problem}; remove it and the file of the same name in `results` to run the task again"
                 ),
             };
             let studies = Study::read(&text).map_err(|error| wrong(error.to_string()))?;

@@ -77,7 +77,7 @@ fn seeds_of_a_model_that_draws_nothing_and_settings_of_none_are_refused_before_a
     bench.refused(
         "run small.toml --out a --seeds 1-3",
         2,
-        "the model ridge draws nothing",
+        "the model ridge uses no random numbers",
     );
     bench.refused("run small.toml --out a --set strenth=1", 2, "strenth");
     bench.refused("run small.toml --out a --model rigde", 2, "rigde");

@@ -157,5 +157,5 @@ fn a_run_with_other_frames_is_not_gone_on_with() {
     let bench = with_small();
     bench.ok("run small.toml --out r -q");
     bench.write("small.toml", &format!("{SMALL}{REDUCED}"));
-    bench.refused("run small.toml --out r --resume", 3, "other plans");
+    bench.refused("run small.toml --out r --resume", 3, "a different plan");
 }

@@ -16,7 +16,7 @@ fn a_recording_that_changes_between_submission_and_execution_fails_its_tasks_and
     assert_eq!(ran.code, 1, "{}", ran.err);
     assert!(
         ran.err
-            .contains("another one than when the sweep was planned"),
+            .contains("the recording has changed since the sweep was planned"),
         "{}",
         ran.err
     );
@@ -41,7 +41,7 @@ fn a_sensor_file_that_changes_between_submission_and_execution_stops_its_tasks_a
     bench.refused(
         "sweep task which.sweep --tasks which.sweep/tasks.json --at 0,1",
         3,
-        "sensor.toml: it is another file than when the sweep was planned; start the sweep again",
+        "sensor.toml: the file has changed since the sweep was planned; start the sweep again",
     );
     // Planned anew no result with the former facts is taken for one with these.
     let dry = bench.ok("sweep which.toml --dry-run");

@@ -10,7 +10,7 @@ fn a_folder_that_is_not_shared_is_named_by_the_job_that_misses_it() {
     bench.refused(
         "sweep task nowhere --tasks nowhere/tasks.json --at 0",
         3,
-        "is the folder of the sweep shared with this machine?",
+        "check that the folder of the sweep is shared with this machine",
     );
 }
 

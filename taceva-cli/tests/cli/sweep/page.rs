@@ -9,7 +9,7 @@ fn the_page_chooses_on_validation_parts_and_keeps_times_apart() {
     let page = text(&bench, "one/page.html");
     for words in [
         "Best of each question",
-        "Test parts took no part in any choice",
+        "Choices use no test part",
         "95 % over contact points",
         "95 % over seeds",
         "Effect of each setting",
@@ -18,8 +18,8 @@ fn the_page_chooses_on_validation_parts_and_keeps_times_apart() {
     ] {
         assert!(page.contains(words), "{words}");
     }
-    assert!(!page.contains("s a task"));
-    assert!(text(&bench, "one/times.html").contains("s a task"));
+    assert!(!page.contains("s per task"));
+    assert!(text(&bench, "one/times.html").contains("s per task"));
     // What is chosen has the least error on validation parts of all that it was chosen among, by the table alone.
     let table = text(&bench, "one/table.csv");
     let mut reader = csv::Reader::from_reader(table.as_bytes());
@@ -70,7 +70,7 @@ fn models_that_were_no_candidates_and_settings_of_one_model_stand_on_the_page_by
     bench.ok("sweep which.toml -q");
     let page = text(&bench, "which.sweep/page.html");
     let (_, names) = page
-        .split_once("No candidates, as they report no such error: ")
+        .split_once("Excluded, because they report no such error: ")
         .expect(&page);
     assert!(names.starts_with("baseline size=8x8; "), "{page}");
     for words in ["neighbours of knn", "knn neighbours=1", "knn neighbours=3"] {

@@ -44,7 +44,7 @@ fn conditions_seeds_and_splits_that_cannot_be_meant_are_refused_at_the_start() {
         (
             "seeds = [1]",
             "seeds = 3",
-            "line 6: `seeds = 3`: expected a list such as [1, 2, 3], or the first and the last as in \"1-5\"; one seed is [3]",
+            "line 6: `seeds = 3`: expected a list such as [1, 2, 3], or a range such as \"1-5\"; for one seed write [3]",
         ),
         (
             "seeds = [1]",
@@ -84,12 +84,12 @@ fn what_would_share_one_result_is_refused_by_both_names() {
     bench.refused(
         "sweep which.toml",
         3,
-        "`monday` and `./monday` are one recording",
+        "`monday` and `./monday` are the same recording",
     );
     small(&bench, &[("\"pls\"", "\"ridge\"")]);
     bench.refused("sweep which.toml", 3, "the model ridge is named twice");
     small(&bench, &[("size = [\"8x8\", \"12x12\"]", "seed = [1, 2]")]);
-    bench.refused("sweep which.toml", 3, "`seed` varies by `seeds`");
+    bench.refused("sweep which.toml", 3, "vary the seed with `seeds`");
 }
 
 #[test]

@@ -29,7 +29,11 @@ fn a_result_of_another_version_or_one_that_was_changed_is_refused_by_name() {
     json.as_object_mut().expect("an object").remove("seal");
     let sealed = taceva_files::seal::json::seal(&json.to_string()).expect("JSON");
     fs::write(&first, sealed).expect("written");
-    bench.refused("sweep collect which.toml", 3, "a result of TacEva 0.0.9");
+    bench.refused(
+        "sweep collect which.toml",
+        3,
+        "it was written by TacEva 0.0.9",
+    );
     fs::remove_file(&first).expect("removed");
     bench.ok("sweep which.toml -q");
 }
@@ -60,7 +64,7 @@ fn a_flipped_bit_of_the_list_of_tasks_or_of_an_evaluation_is_noticed() {
     bench.refused(
         "sweep collect which.toml",
         3,
-        "it is not what the task wrote",
+        "it has changed since the task wrote it",
     );
     // As the message says.
     let name = path.file_name().expect("a name").to_owned();
@@ -91,7 +95,7 @@ fn a_flipped_bit_of_what_was_collected_is_noticed_before_it_is_printed() {
     bench.refused(
         "sweep which.toml",
         3,
-        "`taceva sweep collect` makes it anew",
+        "run `taceva sweep collect` to make it again",
     );
     // As the message says; the table never depended on it.
     bench.ok("sweep collect which.toml -q");

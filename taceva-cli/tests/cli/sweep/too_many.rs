@@ -9,7 +9,7 @@ fn a_grid_of_ten_million_tasks_is_refused_with_the_count() {
     bench.refused(
         "sweep which.toml",
         3,
-        "a grid of 1250000 tasks for each model by its seeds alone",
+        "the seeds alone make 1250000 tasks for each model",
     );
     let seeds: Vec<String> = (0..1250).map(|seed| seed.to_string()).collect();
     let sizes: Vec<String> = (1..=2000)

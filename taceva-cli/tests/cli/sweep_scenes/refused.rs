@@ -66,7 +66,7 @@ fn names_that_stand_for_two_things_are_refused() {
     bench.refused(
         "sweep which.toml",
         3,
-        "line 3: two recordings are called `tiny/tiny`, of which one is of a scene: name a folder `./tiny/tiny`",
+        "line 3: a folder and a recording of a scene are both called `tiny/tiny`: write the folder as `./tiny/tiny`",
     );
     with(&bench, "datasets = \"./tiny/tiny\"\nscenes = \"tiny.toml\"");
     let dry = bench.ok("sweep which.toml --dry-run");
@@ -116,7 +116,7 @@ fn a_scene_that_cannot_be_meant_and_a_sweep_that_cannot_are_refused_before_any_p
     bench.refused(
         "sweep which.toml",
         3,
-        "which.toml, line 2: `scenes` stands beside `[score]`",
+        "which.toml, line 2: `scenes` cannot be combined with `[score]`",
     );
     assert!(!bench.path("which.sweep").exists());
 }

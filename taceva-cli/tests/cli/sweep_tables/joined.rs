@@ -76,7 +76,7 @@ fn some_of_the_shards_say_how_many_rows_they_have_and_join_with_the_others_later
     let one = bench.json(&format!("score {CSV} --shard 2/4"));
     let notes = one["provenance"]["notes"].to_string();
     assert!(
-        notes.contains("shard 2/4: rows 100 to before 200 of 400"),
+        notes.contains("shard 2/4: rows 100 (from 0) up to but excluding 200, of 400"),
         "{notes}"
     );
 }

@@ -9,9 +9,9 @@ use super::{CSV, PARQUET};
 fn a_shard_that_is_none_is_refused_with_what_would_be_one() {
     let bench = bench(10, false);
     for (shard, problem) in [
-        ("0/7", "shards count from 1"),
-        ("8/7", "there are fewer shards"),
-        ("1/0", "there is no shard"),
+        ("0/7", "shard numbers begin at 1"),
+        ("8/7", "K is above N"),
+        ("1/0", "the number of shards is 0"),
         ("half", "expected K/N"),
     ] {
         let ran = bench.run(&format!("score {CSV} --shard {shard} -q"));
@@ -21,7 +21,10 @@ fn a_shard_that_is_none_is_refused_with_what_would_be_one() {
     let ran = bench.run(&format!("score {CSV} --shard 1/2 --samples-out s.csv -q"));
     assert_eq!(ran.code, 2, "{}", ran.err);
     let plan = bench.ok(&format!("score {CSV} --shard 1/2 --explain"));
-    assert!(plan.contains("rows 0 to before 5 of the 10"), "{plan}");
+    assert!(
+        plan.contains("rows 0 up to but excluding 5, of 10"),
+        "{plan}"
+    );
 }
 
 #[test]
@@ -37,7 +40,11 @@ fn bad_cells_ids_and_lengths_are_refused_by_their_place_in_the_file() {
     bench.ok(&format!("score {CSV} --shard 1/2 -q"));
     // An id that another shard has too.
     bench.write("truth.csv", &truth.replacen("\n90,", "\n7,", 1));
-    bench.refused(&format!("score {CSV} --shard 2/2"), 3, "id `7` comes twice");
+    bench.refused(
+        &format!("score {CSV} --shard 2/2"),
+        3,
+        "id `7` occurs twice",
+    );
     bench.write("truth.csv", &truth.replacen("\n90,", "\n900,", 1));
     bench.refused(
         &format!("score {CSV} --shard 2/2"),

@@ -50,7 +50,7 @@ fn a_table_that_changes_between_submission_and_execution_fails_its_tasks_and_say
     assert_eq!(ran.code, 1, "{}", ran.err);
     assert!(
         ran.err
-            .contains("another table than when the sweep was planned"),
+            .contains("the table has changed since the sweep was planned"),
         "{}",
         ran.err
     );
@@ -66,16 +66,19 @@ fn tables_beside_recordings_and_tables_that_do_not_fit_are_refused_at_the_start(
     for (more, message) in [
         (
             "datasets = [\"monday\"]\n",
-            "line 1: `datasets` stands beside `[score]`",
+            "line 1: `datasets` cannot be combined with `[score]`",
         ),
         (
             "models = [\"ridge\"]\n",
-            "line 1: `models` stands beside `[score]`",
+            "line 1: `models` cannot be combined with `[score]`",
         ),
-        ("seeds = [1]\n", "line 1: `seeds` stands beside `[score]`"),
+        (
+            "seeds = [1]\n",
+            "line 1: `seeds` cannot be combined with `[score]`",
+        ),
         (
             "limits = \"limits.toml\"\n",
-            "line 1: `limits` stands beside `[score]`",
+            "line 1: `limits` cannot be combined with `[score]`",
         ),
     ] {
         bench.write("which.toml", &format!("{more}{SWEEP}"));
@@ -91,7 +94,7 @@ fn tables_beside_recordings_and_tables_that_do_not_fit_are_refused_at_the_start(
         (
             "shards = 7",
             "shards = 7\nunits = { Fz = \"stone\" }",
-            "no unit `stone`",
+            "unknown unit `stone`",
         ),
         ("truth.csv", "sensor.toml", "sensor.toml"),
     ] {

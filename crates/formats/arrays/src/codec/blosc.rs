@@ -27,22 +27,26 @@ pub(crate) fn blosc(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     if version != 2 {
         return Err(damaged(
             0,
-            format!("version {version} of Blosc"),
-            "version 2, that of Blosc 1",
+            format!("Blosc version {version}"),
+            "version 2 (Blosc 1)",
         ));
     }
     if bytes > most || packed_bytes != packed.len() {
         return Err(damaged(
             4,
-            format!("{bytes} bytes in {packed_bytes} of Blosc"),
+            format!("{bytes} bytes from {packed_bytes} bytes of Blosc"),
             &format!("at most {most} in {}", packed.len()),
         ));
     }
     if flags & IS_STORED != 0 {
         let stored = packed.get(HEADER_BYTES..HEADER_BYTES + bytes);
-        return stored
-            .map(<[u8]>::to_vec)
-            .ok_or_else(|| damaged(packed.len(), "the end".to_owned(), "all that is stored"));
+        return stored.map(<[u8]>::to_vec).ok_or_else(|| {
+            damaged(
+                packed.len(),
+                "the end".to_owned(),
+                "the number of stored bytes",
+            )
+        });
     }
     if bytes == 0 {
         return Ok(Vec::new());
@@ -116,7 +120,7 @@ impl Chunk<'_> {
                     .copied()
                     .unwrap_or("an unknown codec");
                 return Err(Problem::unsupported(
-                    format!("chunks packed by Blosc with {name}"),
+                    format!("chunks compressed by Blosc with {name}"),
                     "write it with lz4 or zstd: `Blosc(cname='zstd')`",
                 ));
             }

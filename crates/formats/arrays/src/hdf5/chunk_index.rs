@@ -43,11 +43,11 @@ impl ChunkIndex {
                 return Err(wrong(
                     found.address,
                     &found.offset,
-                    "lies off the grid of chunks or outside the extent",
+                    "is not on the grid of chunks or is outside the extent",
                 ));
             }
             if !places.insert(found.offset.as_slice()) {
-                return Err(wrong(found.address, &found.offset, "is there twice"));
+                return Err(wrong(found.address, &found.offset, "occurs twice"));
             }
         }
         let written = chunks.len() as u64;
@@ -62,6 +62,6 @@ fn wrong(address: u64, offset: &[u64], what: &str) -> Problem {
     Problem::damaged(
         address,
         format!("a chunk whose key {offset:?} {what}"),
-        "an index as it was written: it was damaged since, take another copy of the file",
+        "an intact index: the file is damaged, use another copy",
     )
 }

@@ -109,7 +109,7 @@ fn columns(hdf5: &Hdf5, arrays: &Arrays, group: &str) -> Result<Vec<Shown>, Prob
     if said("axis0_variety").as_deref() == Some("multi") {
         return Err(Problem::unsupported(
             "a data frame of pandas whose columns have several levels",
-            "give them one, `df.columns = [\"_\".join(map(str, c)) for c in df.columns]`, and write it again",
+            "use one level, `df.columns = [\"_\".join(map(str, c)) for c in df.columns]`, and write it again",
         ));
     }
     let blocks: usize = said("nblocks")
@@ -125,8 +125,8 @@ fn columns(hdf5: &Hdf5, arrays: &Arrays, group: &str) -> Result<Vec<Shown>, Prob
         let [Some(items), Some(values)] = there else {
             return Err(Problem::unsupported(
                 format!(
-                    "a data frame of pandas that was not written to its end: block {block} of {blocks} is not in `{group}`, nor can pandas read it \
-                     (categories and half floats stop the fixed form)"
+                    "an incomplete data frame of pandas: block {block} of {blocks} is not in `{group}`, and pandas cannot read it either \
+                     (the fixed format supports neither categories nor half floats)"
                 ),
                 REMEDY,
             ));
@@ -188,7 +188,7 @@ fn columns(hdf5: &Hdf5, arrays: &Arrays, group: &str) -> Result<Vec<Shown>, Prob
 
 fn unlike(group: &str, block: usize) -> Problem {
     Problem::unsupported(
-        format!("block {block} of the data frame `{group}` has another shape than its columns"),
+        format!("block {block} of the data frame `{group}` does not have the shape of its columns"),
         REMEDY,
     )
 }
@@ -211,7 +211,7 @@ impl DataFrames {
         let block = self.hdf5.read(own.array, 0..1)?.values;
         let ArrayValues::Bytes(mut block) = block else {
             return Err(Problem::unsupported(
-                "a block of texts of another type",
+                "a block of texts with an unexpected type",
                 REMEDY,
             ));
         };
@@ -220,7 +220,7 @@ impl DataFrames {
         let [(_, info)] = arrays.as_slice() else {
             let reason = pickle.refused().first().map(|(_, reason)| reason.again());
             return Err(reason.unwrap_or_else(|| {
-                Problem::unsupported("a block of objects that are no texts", REMEDY)
+                Problem::unsupported("a block of objects other than texts", REMEDY)
             }));
         };
         let values = pickle.read(0, 0..info.rows())?.values;
@@ -235,7 +235,7 @@ impl DataFrames {
                 )),
             },
             other => Err(Problem::unsupported(
-                format!("a block of {} objects that are no texts", other.len()),
+                format!("a block of {} objects other than texts", other.len()),
                 "make them texts, `df.astype(str)`, and write it again",
             )),
         }

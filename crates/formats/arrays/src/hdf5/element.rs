@@ -32,7 +32,7 @@ pub(crate) fn item(datatype: &Datatype, reference_bytes: usize) -> Result<Item, 
                 "field `{}` beyond the end of its record",
                 shown(&field.name)
             ),
-            format!("it within {bytes} bytes"),
+            format!("the field within {bytes} bytes"),
         )),
         None => Ok(item),
     }
@@ -54,7 +54,7 @@ fn add(
     depth: usize,
 ) -> Result<(), Problem> {
     if depth > limits::LITERAL_DEPTH {
-        return Err(refused("a type nested too deep"));
+        return Err(refused("a type that is nested too deeply"));
     }
     match datatype {
         Datatype::Compound { members, .. } if place.extent.is_empty() => {
@@ -69,7 +69,7 @@ fn add(
                 };
                 let place = Place {
                     name,
-                    at: at.ok_or_else(|| refused("a field beyond every record"))?,
+                    at: at.ok_or_else(|| refused("a field beyond the record"))?,
                     extent: Vec::new(),
                 };
                 add(item, &member.datatype, &place, reference_bytes, depth + 1)?;
@@ -110,7 +110,7 @@ fn size(datatype: &Datatype, reference_bytes: usize) -> Result<usize, Problem> {
             limits::ELEMENT_BYTES,
         ));
     }
-    usize::try_from(bytes).map_err(|_| refused("an element beyond the memory"))
+    usize::try_from(bytes).map_err(|_| refused("an element that does not fit in memory"))
 }
 
 fn scalar(datatype: &Datatype, reference_bytes: usize) -> Result<Scalar, Problem> {
@@ -198,22 +198,22 @@ fn is_ieee(size: u32, layout: FloatingPointLayout) -> bool {
 
 fn kind_name(datatype: &Datatype) -> &'static str {
     match datatype {
-        Datatype::FixedPoint { .. } => "whole numbers of an unusual width",
+        Datatype::FixedPoint { .. } => "integers of an unsupported width",
         Datatype::FloatingPoint { .. } => {
-            "floating point numbers that are not IEEE 754 of 16, 32 or 64 bits"
+            "floating-point numbers other than IEEE 754 with 16, 32 or 64 bits"
         }
         Datatype::Time { .. } => "times",
         Datatype::Opaque { .. } => "opaque bytes",
         Datatype::Compound { .. } => "arrays of records within records",
         Datatype::Reference { .. } => "references",
-        Datatype::VariableLength { .. } => "lists of any length",
-        _ => "an unusual type",
+        Datatype::VariableLength { .. } => "lists of variable length",
+        _ => "an unsupported type",
     }
 }
 
 fn refused(what: &str) -> Problem {
     Problem::unsupported(
         what,
-        "write numbers of 8 to 64 bits, texts, records of them, or bytes of any length (`h5py.vlen_dtype(np.uint8)`)",
+        "write numbers of 8 to 64 bits, texts, records of them, or bytes of variable length (`h5py.vlen_dtype(np.uint8)`)",
     )
 }

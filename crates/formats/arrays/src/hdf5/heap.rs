@@ -80,7 +80,7 @@ impl GlobalHeap {
             let text = std::str::from_utf8(&bytes[..end]).map(str::to_owned);
             text.map_err(|_| {
                 Problem::unsupported(
-                    format!("element {place} of these rows is no text of Unicode"),
+                    format!("element {place} of these rows is not valid Unicode text"),
                     "write texts as UTF-8",
                 )
             })
@@ -99,7 +99,7 @@ impl GlobalHeap {
                 format!(
                     "no object {object} of {length} bytes in this collection of the global heap"
                 ),
-                "the value that an element refers to",
+                "the value of an element",
             )
         })
     }
@@ -117,7 +117,7 @@ impl GlobalHeap {
         if !header.starts_with(b"GCOL\x01") {
             return Err(Problem::damaged(
                 at,
-                "no collection of the global heap",
+                "not a collection of the global heap",
                 "`GCOL`, version 1",
             ));
         }

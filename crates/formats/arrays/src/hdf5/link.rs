@@ -59,7 +59,7 @@ fn problem(name: &str, kind: u8, value: &[u8]) -> Problem {
     match kind {
         SOFT => Problem::unsupported(
             format!("`{name}` is a soft link to `{}`", text(value)),
-            format!("ask for `{}` itself", text(value)),
+            format!("request `{}` directly", text(value)),
         ),
         _ => {
             let mut parts = value.get(1..).unwrap_or(&[]).split(|byte| *byte == 0);
@@ -70,7 +70,8 @@ fn problem(name: &str, kind: u8, value: &[u8]) -> Problem {
                     "`{name}` is a link to `{inside}` of another file, `{file}`, which is not followed"
                 ),
                 format!(
-                    "name that file, or copy the array into this one: `with h5py.File(path, 'a') as f: a = f['{name}'][()]; del f['{name}']; f['{name}'] = a`"
+                    "name that file, or copy the array into this file: `with h5py.File(path, 'a') as f: a = f['{name}'][()]; del \
+                     f['{name}']; f['{name}'] = a`"
                 ),
             )
         }

@@ -226,9 +226,9 @@ impl Found<'_> {
 fn leads_nowhere(path: &str, target: &str) -> Problem {
     let name = path.trim_start_matches('/');
     Problem::unsupported(
-        format!("the soft link `{path}` leads to `{target}`, which is not there"),
+        format!("the soft link `{path}` leads to `{target}`, which does not exist"),
         format!(
-            "remove it: `with h5py.File(path, 'a') as f: del f['{name}']`, or name what it should lead to"
+            "remove it: `with h5py.File(path, 'a') as f: del f['{name}']`, or give it an existing target"
         ),
     )
 }

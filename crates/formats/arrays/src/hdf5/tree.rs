@@ -58,7 +58,7 @@ impl Found {
         let count = (self.groups.len() + self.datasets.len() + self.refused.len()) as u64;
         if count > limits::ARRAYS {
             return Err(Problem::too_large(
-                "groups and datasets (links that lead back count again)",
+                "groups and datasets (links that point back count again)",
                 count,
                 limits::ARRAYS,
             ));

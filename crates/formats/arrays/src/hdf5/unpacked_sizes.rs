@@ -26,7 +26,7 @@ impl UnpackedSizes {
             true => Ok(()),
             false => Err(Problem::too_large(
                 format!(
-                    "bytes of its arrays once unpacked, {} times as many as the file has (write it with less compression, or in several files)",
+                    "bytes of its decompressed arrays, {} times the size of the file (write it with less compression, or in several files)",
                     all / stored.max(1)
                 ),
                 all,

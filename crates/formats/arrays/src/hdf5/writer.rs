@@ -96,8 +96,8 @@ impl Hdf5Writer {
         let is_taken = self.arrays.iter().any(|array| array.name == name);
         if name.is_empty() || name.len() > 255 || name.contains(['/', '\0']) || is_taken {
             return Err(unsupported(
-                "a name that an array cannot have here",
-                "write up to 255 bytes without `/`, each once",
+                "an invalid name of an array",
+                "use a unique name of up to 255 bytes without `/`",
             ));
         }
         let bytes = shape
@@ -106,7 +106,7 @@ impl Hdf5Writer {
                 bytes.checked_mul(*side)
             });
         let bytes =
-            bytes.ok_or_else(|| unsupported("a shape beyond 64 bits", "write fewer rows"))?;
+            bytes.ok_or_else(|| unsupported("a shape that exceeds 64 bits", "write fewer rows"))?;
         if attributes
             .iter()
             .any(|(key, text)| key.len() > 255 || text.len() > TEXT_BYTES)
@@ -245,7 +245,7 @@ impl Hdf5Writer {
             Problem::damaged(
                 0,
                 format!("{given} bytes given"),
-                format!("{whole}, as its shape and type say"),
+                format!("{whole} for its shape and type"),
             ),
         )
     }

@@ -56,7 +56,7 @@ pub(crate) fn matrix(source: &dyn ByteSource, place: Place) -> Result<Matrix, Pr
         .first_chunk::<8>()
         .map(|bytes| words(*bytes, big).0);
     let first =
-        first.ok_or_else(|| Problem::damaged(flags.data_at, "no flags of a matrix", "8 bytes"))?;
+        first.ok_or_else(|| Problem::damaged(flags.data_at, "no matrix flags", "8 bytes"))?;
     let lengths = tag(
         source,
         Place {
@@ -75,9 +75,8 @@ pub(crate) fn matrix(source: &dyn ByteSource, place: Place) -> Result<Matrix, Pr
         .iter()
         .map(|side| number(side, big))
         .collect::<Option<Vec<u64>>>();
-    let shape = shape.ok_or_else(|| {
-        Problem::damaged(lengths.data_at, "a length below zero", "lengths of axes")
-    })?;
+    let shape = shape
+        .ok_or_else(|| Problem::damaged(lengths.data_at, "a negative length", "lengths of axes"))?;
     let name = tag(
         source,
         Place {
@@ -90,7 +89,7 @@ pub(crate) fn matrix(source: &dyn ByteSource, place: Place) -> Result<Matrix, Pr
     {
         return Err(Problem::damaged(
             name.data_at,
-            "a name beyond its matrix",
+            "a name that exceeds its matrix",
             "it within",
         ));
     }

@@ -91,7 +91,7 @@ pub(crate) fn cells_of(shape: &[u64], cells: Vec<Variable>) -> Result<Variable, 
     {
         return Err(Problem::unsupported(
             "cells of different sizes or classes",
-            "save a matrix, or each cell as a variable of its own",
+            "save a matrix, or each cell as a separate variable",
         ));
     }
     if product(shape) != Some(cells.len() as u64) {

@@ -77,11 +77,7 @@ impl Found {
             .and_then(|width| usize::try_from(width).ok())
             .filter(|width| *width > 0);
         let width = width.ok_or_else(|| {
-            Problem::damaged(
-                matrix.content.at,
-                "no length of the names of fields",
-                "at least 1",
-            )
+            Problem::damaged(matrix.content.at, "no length of field names", "at least 1")
         })?;
         let names = tag(
             &**source,

@@ -81,7 +81,7 @@ impl Matlab73 {
                 refused.push((
                     name,
                     Problem::unsupported(
-                        "an empty variable, or one that is no matrix",
+                        "an empty variable, or a variable that is not a matrix",
                         "save a matrix",
                     ),
                 ));
@@ -123,7 +123,7 @@ impl Matlab73 {
             let reason = match reason {
                 Problem::Unsupported { found, .. } => Problem::unsupported(
                     format!("{found} (a cell or an object)"),
-                    "save matrices, or save by `save('x.mat', '-v7')`",
+                    "save matrices, or save with `save('x.mat', '-v7')`",
                 ),
                 other => other.again(),
             };
@@ -170,7 +170,7 @@ impl Store for Matlab73 {
 
 /// Text lines from codes of letters.
 fn lines(codes: ArrayValues, count: u64) -> Result<ArrayValues, Problem> {
-    let wrong = || Problem::unsupported("a text that is no Unicode", "save it as UTF-8");
+    let wrong = || Problem::unsupported("a text that is not Unicode", "save it as UTF-8");
     let ArrayValues::U16(codes) = codes else {
         return Err(wrong());
     };

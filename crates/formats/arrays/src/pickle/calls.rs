@@ -12,8 +12,8 @@ use crate::scalar::{Scalar, shown};
 fn unknown(at: u64, global: &str) -> Problem {
     Problem::damaged(
         at,
-        format!("a use of `{}` that is not known", shown(global)),
-        "one as NumPy writes it",
+        format!("an unknown use of `{}`", shown(global)),
+        "a use as written by NumPy",
     )
 }
 
@@ -29,8 +29,8 @@ pub(crate) fn call(
     else {
         return Err(Problem::damaged(
             at,
-            "a call of what is no known function",
-            "one of NumPy",
+            "a call of an unknown function",
+            "a function of NumPy",
         ));
     };
     let (global, arguments) = (*global, arguments.clone());
@@ -185,13 +185,17 @@ fn encode(machine: &mut Machine<'_>, text: Id, coding: Id, at: u64) -> Result<Va
         ));
     }
     let letters = String::from_utf8(machine.bytes(&letters)?);
-    let letters = letters.map_err(|_| Problem::damaged(at, "bytes that are no text", "UTF-8"))?;
+    let letters = letters.map_err(|_| Problem::damaged(at, "bytes that are not text", "UTF-8"))?;
     let bytes = letters
         .chars()
         .map(|letter| u8::try_from(u32::from(letter)).ok())
         .collect::<Option<Vec<u8>>>();
     let bytes = bytes.ok_or_else(|| {
-        Problem::damaged(at, "a letter beyond Latin-1", "bytes written as letters")
+        Problem::damaged(
+            at,
+            "a letter beyond Latin-1",
+            "bytes stored as Latin-1 letters",
+        )
     })?;
     Ok(Value::Bytes(Bytes::Held(Arc::new(bytes))))
 }

@@ -157,7 +157,7 @@ impl<'a> Values<'a> {
     fn look_at(&mut self, count: usize) -> Result<(), Problem> {
         self.left = self.left.checked_sub(count as u64).ok_or_else(|| {
             Problem::too_large(
-                "values of the pickle, those that are held several times counted each time",
+                "values of the pickle, with repeated references counted each time",
                 4 * limits::PICKLED_VALUES + 1,
                 4 * limits::PICKLED_VALUES,
             )
@@ -203,12 +203,12 @@ impl<'a> Values<'a> {
                     full,
                     Problem::unsupported(
                         format!(
-                            "`{}` is in {} of {} dictionaries",
+                            "`{}` is in only {} of {} dictionaries",
                             shown(&key),
                             values.len(),
                             rows.len()
                         ),
-                        "write it in each",
+                        "write it in every dictionary",
                     ),
                 ));
                 continue;
@@ -269,7 +269,7 @@ impl<'a> Values<'a> {
             if !is_alike {
                 return Err(Problem::unsupported(
                     "arrays of different shapes or types in one list",
-                    "write arrays of one shape, or each under a key of its own",
+                    "write arrays of one shape, or each under a separate key",
                 ));
             }
             let shape = [&[values.len() as u64], first.shape.as_slice()].concat();
@@ -281,7 +281,7 @@ impl<'a> Values<'a> {
         while let Some(length) = ids.first().and_then(|id| self.length(*id)) {
             if shape.len() == limits::AXES {
                 return Err(Problem::unsupported(
-                    "lists nested too deep",
+                    "lists that are nested too deeply",
                     "write an array",
                 ));
             }
@@ -327,7 +327,7 @@ impl<'a> Values<'a> {
                 Value::Bytes(_) => Element::Bytes,
                 _ => {
                     return Err(Problem::unsupported(
-                        "values that are neither numbers nor texts nor bytes",
+                        "values other than numbers, texts or bytes",
                         "write numbers, texts, bytes or arrays",
                     ));
                 }

@@ -87,7 +87,7 @@ impl<'a> Cursor<'a> {
             match self.byte()? {
                 b'\n' => {
                     return String::from_utf8(line)
-                        .map_err(|_| Problem::damaged(start, "bytes that are no text", "a name"));
+                        .map_err(|_| Problem::damaged(start, "bytes that are not text", "a name"));
                 }
                 _ if line.len() == most => {
                     return Err(Problem::damaged(start, "a long line", "a name"));

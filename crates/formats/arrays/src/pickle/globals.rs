@@ -37,7 +37,8 @@ pub(crate) fn known(module: &str, name: &str, at: u64) -> Result<&'static str, P
 fn mend(module: &str) -> &'static str {
     match module.split('.').next() {
         Some("pandas") => {
-            "write the table in Python: `pandas.read_pickle(path).to_csv('table.csv', index=False)`, or each of a list of tables to a file of its own"
+            "write the table in Python: `pandas.read_pickle(path).to_csv('table.csv', index=False)`, or each table of a list to a \
+             separate file"
         }
         Some("torch") => "write arrays in Python: `np.savez('run.npz', x=x.numpy())`",
         _ => "write plain values or arrays: `np.savez('run.npz', x=x)`",

@@ -39,7 +39,7 @@ pub(crate) fn run(source: &dyn ByteSource, at: u64) -> Result<(Vec<Value>, Id), 
     let mut cursor = Cursor::new(source, at);
     if cursor.byte()? != 0x80 {
         return Err(Problem::unsupported(
-            "no pickle of protocol 2 to 5",
+            "not a pickle of protocol 2 to 5",
             "write it with `pickle.dump(x, file, protocol=4)`",
         ));
     }
@@ -100,7 +100,7 @@ impl Machine<'_> {
             .filter(|height| *height <= self.stack.len());
         height
             .map(|height| self.stack.split_off(height))
-            .ok_or_else(|| wrong(at, "a group without its beginning"))
+            .ok_or_else(|| wrong(at, "a group without a beginning"))
     }
 
     /// Pops the last `count` values.
@@ -168,7 +168,7 @@ impl Machine<'_> {
         let count = self.memo.len() as u64;
         if count > limits::PICKLED_VALUES {
             return Err(Problem::too_large(
-                "remembered values of the pickle",
+                "memo entries of the pickle",
                 count,
                 limits::PICKLED_VALUES,
             ));
@@ -181,7 +181,7 @@ impl Machine<'_> {
             .memo
             .get(&key)
             .copied()
-            .ok_or_else(|| wrong(at, "a value that was never remembered"))?;
+            .ok_or_else(|| wrong(at, "a memo entry that was never stored"))?;
         self.again(id)
     }
 
@@ -211,7 +211,7 @@ impl Machine<'_> {
                 self.marks.push(self.stack.len());
                 if self.marks.len() > limits::PICKLE_DEPTH {
                     return Err(Problem::too_large(
-                        "groups within groups of the pickle",
+                        "nested groups of the pickle",
                         self.marks.len() as u64,
                         limits::PICKLE_DEPTH as u64,
                     ));
@@ -303,7 +303,7 @@ impl Machine<'_> {
                 "write a list",
             )),
             b'P' | b'Q' => Err(Problem::unsupported(
-                "a reference out of the pickle, as `torch.save` writes",
+                "a reference outside the pickle, as written by `torch.save`",
                 "write `np.savez('run.npz', x=x.numpy())`",
             )),
             other => Err(wrong(at, &format!("operation {other:#04x}"))),
@@ -336,7 +336,7 @@ impl Machine<'_> {
                 values.extend(more);
                 Ok(())
             }
-            _ => Err(wrong(at, "an element for what is no list")),
+            _ => Err(wrong(at, "an element for a value that is not a list")),
         }
     }
 
@@ -353,7 +353,7 @@ impl Machine<'_> {
                 );
                 Ok(())
             }
-            _ => Err(wrong(at, "an entry for what is no dictionary")),
+            _ => Err(wrong(at, "an entry for a value that is not a dictionary")),
         }
     }
 }

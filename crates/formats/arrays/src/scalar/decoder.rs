@@ -136,7 +136,7 @@ impl Scalar {
             let bytes = &raw[place * self.bytes..(place + 1) * self.bytes];
             read(bytes).ok_or_else(|| {
                 Problem::unsupported(
-                    format!("element {place} of these rows is no text of Unicode"),
+                    format!("element {place} of these rows is not valid Unicode text"),
                     "write texts as UTF-8",
                 )
             })

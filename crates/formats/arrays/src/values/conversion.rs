@@ -47,7 +47,7 @@ impl ArrayValues {
     /// The same numbers as elements of another type, which must hold them.
     pub(crate) fn converted(self, element: Element) -> Result<ArrayValues, Problem> {
         let wrong =
-            || Problem::unsupported(format!("numbers that are no {element}"), "save them anew");
+            || Problem::unsupported(format!("numbers that are not {element}"), "save them again");
         if self.element() == element {
             return Ok(self);
         }

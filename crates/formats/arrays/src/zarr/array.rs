@@ -80,7 +80,7 @@ impl ZarrArray {
             return Err(Problem::damaged(
                 0,
                 format!("shape {:?} in chunks of {:?}", self.shape, self.chunk),
-                "as many axes of each, chunks of at least 1",
+                "equal numbers of axes, and chunk lengths of at least 1",
             ));
         }
         if self.chunk_bytes().is_none() {
@@ -120,7 +120,7 @@ impl ZarrArray {
         if chunk.len() != bytes {
             return Err(Problem::damaged(
                 0,
-                format!("{} bytes once unpacked", chunk.len()),
+                format!("{} decompressed bytes", chunk.len()),
                 format!("{bytes}"),
             ));
         }

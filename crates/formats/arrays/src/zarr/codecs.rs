@@ -28,8 +28,8 @@ impl Codec {
             "lz4" => Ok(Codec::Lz4),
             "crc32c" => Ok(Codec::Crc32c),
             other => Err(Problem::unsupported(
-                format!("chunks packed by `{}`", shown(other)),
-                "write it with none, gzip, zlib, zstd, lz4 or blosc",
+                format!("chunks compressed by `{}`", shown(other)),
+                "write it without compression, or with gzip, zlib, zstd, lz4 or blosc",
             )),
         }
     }

@@ -93,8 +93,8 @@ impl Tree {
                 match is_other {
                     true => Err(Problem::damaged(
                         member.at,
-                        format!("other bytes of `{}`", shown(&path)),
-                        "those of its checksum",
+                        format!("changed bytes of `{}`", shown(&path)),
+                        "the bytes of its checksum",
                     )),
                     false => Ok(Some(bytes)),
                 }

@@ -29,7 +29,7 @@ pub(crate) fn array(metadata: &Value) -> Result<ZarrArray, Problem> {
     )?;
     let (mut codecs, mut is_big_endian) = (Vec::new(), false);
     let listed = metadata["codecs"].as_array();
-    for codec in listed.ok_or_else(|| Problem::damaged(0, "no `codecs`", "a list of them"))? {
+    for codec in listed.ok_or_else(|| Problem::damaged(0, "no `codecs`", "a list of codecs"))? {
         let configuration = &codec["configuration"];
         match codec["name"].as_str().unwrap_or("?") {
             "bytes" => is_big_endian = configuration["endian"] == "big",
@@ -49,7 +49,7 @@ pub(crate) fn array(metadata: &Value) -> Result<ZarrArray, Problem> {
                     Problem::damaged(
                         0,
                         format!("`order`: {}", configuration["order"]),
-                        "each axis once",
+                        "every axis once",
                     )
                 })?));
             }
@@ -70,7 +70,7 @@ pub(crate) fn array(metadata: &Value) -> Result<ZarrArray, Problem> {
         Some("v2") => ("", separator.unwrap_or(".")),
         _ => {
             return Err(Problem::unsupported(
-                format!("chunks named by {}", encoding["name"]),
+                format!("chunk names by {}", encoding["name"]),
                 "write it with the default names",
             ));
         }

@@ -97,7 +97,7 @@ fn what_cannot_be_written_is_refused_and_what_is_not_whole_is_no_file() {
     assert!(
         huge.expect_err("beyond")
             .to_string()
-            .contains("beyond 64 bits")
+            .contains("exceeds 64 bits")
     );
     writer
         .begin("a", WrittenElement::U8, &[2], &[])

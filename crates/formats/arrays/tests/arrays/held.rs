@@ -148,7 +148,7 @@ fn a_chunk_whose_key_lies_off_the_grid_is_named() {
     let node = node.expect("an index");
     let (_folder, path) = file("run.h5", &whole);
     // A key is the size of its chunk, a mask of filters, and the offsets; the first of them is that of the rows.
-    for (offset, word) in [(1_u64, "off the grid"), (1 << 40, "outside the extent")] {
+    for (offset, word) in [(1_u64, "not on the grid"), (1 << 40, "outside the extent")] {
         let mut bytes = whole.clone();
         let key = node + 24 + 8;
         let own = u64::from_le_bytes(bytes[key..key + 8].try_into().expect("eight"));
@@ -172,10 +172,7 @@ fn a_small_file_of_hdf5_that_becomes_large_is_refused_before_anything_is_unpacke
         let (_folder, path) = file("run.h5", &inflated.expect("deflated"));
         let file = ArrayFile::open(&path, ArrayFormat::Hdf5).expect("opens");
         let problem = file.read("/frames", 0..1).expect_err(name).to_string();
-        assert!(
-            problem.contains("times as many as the file has"),
-            "{problem}"
-        );
+        assert!(problem.contains("times the size of the file"), "{problem}");
         assert!(file.read("/Fz", 0..10).is_ok(), "{name}");
     }
 }
@@ -202,6 +199,6 @@ fn a_small_store_of_zarr_that_becomes_large_is_refused() {
         let file = ArrayFile::open(&folder.path().join("run.zarr"), ArrayFormat::Zarr);
         let file = file.expect("opens");
         let problem = file.read("/frames", 0..1).expect_err(chunk).to_string();
-        assert!(problem.contains("once unpacked"), "{problem}");
+        assert!(problem.contains("decompressed"), "{problem}");
     }
 }

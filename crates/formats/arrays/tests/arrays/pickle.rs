@@ -66,7 +66,7 @@ fn lists_that_are_no_column_say_why() {
     for (name, expected) in [
         ("ragged", "different lengths"),
         ("mixed", "different kinds"),
-        ("set", "neither numbers nor texts"),
+        ("set", "other than numbers, texts"),
     ] {
         let message = file.read(name, 0..1).expect_err(name).to_string();
         assert!(message.contains(expected), "{message}");
@@ -89,7 +89,7 @@ fn deep_wide_and_shared_pickles_end_soon() {
             .0
             .expect_err("groups")
             .to_string()
-            .contains("groups within groups")
+            .contains("nested groups")
     );
     let wide = [&b"\x80\x04"[..], &vec![b'N'; 8_000_000]].concat();
     assert!(
@@ -181,7 +181,7 @@ fn an_object_array_goes_through_the_same_machine() {
         "{message}"
     );
     assert!(
-        message.contains("each of a list of tables to a file of its own"),
+        message.contains("each table of a list to a separate file"),
         "{message}"
     );
     let evil = open(b"\x80\x02cposix\nsystem\nX\x04\0\0\0true\x85R.").expect_err("a program");

@@ -177,7 +177,7 @@ fn a_zip_bomb_is_refused_before_it_is_inflated() {
     fs::write(&path, archive_of_zeros(1 << 50, &[0; 1_000])).expect("written");
     let message = refused(&path).to_string();
     assert!(
-        message.contains("said to become 1125899906842624"),
+        message.contains("claims to inflate to 1125899906842624"),
         "{message}"
     );
 }
@@ -194,7 +194,7 @@ fn encrypted_and_otherwise_packed_members_are_refused_by_name() {
     // Flags stand 8 bytes behind the beginning of an entry, the method 10.
     for (at, value, expected) in [
         (8, 1, "`obj.npy` is encrypted"),
-        (10, 12, "`obj.npy` is packed by method 12"),
+        (10, 12, "`obj.npy` is compressed by method 12"),
     ] {
         let mut changed = whole.clone();
         changed[entry + at] = value;
@@ -227,13 +227,13 @@ fn an_array_of_numpy_that_is_longer_or_shorter_than_its_header_says_is_refused()
     fs::write(&path, &bytes[..bytes.len() - 1]).expect("written");
     let message = refused(&path).to_string();
     assert!(
-        message.contains("byte 1279: the end, expected it at byte 1280"),
+        message.contains("byte 1279: the end, expected the end at byte 1280"),
         "{message}"
     );
     fs::write(&path, [bytes.as_slice(), b"x"].concat()).expect("written");
     assert!(
         refused(&path)
             .to_string()
-            .contains("expected it at byte 1280")
+            .contains("expected the end at byte 1280")
     );
 }

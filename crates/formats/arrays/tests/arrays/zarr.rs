@@ -191,7 +191,7 @@ fn a_shape_that_would_fill_a_memory_is_refused() {
     assert!(write("[4,4]", "[4000000000,4000000000]").contains("bytes of one chunk"));
     assert!(write("[4,1000000]", "[1,1]").contains("chunks of these rows"));
     assert!(write("[4,4]", "[0,4]").contains("at least 1"));
-    assert!(write("[4,4]", "[4]").contains("as many axes"));
+    assert!(write("[4,4]", "[4]").contains("equal numbers of axes"));
     assert!(write("[4,-4]", "[4,4]").contains("list of lengths"));
 }
 

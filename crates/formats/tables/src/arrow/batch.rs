@@ -33,7 +33,7 @@ impl Message {
     ) -> Result<Option<Message>, TableError> {
         let begin = *at;
         if begin >= source.length() {
-            let problem = "a stream of Arrow without the mark of its end: it was cut short, or its writer was not closed";
+            let problem = "an Arrow stream without an end marker: it is cut short, or its writer was not closed";
             return Err(source.damaged(Place::byte(begin), problem));
         }
         let mut word = |at: u64| {
@@ -54,14 +54,14 @@ impl Message {
             Some((message.byte(1)?, u64::try_from(bytes).ok()?))
         });
         let Some((kind, body_bytes)) = read else {
-            let problem = "no message of Arrow";
+            let problem = "not an Arrow message";
             return Err(source.damaged(Place::byte(begin), problem));
         };
         let body = start + length;
         let end = body.checked_add(body_bytes);
         let Some(end) = end.filter(|end| *end <= source.length()) else {
             let problem = format!(
-                "a batch of {body_bytes} bytes, the file ends {} bytes behind its beginning",
+                "a batch of {body_bytes} bytes, but the file ends {} bytes after its beginning",
                 source.length() - body
             );
             return Err(source.damaged(Place::byte(begin), problem));
@@ -124,7 +124,7 @@ impl Batch {
         let written = written.collect::<Result<Vec<Buffer>, String>>()?;
         if written.len() != buffers {
             return Err(format!(
-                "{} buffers, its schema asks for {buffers}",
+                "{} buffers, but its schema needs {buffers}",
                 written.len()
             ));
         }

@@ -60,7 +60,8 @@ pub(super) enum Number {
 /// Units of times, by their code in the schema.
 const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
 /// Remedy for an unsupported type.
-const REMEDY: &str = "write Parquet: `ds.to_parquet(\"table.parquet\")` of datasets, `pyarrow.parquet.write_table(table, \"table.parquet\")`";
+const REMEDY: &str = "write Parquet: `ds.to_parquet(\"table.parquet\")` of datasets, `pyarrow.parquet.write_table(table, \
+    \"table.parquet\")`";
 
 /// The schema in the header of a message; the error names the unsupported part, with the remedy.
 pub(super) fn schema(header: Table<'_>) -> Result<Schema, String> {
@@ -109,7 +110,7 @@ impl Made {
             return Ok(Vec::new());
         };
         let fields = (0..children.length()).map(|at| {
-            let child = children.at(at).ok_or("a field that is not there")?;
+            let child = children.at(at).ok_or("a missing field")?;
             self.field(child, depth)
         });
         fields.collect()
@@ -127,7 +128,7 @@ impl Made {
         }
         if field.table(4).is_some() {
             return Err(format!(
-                "the column `{name}` is a dictionary (of categories), which is not read: {REMEDY}"
+                "the column `{name}` is a dictionary (of categories), which is not supported: {REMEDY}"
             ));
         }
         let buffer = self.buffers;
@@ -193,7 +194,7 @@ impl Made {
             13 => (Flat::Struct, 1),
             15 => match usize::try_from(integer(0, 0)) {
                 Ok(width @ 1..) => (Flat::Leaf(FieldKind::Fixed(width, Number::Opaque)), 2),
-                _ => return Err(format!("the column `{name}` has bytes of no length")),
+                _ => return Err(format!("the column `{name}` has bytes without a length")),
             },
             16 => (
                 Flat::FixedList(u64::try_from(integer(0, 0)).unwrap_or(0)),
@@ -208,10 +209,11 @@ impl Made {
                     14 => "a union of types",
                     22 => "run-length encoded cells",
                     23 | 24 => {
-                        "views of texts or bytes, as polars writes them (`df.write_ipc(path, compat_level=pl.CompatLevel.oldest())` writes none)"
+                        "views of texts or bytes, as polars writes them (avoid them with `df.write_ipc(path, \
+                         compat_level=pl.CompatLevel.oldest())`)"
                     }
                     25 | 26 => "views of lists",
-                    _ => "a type that is newer than this program",
+                    _ => "a type newer than this program",
                 };
                 return Err(format!(
                     "the column `{name}` holds {kind}, which is not read: {REMEDY}"

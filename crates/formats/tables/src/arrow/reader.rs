@@ -90,7 +90,7 @@ impl<'t> Reader<'t> {
                         (true, false) => Cell::Bytes(own.to_vec()),
                         (true, true) => match std::str::from_utf8(own) {
                             Ok(text) => Cell::Text(text.to_owned()),
-                            Err(_) => return Err(self.damaged("a text that is no UTF-8")),
+                            Err(_) => return Err(self.damaged("a text that is not UTF-8")),
                         },
                     });
                 }
@@ -148,7 +148,7 @@ impl<'t> Reader<'t> {
             }
             None => {
                 let problem = format!(
-                    "more than {} bytes in memory; ask for a part, as `{}[0]`, or save fewer rows a file",
+                    "more than {} bytes in memory; read a part, such as `{}[0]`, or save fewer rows per file",
                     limits::COLUMN_BYTES,
                     self.name
                 );
@@ -170,7 +170,7 @@ impl<'t> Reader<'t> {
         // A negative offset is beyond any buffer.
         match offsets.windows(2).all(|pair| pair[0] <= pair[1]) {
             true => Ok(offsets),
-            false => Err(self.damaged("offsets that go back")),
+            false => Err(self.damaged("decreasing offsets")),
         }
     }
 
@@ -239,7 +239,7 @@ impl<'t> Reader<'t> {
 
     fn short(&self, begin: u64, count: u64, there: u64) -> TableError {
         self.damaged(format!(
-            "{count} bytes from byte {begin} of a buffer that has {there}"
+            "{count} bytes from byte {begin} of a buffer of {there} bytes"
         ))
     }
 
@@ -261,7 +261,7 @@ fn unpacked(codec: codec::Codec, packed: &[u8]) -> Result<Vec<u8>, String> {
             let size = size.filter(|size| *size as u64 <= limits::PAGE_BYTES);
             let size = size.ok_or_else(|| {
                 format!(
-                    "a buffer of {length} bytes, at most {} are unpacked at once",
+                    "a buffer of {length} bytes, at most {} are decompressed at once",
                     limits::PAGE_BYTES
                 )
             })?;

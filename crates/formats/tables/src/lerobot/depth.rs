@@ -99,8 +99,8 @@ pub(super) fn codes(feature: &Value) -> Result<DepthCodes, String> {
         }
         _ => None,
     };
-    let remedy = "write them under `info` of the feature in meta/info.json, as the recorder had them (m; lerobot: 0.01, 10.0, 3.5, true), or write \
-                  the distances as a feature of numbers";
+    let remedy = "write the recorder's values under `info` of the feature in meta/info.json (m; lerobot: 0.01, 10.0, 3.5, true), or write \
+        the distances as a feature of numbers";
     let Some((least, greatest, shift, is_logarithmic)) = stated else {
         let known = PARAMETERS.iter().zip(numbers);
         let mut missing: Vec<&str> = known
@@ -108,13 +108,13 @@ pub(super) fn codes(feature: &Value) -> Result<DepthCodes, String> {
             .collect();
         missing.extend(is_logarithmic.is_none().then_some(LOGARITHMIC));
         return Err(format!(
-            "a depth map whose codes nobody can turn into millimetres without `{}`: {remedy}",
+            "a depth map whose codes cannot be converted to millimetres without `{}`: {remedy}",
             missing.join("`, `")
         ));
     };
     DepthCodes::new([least, greatest], shift, is_logarithmic).ok_or_else(|| {
         format!(
-            "a depth map from {least} m to {greatest} m with a shift of {shift} m, which is no range of distances: {remedy}"
+            "a depth map from {least} m to {greatest} m with a shift of {shift} m, which is not a valid range of distances: {remedy}"
         )
     })
 }

@@ -24,7 +24,7 @@ pub(super) fn inside(folder: &Path, path: &Path) -> Result<PathBuf, TableError> 
         false => Err(TableError::Unsupported {
             path: whole,
             place: Place::default(),
-            problem: "a link leads out of the folder; copy the folder with what its links lead to (`cp -rL`)".to_owned(),
+            problem: "a link leads out of the folder; copy the folder with the targets of its links (`cp -rL`)".to_owned(),
         }),
     }
 }
@@ -42,7 +42,7 @@ pub(super) fn json_file(folder: &Path, name: &str) -> Result<(Source, Value), Ta
     let (source, bytes) = description(folder, name)?;
     let json = serde_json::from_slice(&bytes);
     let json =
-        json.map_err(|error| source.damaged(Place::default(), format!("no JSON: {error}")))?;
+        json.map_err(|error| source.damaged(Place::default(), format!("not JSON: {error}")))?;
     Ok((source, json))
 }
 
@@ -58,7 +58,7 @@ pub(super) fn json_lines(
         if !line.trim_ascii().is_empty() {
             let value = serde_json::from_slice(line);
             let value = value
-                .map_err(|error| source.damaged(Place::byte(at), format!("no JSON: {error}")))?;
+                .map_err(|error| source.damaged(Place::byte(at), format!("not JSON: {error}")))?;
             lines.push((at, value));
         }
         at += line.len() as u64;

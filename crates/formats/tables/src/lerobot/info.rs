@@ -60,7 +60,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
         "v3.0" => Layout::V30,
         other => {
             let problem = format!(
-                "version `{}`, expected v2.1 or v3.0; the scripts under `lerobot/datasets` convert older ones",
+                "version `{}`, expected v2.1 or v3.0; convert older versions with the scripts under `lerobot/datasets`",
                 shown(other)
             );
             return Err(source.unsupported(Place::of("codebase_version"), problem));
@@ -76,7 +76,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
         None | Some(Value::Null) => None,
         Some(stated) => {
             let fps = stated.as_f64().filter(|fps| is_rate(*fps));
-            Some(fps.ok_or_else(|| wrong("fps", "expected frames a second".to_owned()))?)
+            Some(fps.ok_or_else(|| wrong("fps", "expected frames per second".to_owned()))?)
         }
     };
     let listed = json.get("features").and_then(Value::as_object);
@@ -92,7 +92,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
             .find_map(|key| feature.get(*key)?.get("video.fps")?.as_f64());
         let own = own.filter(|fps| is_rate(*fps)).or(fps);
         if own.is_none() && dtype == "video" {
-            return Err(wrong("fps", "expected frames a second".to_owned()));
+            return Err(wrong("fps", "expected frames per second".to_owned()));
         }
         let is_depth = ["info", "video_info"].iter().any(|key| {
             let info = feature.get(*key);

@@ -32,7 +32,12 @@ pub(super) enum Value<'a> {
 impl Pattern {
     /// Parses `text`; the error is a message if it is no pattern of relative paths.
     pub(super) fn parse(text: &str) -> Result<Pattern, String> {
-        let wrong = || format!("`{}` is no pattern of paths inside the folder", shown(text));
+        let wrong = || {
+            format!(
+                "`{}` is not a pattern of paths inside the folder",
+                shown(text)
+            )
+        };
         let mut parts = Vec::new();
         let mut rest = text;
         while let Some((before, after)) = rest.split_once('{') {
@@ -75,9 +80,7 @@ impl Pattern {
                 Part::Value { name, digits } => {
                     let value = values.iter().find(|(known, _)| known == name);
                     match value
-                        .ok_or_else(|| {
-                            format!("`{}` in a pattern of paths is not known", shown(name))
-                        })?
+                        .ok_or_else(|| format!("unknown `{}` in a pattern of paths", shown(name)))?
                         .1
                     {
                         Value::Number(number) => path.push_str(&format!("{number:0digits$}")),
@@ -210,7 +213,7 @@ mod tests {
             "",
         ] {
             let problem = fill(text).expect_err(text);
-            assert!(problem.contains("is no pattern of paths"), "{problem}");
+            assert!(problem.contains("is not a pattern of paths"), "{problem}");
         }
         assert!(fill("{total}").expect_err("unknown").contains("`total`"));
         let key = Pattern::parse("videos/{video_key}/x.mp4").expect("a pattern");

@@ -57,7 +57,8 @@ pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
             && *length != take.rows
         {
             let problem = format!(
-                "episode {episode} has {} rows, and its description says {length}: its pictures cannot be told apart, number the takes anew or correct `length`",
+                "episode {episode} has {} rows, but its description states {length}: its pictures cannot be assigned; renumber the takes \
+                 or correct `length`",
                 take.rows
             );
             return Err(Source::new(described)?.damaged(Place::of("length"), problem));
@@ -67,7 +68,8 @@ pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
         None => Ok(()),
         Some((episode, row)) => {
             let problem = format!(
-                "row {row}: `timestamp` does not rise within episode {episode}, so that it holds two takes or a frame twice: number the takes anew"
+                "row {row}: `timestamp` does not increase within episode {episode}, so it holds two takes or one frame twice: renumber \
+                 the takes"
             );
             Err(dataset.source.damaged(Place::of("episode_index"), problem))
         }

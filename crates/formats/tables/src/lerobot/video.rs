@@ -108,7 +108,7 @@ impl Files<'_> {
             Cell::Integer(episode) => u64::try_from(*episode).ok(),
             _ => None,
         };
-        let episode = episode.ok_or("no number of an episode")?;
+        let episode = episode.ok_or("no episode number")?;
         let Cell::Number(timestamp) = timestamp else {
             return Err("no time stamp".to_owned());
         };
@@ -118,7 +118,7 @@ impl Files<'_> {
         };
         let frame = frame_at((from + timestamp) * fps);
         let frame = frame.ok_or_else(|| {
-            format!("{timestamp} s after {from} s is at no frame of {fps} a second")
+            format!("{timestamp} s after {from} s matches no frame at {fps} frames per second")
         })?;
         Ok((file, frame))
     }
@@ -128,7 +128,7 @@ impl Files<'_> {
             None => None,
             Some(clips) => match clips.get(&episode) {
                 Some(clip) => Some(*clip),
-                None => return Err(format!("episode {episode} is not described")),
+                None => return Err(format!("episode {episode} has no description")),
             },
         };
         let path = self.pattern.fill(&[

@@ -118,13 +118,13 @@ impl LeRobotWriter {
             if name == "task" || OWN.iter().any(|(own, ..)| *own == name) {
                 return Err(refused(
                     name,
-                    "a column of LeRobot itself; call it otherwise",
+                    "a reserved column of LeRobot; use another name",
                 ));
             }
             if name.contains('/') {
                 return Err(refused(
                     name,
-                    "a `/` in the name of a feature, which LeRobot takes for a level; write `.`",
+                    "a `/` in the name of a feature, which LeRobot reads as a level; write `.`",
                 ));
             }
         }

@@ -99,14 +99,14 @@ impl<'a> Chunks<'a> {
         let packed = fields.get(begin..).unwrap_or_default();
         if packed.len() as u64 != head.packed {
             return Err(damaged(format!(
-                "{} bytes, its header announces {}",
+                "{} bytes, but its header announces {}",
                 packed.len(),
                 head.packed
             )));
         }
         if head.unpacked > limits::PAGE_BYTES {
             let problem = format!(
-                "{} bytes unpacked, at most {} are accepted",
+                "{} decompressed bytes, at most {} are accepted",
                 head.unpacked,
                 limits::PAGE_BYTES
             );
@@ -136,7 +136,7 @@ impl<'a> Chunks<'a> {
         match head.crc == 0 || head.crc == formed {
             true => Ok(bytes),
             false => Err(damaged(format!(
-                "its checksum is {formed:08x} instead of {:08x}: it was changed after it was written",
+                "its checksum is {formed:08x}, expected {:08x}: it was changed after it was written",
                 head.crc
             ))),
         }

@@ -41,7 +41,7 @@ pub(super) fn read(source: &Source) -> Result<Contents, TableError> {
     };
     let place = Place::byte(footer_at).in_name("footer");
     if data_end > footer_at || data_end < MAGIC.len() as u64 {
-        let problem = format!("the summary is said to begin at byte {data_end}");
+        let problem = format!("the summary cannot begin at byte {data_end}");
         return Err(source.damaged(place, problem));
     }
     check_data(source, &mut chunks, data_end)?;
@@ -59,20 +59,20 @@ fn check_ends(source: &Source) -> Result<u64, TableError> {
     let mut file = source.open()?;
     let least = 2 * MAGIC.len() as u64 + FOOTER;
     if source.length() < least {
-        let problem = format!("{} bytes are no MCAP file", source.length());
+        let problem = format!("{} bytes are too few for an MCAP file", source.length());
         return Err(source.damaged(Place::default(), problem));
     }
     let first = source.bytes(&mut file, 0, 8, 8)?;
     if first != MAGIC {
         return Err(source.damaged(
             Place::byte(0),
-            "no MCAP file: it does not begin with its mark",
+            "not an MCAP file: it does not begin with its magic bytes",
         ));
     }
     let end = source.length() - MAGIC.len() as u64;
     if source.bytes(&mut file, end, 8, 8)? != MAGIC {
-        let problem = "cut short: it does not end with the mark of MCAP, as a recording that was not closed; \
-                       `mcap recover` writes a file of what is whole";
+        let problem = "cut short or not closed: it does not end with the magic bytes of MCAP; recover the complete messages with `mcap \
+            recover`";
         return Err(source.damaged(Place::byte(end), problem));
     }
     Ok(end - FOOTER)
@@ -84,7 +84,7 @@ fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result
         return Ok(());
     };
     let Ok((code::DATA_END, 4)) = chunks.head(at) else {
-        let problem = "the record that ends the data is not where the footer leads to";
+        let problem = "the record that ends the data is not at the position in the footer";
         return Err(source.damaged(Place::byte(at), problem));
     };
     let fields = chunks.fields(at, code::DATA_END, 4)?;
@@ -105,7 +105,7 @@ fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result
         true => Ok(()),
         false => {
             let problem = format!(
-                "the checksum of the data is {formed:08x} instead of {crc:08x}: it was changed after it was written"
+                "the checksum of the data is {formed:08x}, expected {crc:08x}: it was changed after it was written"
             );
             Err(source.damaged(Place::byte(at), problem))
         }
@@ -126,7 +126,7 @@ fn summary(
     let formed = crc32fast::hash(&all);
     if crc != 0 && crc != formed {
         let problem = format!(
-            "the checksum of the summary is {formed:08x} instead of {crc:08x}: it was changed after it was written"
+            "the checksum of the summary is {formed:08x}, expected {crc:08x}: it was changed after it was written"
         );
         return Err(source.damaged(Place::byte(begin), problem));
     }
@@ -139,7 +139,7 @@ fn summary(
         let read = match record::next(&mut bytes) {
             Some((code::CHUNK_INDEX, fields)) => match record::chunk_index(fields) {
                 Some(index) if index.end().is_none_or(|end| end > begin) => {
-                    Err("a chunk that does not lie before the summary")
+                    Err("a chunk that is not before the summary")
                 }
                 Some(index) => {
                     contents.chunks.push(index);

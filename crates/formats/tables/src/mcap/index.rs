@@ -31,7 +31,7 @@ pub(super) fn index(
         entries = gather(source, &walked, channels)?;
         if entries.len() as u64 != count(contents) {
             let problem = format!(
-                "{} messages, the statistics state {}",
+                "{} messages, but the statistics state {}",
                 entries.len(),
                 count(contents)
             );
@@ -75,7 +75,7 @@ fn gather(
             let (of, places) =
                 record::message_index(&fields).ok_or_else(|| damaged("it is cut short"))?;
             if of != *channel {
-                return Err(damaged("it is that of another channel"));
+                return Err(damaged("it belongs to another channel"));
             }
             for (log_time, place) in places {
                 add(Entry {

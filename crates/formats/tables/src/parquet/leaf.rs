@@ -53,7 +53,7 @@ impl Leaf {
     ) -> Result<Leaf, TableError> {
         let Some(chunk) = group.columns().get(column) else {
             let problem = format!(
-                "a group of rows has {} columns, no {column}",
+                "a row group has {} columns, but no column {column}",
                 group.num_columns()
             );
             return Err(source.damaged(Place::default(), problem));
@@ -177,7 +177,7 @@ impl Leaf {
     /// The next entry: null if its definition level is not the highest.
     pub(super) fn take(&mut self) -> Result<Cell, TableError> {
         let Some((definition, _)) = self.peek() else {
-            return Err(self.damaged("it has fewer entries than the columns beside it"));
+            return Err(self.damaged("it has fewer entries than the other columns"));
         };
         self.at += 1;
         if definition < self.max_definition {
@@ -226,7 +226,7 @@ impl Leaf {
         Ok(match self.form {
             LeafForm::Text => match std::str::from_utf8(bytes) {
                 Ok(text) => Cell::Text(text.to_owned()),
-                Err(_) => return Err(self.damaged("a text that is no UTF-8")),
+                Err(_) => return Err(self.damaged("a text that is not UTF-8")),
             },
             LeafForm::Decimal { scale } => match bytes.len() {
                 0 => Cell::Null,
@@ -245,7 +245,7 @@ impl Leaf {
             },
             LeafForm::Half => match bytes {
                 [low, high] => Cell::Number(half(u16::from_le_bytes([*low, *high]))),
-                _ => return Err(self.damaged("a number of half precision that has not two bytes")),
+                _ => return Err(self.damaged("a half-precision number without two bytes")),
             },
             _ => Cell::Bytes(bytes.to_vec()),
         })

@@ -153,7 +153,7 @@ impl<R: BufRead> Thrift<'_, R> {
 
     fn skip(&mut self, form: Form, depth: usize) -> Result<(), String> {
         if depth > limits::DEPTH {
-            return Err("a page header that nests too deep".to_owned());
+            return Err("a page header that nests too deeply".to_owned());
         }
         match form {
             Form::True | Form::False => Ok(()),

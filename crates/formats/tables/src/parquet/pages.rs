@@ -49,7 +49,7 @@ impl Pages {
     ) -> Result<Pages, TableError> {
         let place = Place::of(name);
         if chunk.file_path().is_some() {
-            let problem = "the column lies in another file, which is not followed";
+            let problem = "the column is in another file, which is not opened";
             return Err(source.unsupported(place, problem));
         }
         let codec = match chunk.compression_codec().into() {
@@ -62,7 +62,7 @@ impl Pages {
             Compression::ZSTD(_) => Codec::Zstd,
             other => {
                 let problem = format!(
-                    "compressed by {other}, which is not read; write it with snappy or zstd"
+                    "compressed by {other}, which is not supported; write it with snappy or zstd"
                 );
                 return Err(source.unsupported(place, problem));
             }
@@ -83,7 +83,7 @@ impl Pages {
             .and_then(|(at, size)| Some((at, at.checked_add(size)?)));
         let Some((at, end)) = range.filter(|(_, end)| *end <= source.length()) else {
             let problem = format!(
-                "its pages are said to begin at byte {} and to take {}, in a file of {}",
+                "its pages should begin at byte {} and take {} bytes, but the file has {}",
                 chunk.data_page_offset(),
                 chunk.compressed_size(),
                 source.length()
@@ -178,7 +178,7 @@ impl Pages {
             None => Ok(()),
             Some(crc) => {
                 let problem = format!(
-                    "the checksum of the page is {formed:08x} instead of {crc:08x}: it was changed after it was written"
+                    "the checksum of the page is {formed:08x}, expected {crc:08x}: it was changed after it was written"
                 );
                 Err(self.damaged(begin, problem))
             }
@@ -204,7 +204,7 @@ impl Pages {
         let limit = limits::PAGE_BYTES;
         if u64::from(header.packed.max(header.unpacked)) > limit {
             let problem = format!(
-                "a page of {} bytes, {} unpacked; at most {limit} are accepted: write it with fewer rows a group",
+                "a page of {} bytes, {} decompressed; at most {limit} are accepted: write it with fewer rows per group",
                 header.packed, header.unpacked
             );
             return Err(self
@@ -244,7 +244,7 @@ impl Pages {
             return match packed.len() == size {
                 true => Ok(packed),
                 false => Err(format!(
-                    "{} bytes that are not packed, instead of {size}",
+                    "{} uncompressed bytes, expected {size}",
                     packed.len()
                 )),
             };
@@ -288,7 +288,7 @@ impl Pages {
             Encoding::RLE_DICTIONARY | Encoding::PLAIN_DICTIONARY
         );
         if is_of_dictionary && !self.is_dictionary_read {
-            return Err("values of a dictionary that the chunk does not have".to_owned());
+            return Err("dictionary values in a chunk without a dictionary".to_owned());
         }
         let values = u64::from(num_values);
         let handed = self.handed.fetch_add(values, Ordering::Relaxed);

@@ -59,7 +59,7 @@ pub(crate) fn columns(schema: &SchemaDescriptor) -> Result<Vec<Node>, String> {
     match leaves == schema.num_columns() {
         true => Ok(nodes),
         false => Err(format!(
-            "{leaves} leaves in the schema, {} columns",
+            "{leaves} leaves in the schema, but {} columns",
             schema.num_columns()
         )),
     }

@@ -196,9 +196,7 @@ fn body(codec: Codec, file: BufReader<File>, packed: u32, unpacked: u32) -> Resu
     if codec == Codec::Plain {
         return match packed == unpacked {
             true => Ok(Body::File(file)),
-            false => Err(format!(
-                "{packed} bytes that are not packed, instead of {unpacked}"
-            )),
+            false => Err(format!("{packed} uncompressed bytes, expected {unpacked}")),
         };
     }
     Ok(Body::Unpacked(codec::stream(
@@ -284,7 +282,7 @@ impl Open {
         let left = self.bytes.checked_sub(length.into());
         self.bytes = left.ok_or_else(|| {
             format!(
-                "a cell of {length} bytes, {} are left in the page",
+                "a cell of {length} bytes, but the page has only {} left",
                 self.bytes
             )
         })?;

@@ -23,7 +23,7 @@ impl ValueSize {
     /// Checks that a dictionary of `values` values fits its bytes, because memory is allocated for the announced number.
     pub(super) fn check_dictionary(self, values: u32, bytes: usize) -> Result<(), String> {
         match self.0 {
-            1 => Err("a dictionary of truth values".to_owned()),
+            1 => Err("a dictionary of booleans".to_owned()),
             bits => ValueSize(bits.max(8)).check_plain(values, bytes),
         }
     }

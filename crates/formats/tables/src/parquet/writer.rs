@@ -69,7 +69,7 @@ impl ParquetWriter {
                 return Err(mismatch(
                     path,
                     &column.name,
-                    "a name of two columns".to_owned(),
+                    "two columns have this name".to_owned(),
                 ));
             }
         }

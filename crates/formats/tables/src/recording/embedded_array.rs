@@ -29,7 +29,7 @@ pub(super) fn cell(members: &Map<String, Value>) -> Result<Option<Cell>, String>
     };
     let bytes = STANDARD
         .decode(bytes)
-        .map_err(|error| format!("an array whose bytes are no base64: {error}"))?;
+        .map_err(|error| format!("an array whose bytes are not base64: {error}"))?;
     if bytes.len() as u64 != count * width as u64 {
         return Err(format!(
             "an array of {} bytes, expected {count} numbers `{kind}` of {width} bytes",

@@ -12,7 +12,7 @@ pub(super) fn cell(message: &[u8]) -> Result<Cell, String> {
         return Err(format!("{} bytes of JSON", message.len()));
     }
     let value = serde_json::from_slice(message);
-    of_value(value.map_err(|error| format!("no JSON: {error}"))?)
+    of_value(value.map_err(|error| format!("not JSON: {error}"))?)
 }
 
 fn of_value(value: Value) -> Result<Cell, String> {

@@ -59,7 +59,7 @@ impl Language {
     /// A reader of the pictures in the field called `name`; the error is a message if it has none.
     pub(super) fn pictures<'a>(&'a self, name: &str) -> Result<PictureReader<'a>, String> {
         match self {
-            Language::Json => Err("messages of JSON hold no pictures that are read".to_owned()),
+            Language::Json => Err("pictures in JSON messages are not supported".to_owned()),
             Language::Protobuf(schema) => {
                 schema.check_picture(name)?;
                 Ok(Box::new(|message| schema.picture(message)))
@@ -103,7 +103,7 @@ pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Langua
             return match protobuf::known(&topic.schema) {
                 Some(known) => Ok(Language::Protobuf(known)),
                 None => Err(format!(
-                    "messages of protobuf by `{}`, of which {} are read: write it as JSON or as a message of ROS 2",
+                    "protobuf messages by `{}`, of which only {} are read: write them as JSON or as ROS 2 messages",
                     shown(&topic.schema),
                     protobuf::names().join(" and ")
                 )),
@@ -111,8 +111,8 @@ pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Langua
         }
         ("cdr", "") => {
             return Err(format!(
-                "the file does not say what `{}` is, as rosbag2 wrote no definitions before ROS 2 Iron: `ros2 bag convert` into `storage_id: mcap`, where its \
-                 package is installed, writes a recording that does",
+                "the file has no definition of `{}`, because rosbag2 wrote none before ROS 2 Iron: convert it to `storage_id: mcap` with \
+                 `ros2 bag convert`, where the package of the type is installed",
                 shown(&topic.schema)
             ));
         }
@@ -126,7 +126,7 @@ pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Langua
     };
     let text = schema.map(|schema| std::str::from_utf8(&schema.text));
     let Some(Ok(text)) = text else {
-        return Err("its schema is no text".to_owned());
+        return Err("its schema is not text".to_owned());
     };
     let parsed = RosSchema::parse(&topic.schema, text, dialect);
     let parsed = parsed.map_err(|problem| format!("the schema of {}: {problem}", topic.schema))?;

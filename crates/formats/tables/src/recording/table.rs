@@ -139,7 +139,7 @@ impl TopicTable {
         let read = self.reader(&of_message)?;
         let most = limits::column_bytes(self.source().length());
         let too_large = || {
-            let problem = format!("more than {most} bytes in memory; ask for fewer fields");
+            let problem = format!("more than {most} bytes in memory; read fewer fields");
             self.source()
                 .too_large(Place::of(&self.topic.name), problem)
         };

@@ -57,7 +57,7 @@ impl<'a> Cdr<'a> {
             }
             _ => {
                 return Err(format!(
-                    "the message begins with {:02x} {:02x}, which is no CDR",
+                    "the message begins with {:02x} {:02x}, which is not CDR",
                     head[0], head[1]
                 ));
             }
@@ -169,7 +169,7 @@ impl<'a> Cdr<'a> {
         self.cells = self.cells.saturating_add(count);
         if self.cells > limits::MESSAGE_CELLS {
             return Err(format!(
-                "{count} elements, at most {} of a message are made cells",
+                "{count} elements, at most {} per message become cells",
                 limits::MESSAGE_CELLS
             ));
         }
@@ -185,7 +185,7 @@ impl<'a> Cdr<'a> {
             Kind::Bool => match self.number::<1>()? {
                 [0] => Cell::Bool(false),
                 [1] => Cell::Bool(true),
-                [other] => return Err(format!("a truth value of {other}")),
+                [other] => return Err(format!("a boolean of {other}")),
             },
             Kind::I8 => Cell::Integer(i8::from_le_bytes(self.number()?).into()),
             Kind::U8 => Cell::Integer(u8::from_le_bytes(self.number()?).into()),
@@ -227,7 +227,7 @@ impl<'a> Cdr<'a> {
         match count.checked_mul(least).is_some_and(|bytes| bytes <= left) {
             true => Ok(count),
             false => Err(format!(
-                "{count} elements are announced, {left} bytes follow"
+                "{count} elements are announced, but only {left} bytes follow"
             )),
         }
     }
@@ -242,7 +242,7 @@ impl<'a> Cdr<'a> {
         let bytes = self.text_bytes()?;
         // The length includes a zero at the end.
         let text = bytes.strip_suffix(&[0]).unwrap_or(bytes);
-        std::str::from_utf8(text).map_err(|_| "a text that is no UTF-8".to_owned())
+        std::str::from_utf8(text).map_err(|_| "a text that is not UTF-8".to_owned())
     }
 
     /// The bytes of the next number, little-endian.

@@ -337,7 +337,7 @@ mod tests {
         let bytes = [0, 1, 0, 0, 0xff, 0xff, 0xff, 0xff, 0, 0, 0, 0];
         let problem = fields.read(&schema, &bytes).expect_err("too long");
         assert!(
-            problem.contains("4294967295 elements are announced, 4 bytes follow"),
+            problem.contains("4294967295 elements are announced, but only 4 bytes follow"),
             "{problem}"
         );
     }

@@ -96,7 +96,7 @@ impl PictureField {
             let place = position(message, parent)
                 .ok_or_else(|| format!("{} has no `{parent}`", message.name))?;
             let Kind::Message(inner) = message.fields[place].kind else {
-                return Err(format!("`{parent}` of {} is no message", message.name));
+                return Err(format!("`{parent}` of {} is not a message", message.name));
             };
             places.push((place, message.fields.len()));
             message = schema.message(inner);
@@ -106,7 +106,10 @@ impl PictureField {
         let is_bytes =
             message.fields[place].kind == Kind::U8 && message.fields[place].count != Count::One;
         if !is_bytes {
-            return Err(format!("`{field}` of {} is no list of uint8", message.name));
+            return Err(format!(
+                "`{field}` of {} is not a list of uint8",
+                message.name
+            ));
         }
         let is_raw = message.name == "sensor_msgs/Image";
         let mut wants = vec![Want::Nothing; message.fields.len()];
@@ -150,7 +153,7 @@ impl PictureField {
         }
         if slots[FORMAT].text().contains("compressedDepth") {
             return Err(
-                "the format is compressedDepth, which is not read; republish it as compressed"
+                "the format is compressedDepth, which is not supported; republish it as compressed"
                     .to_owned(),
             );
         }
@@ -165,7 +168,7 @@ fn position(message: &Message, name: &str) -> Option<usize> {
 fn raw(slots: &[Cell], data: Vec<u8>) -> Result<RawPicture, String> {
     let number = |slot: usize| match slots[slot] {
         Cell::Integer(value) => u32::try_from(value).map_err(|_| format!("a size of {value}")),
-        _ => Err("a size that is no number".to_owned()),
+        _ => Err("a size that is not a number".to_owned()),
     };
     Ok(RawPicture {
         width: number(WIDTH)?,
@@ -220,12 +223,12 @@ impl RawPicture {
             .filter(|whole| *whole as u64 <= limits::CELL_BYTES);
         let (Some(row), Some(whole)) = (row, whole) else {
             return Err(format!(
-                "{width}×{height} pixels of {encoding}, {step} bytes a row"
+                "{width}×{height} pixels of {encoding}, {step} bytes per row"
             ));
         };
         if data.len() != whole {
             return Err(format!(
-                "{} bytes of samples, {height} rows of {step} take {whole}",
+                "{} bytes of samples, but {height} rows of {step} take {whole}",
                 data.len()
             ));
         }
@@ -297,14 +300,14 @@ mod tests {
             ),
             (
                 image("rgb8", 2, 5, 0, &[0; 10]),
-                "2×2 pixels of rgb8, 5 bytes a row",
+                "2×2 pixels of rgb8, 5 bytes per row",
             ),
             (image("mono8", 0, 0, 0, &[]), "0×2 pixels"),
             (
                 image("mono8", 2, 2, 0, &[0; 3]),
-                "3 bytes of samples, 2 rows of 2 take 4",
+                "3 bytes of samples, but 2 rows of 2 take 4",
             ),
-            (image("mono8", u32::MAX, u32::MAX, 0, &[]), "bytes a row"),
+            (image("mono8", u32::MAX, u32::MAX, 0, &[]), "bytes per row"),
         ] {
             let problem = image.expect_err(expected);
             assert!(problem.contains(expected), "{problem}");

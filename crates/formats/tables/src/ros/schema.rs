@@ -249,7 +249,7 @@ fn counted(written: &str) -> Result<(&str, Count), String> {
     let Some((kind, rest)) = written.split_once('[') else {
         return Ok((written, Count::One));
     };
-    let wrong = || format!("`{}` is no type", shown(written));
+    let wrong = || format!("`{}` is not a type", shown(written));
     let inside = rest.strip_suffix(']').ok_or_else(wrong)?;
     if inside.is_empty() || inside.starts_with("<=") {
         return Ok((kind, Count::Any));
@@ -286,7 +286,7 @@ fn kind(
         "float32" => Kind::F32,
         "float64" => Kind::F64,
         "string" => Kind::Text,
-        "wstring" => return Err("texts of wide characters are not read".to_owned()),
+        "wstring" => return Err("texts of wide characters are not supported".to_owned()),
         name => {
             let package = within.split('/').next().unwrap_or("");
             let full = match name.contains('/') {
@@ -296,8 +296,7 @@ fn kind(
             };
             let place = places.get(&full);
             Kind::Message(
-                *place
-                    .ok_or_else(|| format!("the schema does not say what `{}` is", shown(name)))?,
+                *place.ok_or_else(|| format!("the schema does not define `{}`", shown(name)))?,
             )
         }
     })
@@ -375,12 +374,12 @@ mod tests {
     #[test]
     fn what_a_schema_does_not_explain_is_refused_by_name() {
         for (text, expected) in [
-            ("Pose pose", "the schema does not say what `Pose` is"),
+            ("Pose pose", "the schema does not define `Pose`"),
             ("float64", "expected a type and a name"),
             ("float64 =3", ""),
-            ("float64[0] none", "is no type"),
-            ("float64[-1] none", "is no type"),
-            ("float64[6 none", "is no type"),
+            ("float64[0] none", "is not a type"),
+            ("float64[-1] none", "is not a type"),
+            ("float64[6 none", "is not a type"),
             ("wstring name", "wide characters"),
             ("B inner", "nests deeper than 32"),
             ("int8 a\n===\nint8 b", "expected `MSG:`"),

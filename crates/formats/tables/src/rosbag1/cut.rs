@@ -7,7 +7,7 @@ use crate::source::Source;
 /// Remedy for a truncated bag, with the number of messages it recovers.
 pub(super) fn remedy(source: &Source) -> String {
     format!(
-        "{} whole messages lie before the cut; `rosbag reindex FILE` writes a bag of what is whole",
+        "{} complete messages are before the cut; recover them with `rosbag reindex FILE`",
         whole_messages(source)
     )
 }

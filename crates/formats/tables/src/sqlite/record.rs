@@ -52,7 +52,10 @@ impl<'p, 'd> Record<'p, 'd> {
         let (number, rest) = varint(rest).ok_or_else(|| pages.damaged(place.page, beyond))?;
         let source = &pages.database.source;
         if length > source.length() {
-            let problem = format!("a row of {length} bytes, the file has {}", source.length());
+            let problem = format!(
+                "a row of {length} bytes, but the file has {}",
+                source.length()
+            );
             return Err(pages.damaged(place.page, problem));
         }
         if length > limits::CELL_BYTES {
@@ -128,7 +131,7 @@ impl<'p, 'd> Record<'p, 'd> {
             kind if kind % 2 == 0 => Value::Blob(range),
             _ => match std::str::from_utf8(bytes) {
                 Ok(text) => Value::Text(text.to_owned()),
-                Err(_) => return Err(self.pages.damaged(self.page, "a text that is no UTF-8")),
+                Err(_) => return Err(self.pages.damaged(self.page, "a text that is not UTF-8")),
             },
         })
     }
@@ -150,7 +153,7 @@ impl<'p, 'd> Record<'p, 'd> {
         let head = varint(&self.read).map(|(size, _)| size);
         let size = head.and_then(|size| usize::try_from(size).ok());
         let size = size.filter(|size| *size <= self.length && *size <= limits::NAMES);
-        let wrong = "the head of a row is longer than the row";
+        let wrong = "the header of a row is longer than the row";
         let size = size.ok_or_else(|| self.pages.damaged(self.page, wrong))?;
         self.read_to(size)?;
         let mut rest = self.read.get(..size).unwrap_or_default();
@@ -190,7 +193,7 @@ impl<'p, 'd> Record<'p, 'd> {
         let usable = self.pages.database.usable as usize;
         while self.read.len() < self.length {
             if !seen.insert(self.next) {
-                return Err(self.pages.damaged(self.next, "a row goes on in it twice"));
+                return Err(self.pages.damaged(self.next, "a row uses it twice"));
             }
             let page = self.pages.read(self.next)?;
             let Some((next, bytes)) = page

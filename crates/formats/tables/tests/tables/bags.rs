@@ -160,7 +160,7 @@ fn logs_beside_a_database_are_refused_with_the_command_that_takes_them_in() {
     fs::write(&journal, [0; 512]).expect("written");
     assert!(read_all(&path).is_ok());
     fs::write(&journal, [0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7]).expect("written");
-    refused(&path, &["`run.db3-journal`", "taken back"]);
+    refused(&path, &["`run.db3-journal`", "rollback journal"]);
 }
 
 #[test]
@@ -192,10 +192,10 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
     );
     refused(
         &at("a.mcap.zstd", &[0x28, 0xb5, 0x2f, 0xfd, 0, 0, 0, 0, 0]),
-        &["compressed as a whole", "zstd -d"],
+        &["the whole file is compressed", "zstd -d"],
     );
-    refused(&at("a.db3", b"no recording at all"), &["no recording"]);
-    refused(&at("empty.mcap", b""), &["no recording"]);
+    refused(&at("a.db3", b"no recording at all"), &["not a recording"]);
+    refused(&at("empty.mcap", b""), &["not a recording"]);
 
     // One word of the database is another: the version of the schema, a column of topics.
     let iron = fs::read(data("iron.db3")).expect("there");
@@ -221,7 +221,7 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
             &[
                 "cut short",
                 "rosbag reindex",
-                "whole messages lie before the cut",
+                "complete messages are before the cut",
             ],
         );
     }
@@ -234,7 +234,7 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
     open[place + 10..place + 18].fill(0);
     refused(
         &at("open.bag", &open),
-        &["did not close it", "rosbag reindex", "16 whole messages"],
+        &["did not close it", "rosbag reindex", "16 complete messages"],
     );
 }
 
@@ -245,7 +245,7 @@ fn a_cut_bag_states_how_many_messages_are_whole_before_its_cut() {
     let counted = |bytes: &[u8]| {
         fs::write(&path, bytes).expect("written");
         let problem = read_all(&path).expect_err("cut").to_string();
-        let words = problem.split(" whole messages lie before").next();
+        let words = problem.split(" complete messages are before").next();
         let number = words.and_then(|words| words.rsplit([' ', '(']).next()?.parse::<u64>().ok());
         number.unwrap_or_else(|| panic!("{problem}"))
     };

@@ -216,13 +216,14 @@ fn other_layouts_and_ways_out_of_the_folder_are_refused_in_words() {
         "{message}"
     );
     assert!(
-        info("\"data/chunk", "\"../data/chunk").contains("no pattern of paths inside the folder")
+        info("\"data/chunk", "\"../data/chunk")
+            .contains("not a pattern of paths inside the folder")
     );
     assert!(
         info("{episode_chunk:03d}/episode", "{chunk:03d}/episode")
-            .contains("`chunk` in a pattern of paths is not known")
+            .contains("unknown `chunk` in a pattern of paths")
     );
-    assert!(info("\"fps\": 10", "\"fps\": 0").contains("frames a second"));
+    assert!(info("\"fps\": 10", "\"fps\": 0").contains("frames per second"));
     let missing = changed("lerobot-v2.1", |folder| {
         std::fs::remove_file(folder.join("data/chunk-000/episode_000001.parquet"))
             .expect("removed");
@@ -271,12 +272,12 @@ fn an_episode_of_other_rows_than_its_description_says_is_refused_with_both_count
         (
             "[\"press the cube\"], \"length\": 3",
             "[\"press the cube\"], \"length\": 4",
-            "episode 0 has 3 rows, and its description says 4",
+            "episode 0 has 3 rows, but its description states 4",
         ),
         (
             "\"length\": 2",
             "\"length\": 1",
-            "episode 1 has 2 rows, and its description says 1",
+            "episode 1 has 2 rows, but its description states 1",
         ),
     ] {
         let opened = changed("lerobot-v2.1", |folder| {

@@ -310,7 +310,8 @@ fn what_is_not_there_is_named_with_what_is() {
     };
     assert!(visit("data", &[0]).contains("geometry_msgs/PoseStamped has no `data`"));
     assert!(
-        visit("pose.position.x", &[0]).contains("`x` of geometry_msgs/Point is no list of uint8")
+        visit("pose.position.x", &[0])
+            .contains("`x` of geometry_msgs/Point is not a list of uint8")
     );
     let depth = recording.table("/depth").expect("a topic");
     let visit = |rows: &[u64]| {

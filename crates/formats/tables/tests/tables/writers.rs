@@ -101,7 +101,7 @@ fn what_does_not_fit_is_refused_by_its_name() {
     let other = folder.path().join("other.parquet");
     let refused = ParquetWriter::create(&other, &twice, &[]).expect_err("twice");
     assert!(
-        refused.to_string().contains("a name of two columns"),
+        refused.to_string().contains("two columns have this name"),
         "{refused}"
     );
     assert!(!other.exists());

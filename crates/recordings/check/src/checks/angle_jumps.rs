@@ -8,8 +8,10 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC042",
     name: "angle-jumps",
-    looks_for: "angles of which neighbouring samples differ by more than half a turn, although neither a period nor a rotation is declared",
-    hint: "write `period = 360` in the channel of the map if the angle begins again, or `rotation = [\"Rx\", \"Ry\", \"Rz\"]` if it is a part of a rotation vector",
+    looks_for: "angles that jump by more than half a turn between neighbouring samples and are declared neither periodic nor part of a \
+        rotation",
+    hint: "add `period = 360` to the channel in the map if the angle wraps around, or `rotation = [\"Rx\", \"Ry\", \"Rz\"]` if it is a \
+        component of a rotation vector",
     reads: None,
     find,
 };
@@ -43,7 +45,8 @@ fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Op
     let behind: Vec<usize> = jumps.iter().map(|(row, _)| *row).collect();
     let first = behind.first()?;
     let message = format!(
-        "{channel} jumps by more than half a turn between {} of {} neighbouring samples, by {greatest:.1} degrees at most, first in row {}",
+        "{channel} jumps by more than half a turn between {} of {} neighbouring samples (largest jump {greatest:.1} degrees), first in row \
+         {}",
         jumps.len(),
         rows.len() - 1,
         first + 1

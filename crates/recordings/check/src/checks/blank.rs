@@ -6,8 +6,8 @@ use crate::finding::{Check, Found, Severity};
 pub(crate) static CHECK: Check = Check {
     code: "TAC025",
     name: "blank-samples",
-    looks_for: "frames whose pixels are all the same, and rows of signals that are all zero: arrays that nobody filled",
-    hint: "an array that is allocated and not written reads as one number: record again, or drop these rows",
+    looks_for: "frames of a single colour, and rows of signals that are all zero: arrays that were never filled",
+    hint: "an array that was allocated but never written holds one number: record again, or drop these rows",
     reads: None,
     find,
 };
@@ -20,10 +20,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let total = evidence.frames.iter().flatten().count();
     let mut found = Vec::new();
     if !blank.is_empty() {
-        let message = format!(
-            "{} of {total} frames are one colour from edge to edge",
-            blank.len()
-        );
+        let message = format!("{} of {total} frames have a single colour", blank.len());
         found.push(Found::about(
             Severity::Warning,
             message,

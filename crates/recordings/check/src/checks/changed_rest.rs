@@ -9,8 +9,10 @@ use crate::tiles::Tiles;
 pub(super) static CHECK: Check = Check {
     code: "TAC034",
     name: "changed-rest",
-    looks_for: "untouched pictures that differ from the reference by more than a third of a contact in the mean, or in one tile of an eighth of the width by more than a contact does",
-    hint: "take a new untouched picture as the reference: that mends most faults of light, exposure, dust and place; then look at the lens, the lamps and the coating",
+    looks_for: "untouched pictures that differ from the reference: on average by more than a third of the change by contact, or by more \
+        than that change in one tile (1/8 of the width)",
+    hint: "record a new untouched reference picture: that corrects most changes of light, exposure, dust and position; otherwise check \
+        the lens, the lamps and the coating",
     reads: Some(Field::Frame),
     find,
 };
@@ -66,12 +68,12 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let count = rest.len();
     let message = if change > THIRD * contact {
         format!(
-            "{count} pictures without contact differ from the reference by {:.0} % of what a contact changes in the mean",
+            "{count} pictures without contact differ from the reference by {:.0} % of the mean change by contact",
             percent(change, contact)
         )
     } else if change_tile > contact_tile {
         format!(
-            "{count} pictures without contact differ from the reference in one place by {:.0} % of what a contact changes where it changes most",
+            "{count} pictures without contact differ from the reference in one place by {:.0} % of the largest change by contact",
             percent(change_tile, contact_tile)
         )
     } else {

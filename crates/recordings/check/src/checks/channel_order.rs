@@ -9,7 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC003",
     name: "channel-order",
     looks_for: "frames whose colours fit better with red and blue swapped",
-    hint: "OpenCV writes blue first; set channel_order in the map to what the files really hold",
+    hint: "OpenCV stores blue first; set `channel_order` in the map to the order in the files",
     reads: Some(Field::Frame),
     find,
 };
@@ -48,7 +48,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         "most frames"
     };
     let message = format!(
-        "{} of {} frames have red and blue the other way round than {against}",
+        "{} of {} frames have red and blue swapped compared with {against}",
         swapped.len(),
         frames.len()
     );

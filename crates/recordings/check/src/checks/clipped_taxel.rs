@@ -9,8 +9,10 @@ use crate::signal_facts::{SignalFacts, TaxelFacts};
 pub(super) static CHECK: Check = Check {
     code: "TAC017",
     name: "clipped-taxel",
-    looks_for: "taxels with one number in at least 5 samples and 1 % of them that is their greatest or least, and is met more than three times as often as the next one; at rest a least number is none",
-    hint: "press less hard, or set the gain of the converter lower: what is beyond the end is lost, and models learn that nothing happens there",
+    looks_for: "taxels clipped at their greatest or least number: it occurs in at least 5 samples and 1 %, and over three times as often \
+        as the next number; values at rest do not count",
+    hint: "press with less force, or lower the gain of the converter: the signal beyond the limit is lost, and models learn a constant \
+        there",
     reads: Some(Field::Signals),
     find,
 };
@@ -43,7 +45,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     }
     let named = clipped[..clipped.len().min(NAMED)].join(", ");
     let message = format!(
-        "{} of {} signals end where many samples stand: {named}",
+        "{} of {} signals are clipped at a limit: {named}",
         clipped.len(),
         facts.taxels.len()
     );

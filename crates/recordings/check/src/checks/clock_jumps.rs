@@ -12,8 +12,9 @@ use crate::stamps::{Step, Stream, by_clock};
 pub(super) static CHECK: Check = Check {
     code: "TAC024",
     name: "clock-jumps",
-    looks_for: "a clock that was set within a contact or, without contact points, within a stream that is regular otherwise, stamps of two clocks in one column, and times that the stated clock cannot show",
-    hint: "stamp with a clock that nobody sets (monotonic), and import what two clocks stamped as two tables joined with their lag",
+    looks_for: "a clock that was set during a contact (without contact points: during an otherwise regular stream), stamps of two clocks \
+        in one column, and times impossible for the stated clock",
+    hint: "stamp with a monotonic clock; import data of two clocks as two tables, joined with their lag",
     reads: None,
     find,
 };
@@ -44,7 +45,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let mut found = Vec::new();
     if let Some((before, row)) = others.first() {
         let message = format!(
-            "two clocks stamped these samples: {} times the next stamp is more than 12 days away, first from {} s to {} s",
+            "these samples have stamps of two clocks: {} steps are longer than 12 days, first from {} s to {} s",
             others.len(),
             seconds(*before),
             seconds(*row)
@@ -83,7 +84,7 @@ fn of_two_kinds(last: &[f64]) -> Option<Found> {
     let least = last.iter().copied().reduce(f64::min)?;
     let most = last.iter().copied().reduce(f64::max)?;
     let message = format!(
-        "the stamps of some tables or units are of a clock since 1970, as {most} s, and those of others, as {least} s, are not: two clocks in one column"
+        "two clocks in one column: some tables or units have stamps since 1970 (such as {most} s), others since a start (such as {least} s)"
     );
     (least < RUNNING_S.min(UNIX_FROM_S) && most > RUNNING_S)
         .then(|| Found::overall(Severity::Warning, message))
@@ -133,7 +134,8 @@ fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str)
         many => (format!("{many} steps {place} are"), "the longest "),
     };
     let message = format!(
-        "{steps_are} over {JUMP_STEPS} times the usual one of {:.4} s, {the_longest}{longest:.3} s: the clock was set, or recording stopped",
+        "{steps_are} over {JUMP_STEPS} times the usual step of {:.4} s, {the_longest}{longest:.3} s: the clock was set, or the recording \
+         paused",
         stream.usual_s
     );
     Some(Found::about(
@@ -149,13 +151,13 @@ fn contradicted(evidence: &Evidence<'_>, last: &[f64]) -> Option<Found> {
     let most = last.iter().copied().reduce(f64::max)?;
     let message = match evidence.header.clock {
         Clock::Unix if least < UNIX_FROM_S => format!(
-            "the clock is said to be `unix`, and the last stamp, {least} s, is before 1990: is its unit right?"
+            "the clock is declared `unix`, but the last stamp, {least} s, is before 1990: check its unit"
         ),
         Clock::Unix if most > UNIX_TO_S => format!(
-            "the clock is said to be `unix`, and the last stamp, {most} s, is after 2100: is its unit right?"
+            "the clock is declared `unix`, but the last stamp, {most} s, is after 2100: check its unit"
         ),
         Clock::Monotonic if most > RUNNING_S => format!(
-            "the clock is said to be `monotonic`, and the last stamp is {most} s: no machine has been running for so long"
+            "the clock is declared `monotonic`, but the last stamp, {most} s, exceeds the uptime of any machine"
         ),
         _ => return None,
     };

@@ -9,7 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC010",
     name: "few-points",
     looks_for: "test parts with fewer than five contact points, groups or independent samples",
-    hint: "name what repeats share as point_id in the map, record more points, or predict every sample once: --split cv:5",
+    hint: "map the column that groups repeats as point_id, record more points, or predict every sample once: --split cv:5",
     reads: None,
     find,
 };
@@ -34,7 +34,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let unnamed = rows.iter().filter(|&&row| points[row].is_none()).count();
     if unnamed > 0 {
         let message = format!(
-            "{unnamed} of {} test samples have no point_id: no score gets an interval",
+            "{unnamed} of {} test samples lack a point_id, so scores have no intervals",
             rows.len()
         );
         return vec![Found::overall(Severity::Warning, message)];
@@ -49,7 +49,6 @@ fn few(count: usize, kind: &str) -> Vec<Found> {
         return Vec::new();
     }
     let plural = if count == 1 { "" } else { "s" };
-    let message =
-        format!("the test part has {count} {kind}{plural}, {LEAST} are needed for an interval");
+    let message = format!("the test part has {count} {kind}{plural}; intervals need {LEAST}");
     vec![Found::overall(Severity::Warning, message)]
 }

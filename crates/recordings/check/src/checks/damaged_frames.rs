@@ -8,8 +8,8 @@ use crate::finding::{Check, Found, Severity};
 pub(crate) static CHECK: Check = Check {
     code: "TAC020",
     name: "damaged-frames",
-    looks_for: "JPEG files cut or damaged inside, which decoders fill with gray or guesses",
-    hint: "fetch these pictures again from where they were recorded, or drop their rows, and import once more",
+    looks_for: "truncated or damaged JPEG files, which decoders fill with gray or with guesses",
+    hint: "copy these pictures again from their source, or drop their rows, and import again",
     reads: Some(Field::Frame),
     find,
 };

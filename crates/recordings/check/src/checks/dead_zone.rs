@@ -9,8 +9,10 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC027",
     name: "dead-zone",
-    looks_for: "normal forces that are exactly zero in 5 % of the samples although their pictures change as under load: zero of a force that is cut is no rest",
-    hint: "export the forces before a threshold or a clip at zero was applied; else drop these samples, since a model learns that light contact is none",
+    looks_for: "normal forces that are exactly zero in 5 % of the samples, although their pictures change as under load: forces below a \
+        threshold were set to zero",
+    hint: "export the forces before a threshold or a clip at zero is applied; otherwise drop these samples, because a model learns that \
+        light contact has no force",
     reads: Some(Field::Frame),
     find,
 };
@@ -61,7 +63,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         return Vec::new();
     }
     let message = format!(
-        "{} is exactly 0 in {} samples, of whose pictures {} change as under load (over {:.0} % of what the median of the other {} does)",
+        "{} is exactly 0 in {} samples, but {} of their pictures change as under load (over {:.0} % of the median change of the other {})",
         channels.as_slice()[load].name(),
         zero.len(),
         pressed.len(),

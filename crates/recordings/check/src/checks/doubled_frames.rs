@@ -7,8 +7,9 @@ use crate::stamps::Stream;
 pub(super) static CHECK: Check = Check {
     code: "TAC022",
     name: "doubled-frames",
-    looks_for: "frames of a stream that are the frame before them once more, and rows that share one",
-    hint: "a camera that is slower than its stamps repeats frames: record by the stamps of the camera, or keep one row a frame; labels of repeats are not independent",
+    looks_for: "frames of a stream that repeat the previous frame, and rows that share one frame",
+    hint: "a camera slower than its stamps repeats frames: use the stamps of the camera, or keep one row per frame; labels of repeats are \
+        not independent",
     reads: None,
     find,
 };
@@ -44,13 +45,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     };
     let steps = stream.steps.len();
     let repeats = format!(
-        "{} of {steps} steps from a frame to the next bring the same frame once more, up to {longest} in a row: the stamps say {:.4} Hz, new pictures come at {:.4} Hz",
+        "{} of {steps} steps repeat the previous frame, up to {longest} in a row: the stamps are at {:.4} Hz, new pictures at {:.4} Hz",
         doubled.len(),
         1.0 / stream.usual_s,
         rate(steps - doubled.len(), steps) / stream.usual_s
     );
     let together = format!(
-        "{} of {steps} rows have the frame of the row before them: labels come faster than frames",
+        "{} of {steps} rows have the frame of the previous row: labels are faster than frames",
         shared.len()
     );
     let found = [

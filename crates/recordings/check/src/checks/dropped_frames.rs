@@ -7,8 +7,9 @@ use crate::stamps::{Step, Stream, share};
 pub(super) static CHECK: Check = Check {
     code: "TAC023",
     name: "dropped-frames",
-    looks_for: "steps of a stream that are two to ten of its periods, which nearly all steps are whole multiples of: frames between them are missing",
-    hint: "record to a faster disk or fewer streams at once; joins by time should have a tolerance below the usual step",
+    looks_for: "steps of two to ten periods in a stream whose steps are nearly all whole multiples of its period: frames in between are \
+        missing",
+    hint: "record to a faster disk, or record fewer streams at once; give joins by time a tolerance below the usual step",
     reads: None,
     find,
 };
@@ -105,7 +106,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         _ => "are up to",
     };
     let message = format!(
-        "{} {frames} to be missing before {} of {} steps, which {up_to} {:.0} times the period of {:.4} s",
+        "{} {frames} to be missing in {} of {} steps, which {up_to} {:.0} times the period of {:.4} s",
         missing.frames,
         missing.rows.len(),
         missing.steps,

@@ -8,8 +8,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC002",
     name: "duplicate-frames",
-    looks_for: "frames that are the same file, byte for byte",
-    hint: "a camera that repeats frames is slower than it says; copies under other labels teach a model to contradict itself",
+    looks_for: "frames that are byte-identical files",
+    hint: "a camera that repeats frames is slower than it reports; copies with other labels are contradictory training data",
     reads: None,
     find,
 };

@@ -6,8 +6,9 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC038",
     name: "equal-channels",
-    looks_for: "two channels that are equal, or equal but for the sign, in every sample: a column that the map names twice, or that was written twice",
-    hint: "name the column of each channel in the map once; `taceva import --explain` says which one each is read from",
+    looks_for: "two channels that are equal in every sample, or equal except for the sign: a column that the map names twice, or that was \
+        written twice",
+    hint: "name each column only once in the map; `taceva import --explain` shows the column of each channel",
     reads: None,
     find,
 };
@@ -29,7 +30,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             let (one, other) = (channel.name(), other_channel.name());
             let how = match sign > 0.0 {
                 true => "are equal",
-                false => "are equal but for their sign",
+                false => "are equal except for their sign",
             };
             let from = source(evidence, one)
                 .zip(source(evidence, other))

@@ -6,8 +6,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC044",
     name: "equal-views",
-    looks_for: "samples whose pictures of two views are the same file, byte for byte",
-    hint: "two cameras never take the same picture: name each view's own column, array or clip in the map, or leave one view out",
+    looks_for: "samples whose pictures of two views are byte-identical files",
+    hint: "two cameras never take the same picture: name a different column, array or clip for each view in the map, or remove one view",
     reads: None,
     find,
 };

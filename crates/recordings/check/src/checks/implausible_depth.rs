@@ -8,8 +8,10 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC041",
     name: "implausible-depth",
-    looks_for: "depths that lie beyond any gel, or never come near 0: a distance to the camera or a height of the robot instead of an indentation",
-    hint: "map the indentation as Pz, 0 at the first touch and positive into the gel; `offset` of the column takes the height of the surface away",
+    looks_for: "depths greater than any gel is thick, or never near 0: a distance to the camera or a height of the robot instead of an \
+        indentation",
+    hint: "map the indentation as Pz, 0 at the first touch and positive into the gel; subtract the height of the surface with `offset` of \
+        the column",
     reads: None,
     find,
 };
@@ -38,11 +40,11 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let usual = depths[depths.len() / 2];
     let message = if usual > DEEPEST_MM {
         format!(
-            "Pz is typically {usual} mm, deeper than any gel is thick: is it the distance to the camera?"
+            "the median of Pz is {usual} mm, greater than any gel is thick: it may be the distance to the camera"
         )
     } else if least > NEVER_BELOW * greatest && least > DISTANCE_MM {
         format!(
-            "Pz lies between {least} mm and {greatest} mm and never near 0: is it a distance and no indentation?"
+            "Pz is between {least} mm and {greatest} mm, never near 0: it may be a distance instead of an indentation"
         )
     } else {
         return Vec::new();

@@ -8,8 +8,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC043",
     name: "import-warnings",
-    looks_for: "warnings of the imports that made the recording, as its header keeps them",
-    hint: "correct the map as the warning says and import again; an import without warnings clears them",
+    looks_for: "warnings of the imports of the recording, from its header",
+    hint: "correct the map as the warning says, and import again; an import without warnings clears them",
     reads: None,
     find,
 };

@@ -11,8 +11,8 @@ use crate::stamps::{is_of_presses, repeated};
 pub(super) static CHECK: Check = Check {
     code: "TAC019",
     name: "label-lag",
-    looks_for: "forces that go with the pictures before or after theirs: two clocks that differ",
-    hint: "state the difference as `lag_ms` of the join in the map, or shift one clock before the tables are joined",
+    looks_for: "forces that fit earlier or later pictures better than their own: two clocks with an offset",
+    hint: "set the offset as `lag_ms` of the join in the map, or shift one clock before the tables are joined",
     reads: Some(Field::Frame),
     find,
 };
@@ -73,7 +73,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             false => ("earlier", -lag.steps),
         };
         format!(
-            "{name} comes about {:.0} ms ({steps} {}) {later} than the pictures: their correlation is {:.2} there and {:.2} as they stand, n {}",
+            "{name} is about {:.0} ms ({steps} {}) {later} than the pictures: their correlation is {:.2} with this shift and {:.2} \
+             without, n {}",
             1e3 * lag.seconds.abs(),
             if steps == 1 { "step" } else { "steps" },
             lag.best,

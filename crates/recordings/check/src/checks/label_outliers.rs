@@ -6,8 +6,9 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC013",
     name: "label-outliers",
-    looks_for: "labels beyond 3 interquartile ranges of the quartiles, further from the next one than that range and than half as far as the next one is from the quartile",
-    hint: "look at these samples: a transducer that was overloaded or read while the tip moved gives such labels; drop them in the map, or say why they are right",
+    looks_for: "labels over 3 interquartile ranges beyond a quartile, whose gap to the next label exceeds that range and half the distance of the next label from the quartile",
+    hint: "look at these samples: a transducer that was overloaded or read during motion gives such labels; drop them in the map, or \
+        state why they are right",
     reads: None,
     find,
 };
@@ -36,7 +37,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             let unit = channel.unit();
             let first = outliers.rows[0];
             let message = format!(
-                "{channel}: {} of {} labels beyond 3 interquartile ranges of the quartiles, such as {} {unit} in row {}; the next is {} {unit}",
+                "{channel}: {} of {} labels are more than 3 interquartile ranges beyond the quartiles, such as {} {unit} in row {}; the \
+                 next label is {} {unit}",
                 outliers.rows.len(),
                 column.len(),
                 sign * outliers.least,

@@ -10,7 +10,8 @@ pub(crate) static CHECK: Check = Check {
     code: "TAC007",
     name: "leakage",
     looks_for: "contact points, neighbours or identical frames in both the training and the test part",
-    hint: "divide with --split by-point, by-block, or by-column a session or an object; a score on samples like those that were learnt from flatters",
+    hint: "divide with --split by-point, by-block, or by-column with a session or an object; scores on samples similar to training \
+        samples are optimistic",
     reads: None,
     find,
 };
@@ -45,7 +46,11 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             found.push(Found::about(severity, message, evidence.names(rows)));
         }
     };
-    report(Severity::Error, &copies, "frames are also fitted on");
+    report(
+        Severity::Error,
+        &copies,
+        "frames are also in the training or validation part",
+    );
 
     let points: BTreeSet<&str> = seen
         .iter()
@@ -57,7 +62,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             .is_some_and(|point| points.contains(point))
     };
     let known: Vec<usize> = split.test.iter().copied().filter(is_known).collect();
-    let what = "samples lie at a point that is also fitted on";
+    let what = "samples share a contact point with the training or validation part";
     report(Severity::Warning, &known, what);
     if let Some(note @ Note::Neighbours { division, .. }) = &divided.neighbours {
         let severity = match division {

@@ -6,8 +6,9 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC026",
     name: "lossy-frames",
-    looks_for: "frames in JPEG or from lossy clips, of which decoders make pixels that differ by a few levels",
-    hint: "a model that is fitted on pixels of one decoder is to be used with it; scores of other programs on the same files differ by as much as their pixels do (docs/your-recording.md)",
+    looks_for: "frames in JPEG or from lossy clips, whose pixels differ by a few levels between decoders",
+    hint: "use a model with the decoder whose pixels it was fitted on; scores of other programs on the same files differ as their pixels \
+        do (docs/your-recording.md)",
     reads: None,
     find,
 };
@@ -21,9 +22,12 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .as_ref()
         .filter(|codec| codec.lossy == Some(true))
     {
-        let by = codec.decoder.as_deref().unwrap_or("whoever opens them");
+        let by = codec
+            .decoder
+            .as_deref()
+            .unwrap_or("the program that opens them");
         let message = format!(
-            "the frames came as {} ({}), which loses detail, and were decoded by {by}",
+            "the frames were imported from {} ({}), which is lossy, and decoded by {by}",
             codec.name, codec.pixel_format
         );
         return vec![Found::overall(Severity::Note, message)];

@@ -7,7 +7,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC015",
     name: "lost-frames",
     looks_for: "frames that a capture lost, by its own count",
-    hint: "leave the machine to the capture, record to a faster disk, or let the camera send fewer or smaller frames",
+    hint: "stop other programs during the capture, record to a faster disk, or let the camera send fewer or smaller frames",
     reads: None,
     find,
 };
@@ -22,7 +22,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         found.push(Found::overall(
             Severity::Warning,
             format!(
-                "{} of {came} frames of the stream are not in the recording: {} were dropped, {} came damaged",
+                "{} of {came} frames of the stream are not in the recording: {} were dropped, {} were damaged",
                 stream.lost(),
                 stream.dropped,
                 stream.damaged
@@ -32,7 +32,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     if !stream.numbered {
         found.push(Found::overall(
             Severity::Note,
-            "the camera numbers no frames: one that was lost before it came is not counted"
+            "the camera does not number its frames, so frames lost before they arrived are not counted"
                 .to_owned(),
         ));
     }

@@ -6,8 +6,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC011",
     name: "missing",
-    looks_for: "samples that lack a label or a frame which others have",
-    hint: "such samples are left out where the missing part is needed, and counted; drop them in the map if they are rubbish",
+    looks_for: "samples that lack a label or a frame that other samples have",
+    hint: "such samples are left out and counted where the missing part is needed; drop them in the map if they are useless",
     reads: None,
     find,
 };

@@ -8,7 +8,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC040",
     name: "normalised-labels",
-    looks_for: "forces, torques and places that end at exactly 0 and 1, or at -1 and 1: labels that were normalised for training",
+    looks_for: "forces, torques and places with extremes at exactly 0 and 1, or at -1 and 1: labels that were normalised for training",
     hint: "export the labels as they were measured, or undo the scaling with `scale` and `offset` of the column in the map",
     reads: None,
     find,
@@ -47,7 +47,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         let enough = scaled.len() >= CHANNELS || (scaled.len() == 1 && ends.len() == 1);
         if enough {
             let message = format!(
-                "{} {} at exactly {said}, as normalised labels do, and {} said to be in {}",
+                "{} {} at exactly {said}, like normalised labels, but {} declared in {}",
                 scaled.join(", "),
                 if scaled.len() == 1 { "ends" } else { "end" },
                 if scaled.len() == 1 { "is" } else { "are" },

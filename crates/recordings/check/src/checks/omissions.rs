@@ -10,8 +10,10 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC021",
     name: "left-out",
-    looks_for: "what the import left out: rows, unmatched ones above all, frames that no row uses, images, and chunks that were never written",
-    hint: "compare the counts with what the lab meant to record; `taceva import --explain` says them again, and how far away in time matches were",
+    looks_for: "data that the import left out: rows (above all unmatched rows), frames that no row uses, images, and chunks that were \
+        never written",
+    hint: "compare the counts with the intended recording; `taceva import --explain` shows them again, and the distances in time of \
+        matches",
     reads: None,
     find,
 };
@@ -37,22 +39,22 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         (
             Severity::Warning,
             &left_out.absent_chunks,
-            "chunks were never written; what is read there is the fill value of the array",
+            "chunks were never written; they read as the fill value of the array",
         ),
         (
             Severity::Warning,
             &unmatched,
-            "rows are not in the recording, since no row of a joined table belongs to them",
+            "rows are not in the recording, because no row of a joined table matches them",
         ),
         (
             Severity::Note,
             &by_rule,
-            "times a rule of the map left a row out, one row by several perhaps",
+            "times a rule of the map left a row out (several rules may leave out the same row)",
         ),
         (
             Severity::Note,
             &left_out.joined_rows,
-            "rows of joined tables belong to no row of the tables",
+            "rows of joined tables match no row of the tables",
         ),
         (
             Severity::Note,
@@ -68,7 +70,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         (
             Severity::Note,
             &columns,
-            "columns beyond those that are listed are named by no key of the map",
+            "more columns than those listed are named by no key of the map",
         ),
     ];
     let counts = counts

@@ -9,7 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC005",
     name: "placeholder-zeros",
     looks_for: "samples whose forces, or whose labels, are all exactly zero",
-    hint: "a transducer at rest reads noise, not zero; drop such rows in the map with [drop] placeholders",
+    hint: "a transducer at rest reads noise, not zero; drop such rows with [drop] placeholders in the map",
     reads: None,
     find,
 };

@@ -10,8 +10,8 @@ use crate::signal_facts::SignalFacts;
 pub(super) static CHECK: Check = Check {
     code: "TAC018",
     name: "pressed-rest",
-    looks_for: "rows of `rest` whose load is above a tenth of the greatest, or whose mean resembles deep presses more than light ones",
-    hint: "name rows in `rest` of [signals] in which nothing touches the sensor; differences from pressed ones hide the press",
+    looks_for: "rows of `rest` with a load above a tenth of the greatest, or with a mean that resembles deep presses more than light ones",
+    hint: "name rows in `rest` of [signals] in which nothing touches the sensor; differences from pressed rows hide the press",
     reads: Some(Field::Signals),
     find,
 };

@@ -9,8 +9,9 @@ use crate::stamps::repeated;
 pub(super) static CHECK: Check = Check {
     code: "TAC036",
     name: "repeated-stamps",
-    looks_for: "labels that were joined by time although rows share their times: nobody can say how far away a match is",
-    hint: "join by a clock with fractions of a second; where there is none, join by the number of the row (`row = true`) if both tables were written in step",
+    looks_for: "labels joined by time although several rows share a time: the error of a match is unknown",
+    hint: "join by a clock with fractions of a second; if there is none, join by row number (`row = true`) if both tables were written in \
+        step",
     reads: None,
     find,
 };
@@ -36,8 +37,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let steps = different.windows(2).map(|pair| pair[1] - pair[0]);
     let longest = steps.fold(0.0, f64::max);
     let off = match different.len() {
-        1 => "so that any row may have any label".to_owned(),
-        _ => format!("so that a match may be up to {longest:.3} s off"),
+        1 => "so any row may have any label".to_owned(),
+        _ => format!("so a match may be wrong by up to {longest:.3} s"),
     };
     let joined = by_time
         .iter()
@@ -45,7 +46,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect::<Vec<_>>()
         .join(", ");
     let message = format!(
-        "{timed} rows have {} different times and were joined with {joined} by them: rows of one time get the labels of the same row, {off}",
+        "{timed} rows have only {} different times, by which they were joined with {joined}: rows of equal time get the labels of the \
+         same row, {off}",
         different.len()
     );
     vec![Found::about(

@@ -8,8 +8,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC004",
     name: "saturated-pixels",
-    looks_for: "frames with more than 2 % of their numbers at full scale",
-    hint: "lower the exposure or the gain; where a pixel is full, a deeper press changes nothing",
+    looks_for: "frames with more than 2 % of their values at full scale",
+    hint: "lower the exposure or the gain; a saturated pixel does not change with a deeper press",
     reads: Some(Field::Frame),
     find,
 };
@@ -40,9 +40,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             found.push(Found::about(severity, message, evidence.names(rows)));
         }
     };
-    let what = "have more than 2 % of their numbers at full scale";
+    let what = "have more than 2 % of their values at full scale";
     report(Severity::Warning, &saturated, what);
-    let what = "are black and white: processed, not as the camera saw them";
+    let what = "are black and white: processed, not the camera's original";
     report(Severity::Note, &binarised, what);
     found
 }

@@ -8,8 +8,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC012",
     name: "unknown-facts",
-    looks_for: "serial, gel, clock or reference frame that nobody wrote down",
-    hint: "ask the person who recorded it, today; every report carries `unknown` until then",
+    looks_for: "serial, gel, clock or reference frame that was not recorded",
+    hint: "ask the person who made the recording; every report shows `unknown` until then",
     reads: None,
     find,
 };

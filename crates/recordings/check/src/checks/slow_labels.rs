@@ -12,8 +12,8 @@ use crate::stamps::repeated;
 pub(super) static CHECK: Check = Check {
     code: "TAC037",
     name: "slow-labels",
-    looks_for: "tables joined by time whose rows serve several rows of the recording each: labels that stand still while pictures go on",
-    hint: "write `pick = \"linear\"` in the [[join]] of the map, or record the labels at least as often as the pictures",
+    looks_for: "tables joined by time whose rows each label several rows of the recording: labels that stay constant while pictures change",
+    hint: "set `pick = \"linear\"` in the [[join]] of the map, or record the labels at least as often as the pictures",
     reads: None,
     find,
 };
@@ -54,7 +54,7 @@ fn of_join(evidence: &Evidence<'_>, join: &MappedJoin) -> Option<Found> {
     let stretches = Stretches::of(table, &channels)?;
     let name = taceva_core::shown(&join.name);
     let mut message = format!(
-        "{} rows of `{name}` serve {} rows, up to {} each: labels are up to {:.0} ms old",
+        "{} rows of `{name}` label {} rows, up to {} each: labels are up to {:.0} ms old",
         stretches.all.len(),
         stretches.rows,
         stretches.longest(),
@@ -63,7 +63,7 @@ fn of_join(evidence: &Evidence<'_>, join: &MappedJoin) -> Option<Found> {
     let changes = channels.iter().filter_map(|(position, channel)| {
         let (mean, most) = stretches.interpolated(table, *position)?;
         Some((most, format!(
-            "; `pick = \"linear\"` would change {} by {mean:.3} {unit} in the mean and {most:.3} {unit} at most",
+            "; `pick = \"linear\"` would change {} by {mean:.3} {unit} on average and by at most {most:.3} {unit}",
             channel.name(),
             unit = channel.unit(),
         ), channel.unit()))

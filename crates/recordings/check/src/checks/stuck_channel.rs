@@ -8,8 +8,10 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC009",
     name: "stuck-channel",
-    looks_for: "channels with the same value in every sample; forces and torques with the same one in a tenth of the samples on end, whose pictures differ, or whose end away from zero is met in 5 % of them",
-    hint: "leave a channel out of the map that never changes: R² is undefined on it, and its error says nothing; drop samples in which a transducer hung or was at its limit",
+    looks_for: "channels with one value in every sample; forces and torques with one value over a tenth of the samples in succession \
+        although the pictures differ, or with an extreme away from zero in 5 % of the samples",
+    hint: "remove a constant channel from the map: its R² is undefined and its error is meaningless; drop samples in which a transducer \
+        was frozen or at its limit",
     reads: None,
     find,
 };
@@ -86,7 +88,7 @@ fn still(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) ->
     }
     let rows: Vec<usize> = longest.iter().map(|(row, _)| *row).collect();
     let message = format!(
-        "{channel} is {} {} in {} of {} samples on end, whose pictures differ; elsewhere it changes",
+        "{channel} is {} {} in {} of {} samples in succession, although their pictures differ; elsewhere it changes",
         longest[0].1,
         channel.unit(),
         rows.len(),
@@ -116,7 +118,7 @@ fn cut(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> O
         .filter(|_| values.len() >= VALUES)?;
     let rows: Vec<usize> = end.iter().map(|(row, _)| *row).collect();
     let message = format!(
-        "{channel} ends at {} {} in {} of {} samples, over {TIMES} times as many as have any other value: it is cut there",
+        "{channel} ends at {} {} in {} of {} samples, over {TIMES} times as many as for any other value: it is clipped there",
         end[0].1,
         channel.unit(),
         rows.len(),

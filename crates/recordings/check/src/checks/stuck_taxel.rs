@@ -9,7 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC016",
     name: "stuck-taxel",
     looks_for: "taxels with the same number in every sample",
-    hint: "look at its wire and its address; a model gives it no weight, and nobody hears of what happens there",
+    hint: "check its wire and its address; a model gives it no weight, so contact there is not seen",
     reads: Some(Field::Signals),
     find,
 };

@@ -8,8 +8,8 @@ use crate::stamps::{by_clock, is_of_presses, share};
 pub(super) static CHECK: Check = Check {
     code: "TAC008",
     name: "timing",
-    looks_for: "the true frame rate of each unit, its gaps, and times that repeat, run backwards or are whole seconds",
-    hint: "stamp frames when they are exposed, with a clock that does not jump, and keep the fractions of a second",
+    looks_for: "true frame rate of each unit, its gaps, and times that repeat, decrease or are whole seconds",
+    hint: "stamp frames at their exposure with a monotonic clock, and keep the fractions of a second",
     reads: None,
     find,
 };
@@ -101,14 +101,14 @@ fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
     let Some(&usual) = forward.get(forward.len() / 2) else {
         return Found::overall(
             Severity::Note,
-            "no two samples have rising times".to_owned(),
+            "times never increase from sample to sample".to_owned(),
         );
     };
     if usual > STREAM_S {
         return Found::overall(
             Severity::Note,
             format!(
-                "single pictures and no stream: the median step is {usual:.4} s, above {STREAM_S} s, so that there is no frame rate"
+                "single pictures, not a stream: the median step is {usual:.4} s, above {STREAM_S} s, so a frame rate is not defined"
             ),
         );
     }
@@ -121,9 +121,9 @@ fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
         .collect();
     let mean = others.iter().sum::<f64>() / share(others.len(), 1);
     let is_alike = (mean / usual - 1.0).abs() <= ALIKE;
-    let mut message = format!("{:.4} Hz by the median step of {usual:.4} s", 1.0 / usual);
+    let mut message = format!("{:.4} Hz from the median step of {usual:.4} s", 1.0 / usual);
     if !is_alike {
-        message += &format!(", {:.4} Hz by the mean step of {mean:.4} s", 1.0 / mean);
+        message += &format!(", {:.4} Hz from the mean step of {mean:.4} s", 1.0 / mean);
     }
     if gaps > 0 {
         let steps_are = match gaps {

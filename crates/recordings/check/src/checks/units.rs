@@ -9,7 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC001",
     name: "units-by-magnitude",
     looks_for: "labels too large or too small for their unit",
-    hint: "look up the unit where the labels were written, and state it in the map; N, gf and mN, mm and m are the usual mix-ups",
+    hint: "set the unit of the labels in the map as the recording program wrote them; N, gf and mN are often confused, as are mm and m",
     reads: None,
     find,
 };

@@ -9,8 +9,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC014",
     name: "unmentioned-columns",
-    looks_for: "columns of the imported table that no key of its map names, quality flags above all",
-    hint: "import again with a map that names what decides which samples are good, under [drop] or [attributes]",
+    looks_for: "columns of the imported table that no key of its map names, above all quality flags",
+    hint: "import again with a map that names the quality columns under [drop] or [attributes]",
     reads: None,
     find,
 };
@@ -46,7 +46,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 fn unread(name: &str) -> String {
     let name = shown(name);
     format!(
-        "`{name}` of the table may say which samples are bad, and no key of the map names it: `[drop] column = \"{name}\", quality_flags = [\"…\"]` \
-         leaves out samples with these words"
+        "`{name}` of the table may mark bad samples, but no key of the map names it: `[drop] column = \"{name}\", quality_flags = [\"…\"]` \
+         drops samples with these words"
     )
 }

@@ -9,8 +9,10 @@ use crate::untouched::look_alikes;
 pub(super) static CHECK: Check = Check {
     code: "TAC035",
     name: "zero-shift",
-    looks_for: "forces and torques of pictures without contact that step or drift over the recording: a transducer that was zeroed anew, warms up or creeps",
-    hint: "take the zero from samples without contact with [zero] in the map, zero the transducer before every press, or import the stretches as recordings of their own",
+    looks_for: "forces and torques of pictures without contact that step or drift over the recording: a transducer that was zeroed again, \
+        warms up or creeps",
+    hint: "subtract the zero of samples without contact with [zero] in the map, zero the transducer before every press, or import each \
+        section as a separate recording",
     reads: Some(Field::Frame),
     find,
 };
@@ -79,14 +81,15 @@ fn of_channel(
         let change = step.after - step.before;
         (is_large(change) && change.abs() > CLEAR * step.error).then(|| {
             format!(
-                "{channel} of {count} pictures that look alike and are without contact steps from {:.3} {unit} to {:.3} {unit} at {after}: the zero was moved",
+                "{channel} of {count} similar pictures without contact steps from {:.3} {unit} to {:.3} {unit} at {after}: the zero has \
+                 moved",
                 step.before, step.after
             )
         })
     } else {
         (is_large(drift.change) && drift.change.abs() > CLEAR * drift.error).then(|| {
             format!(
-                "{channel} of {count} pictures that look alike and are without contact drifts by {:.3} {unit} from the first to the last of them",
+                "{channel} of {count} similar pictures without contact drifts by {:.3} {unit} from the first to the last",
                 drift.change
             )
         })

@@ -39,7 +39,7 @@ fn a_column_that_is_mapped_twice_with_two_signs_or_written_twice_is_named_and_th
     let signs = from("Fx", "fx", ", sign = -1") + &from("Fz", "fx", "");
     assert_eq!(
         message(&labelled(TWICE, &signs, "TAC038"), "TAC038"),
-        "Fx and Fz are equal but for their sign in all 20 samples: both are read from `fx`"
+        "Fx and Fz are equal except for their sign in all 20 samples: both are read from `fx`"
     );
     let mut written = String::new();
     for line in TWICE.lines() {
@@ -78,7 +78,7 @@ fn wrenches_that_were_scaled_to_one_are_no_newtons() {
     });
     assert_eq!(
         message(&labelled(&scaled, &both, "TAC040"), "TAC040"),
-        "Fx, Fz end at exactly 0 and 1, as normalised labels do, and are said to be in N"
+        "Fx, Fz end at exactly 0 and 1, like normalised labels, but are declared in N"
     );
     let signed = table(41, "a,b", |row| {
         format!("{},{}", 2.0 * unit(row, 7) - 1.0, 2.0 * unit(row, 11) - 1.0)
@@ -102,7 +102,7 @@ fn a_distance_to_the_camera_is_no_depth() {
     let far = depth(&|row| 20.0 + 0.05 * f64::from(row));
     assert_eq!(
         message(&far, "TAC041"),
-        "Pz is typically 20.75 mm, deeper than any gel is thick: is it the distance to the camera?"
+        "the median of Pz is 20.75 mm, greater than any gel is thick: it may be the distance to the camera"
     );
     let height = depth(&|row| 8.0 + 0.05 * f64::from(row));
     assert!(message(&height, "TAC041").contains("never near 0"));

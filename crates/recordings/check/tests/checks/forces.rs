@@ -32,7 +32,7 @@ fn a_force_that_stands_still_in_half_of_the_samples_while_pictures_change_is_stu
     let report = with_forces(stuck, |_| {});
     assert_eq!(
         message(&report, "TAC009"),
-        "Fz is 1.255 N in 100 of 200 samples on end, whose pictures differ; elsewhere it changes"
+        "Fz is 1.255 N in 100 of 200 samples in succession, although their pictures differ; elsewhere it changes"
     );
     says_nothing(&with_forces(forces, |_| {}), "TAC009");
 }
@@ -57,7 +57,7 @@ fn a_force_that_is_cut_in_a_third_of_the_samples_is_stuck_at_its_limit() {
     let report = with_forces(|number| forces(number).min(2.305), |_| {});
     assert_eq!(
         message(&report, "TAC009"),
-        "Fz ends at 2.305 N in 69 of 200 samples, over 3 times as many as have any other value: it is cut there"
+        "Fz ends at 2.305 N in 69 of 200 samples, over 3 times as many as for any other value: it is clipped there"
     );
     let pulled = with_forces(|number| -forces(number).min(2.305), |_| {});
     assert!(message(&pulled, "TAC009").starts_with("Fz ends at -2.305 N in 69 of 200"));
@@ -92,7 +92,7 @@ fn a_force_that_is_zero_below_a_threshold_differs_from_rest_by_its_pictures() {
     let report = of_presses(0, below);
     let found = message(&report, "TAC027");
     assert!(
-        found.starts_with("Fz is exactly 0 in 80 samples, of whose pictures "),
+        found.starts_with("Fz is exactly 0 in 80 samples, but "),
         "{found}"
     );
     // So is one that is clipped at zero behind an offset.

@@ -35,7 +35,7 @@ fn forces_that_were_joined_by_whole_seconds_are_warned_of_and_no_lag_is_sought()
     assert_eq!(codes(&report), [("TAC036", Severity::Warning)]);
     assert_eq!(
         message(&report, "TAC036"),
-        "150 rows have 5 different times and were joined with `ft` by them: rows of one time get the labels of the same row, so that a match may be up to 1.000 s off"
+        "150 rows have only 5 different times, by which they were joined with `ft`: rows of equal time get the labels of the same row, so a match may be wrong by up to 1.000 s"
     );
 }
 
@@ -51,10 +51,10 @@ fn stamps_that_are_all_zero_and_stamps_of_tenths_are_warned_of_and_exact_ones_ar
     };
     type Stamps<'a> = (&'a dyn Fn(u32) -> f64, Option<&'a str>);
     let stamps: [Stamps<'_>; 3] = [
-        (&|_| 0.0, Some("120 rows have 1 different times")),
+        (&|_| 0.0, Some("120 rows have only 1 different times")),
         (
             &|row| f64::from(row / 4) * 0.1,
-            Some("120 rows have 30 different times"),
+            Some("120 rows have only 30 different times"),
         ),
         (&|row| f64::from(row) / 30.0, None),
     ];
@@ -80,7 +80,7 @@ fn forces_at_5_hz_beside_pictures_at_30_hz_are_slow_and_linear_is_proposed() {
     let said = message(&report, "TAC037");
     assert_eq!(
         said,
-        "16 rows of `ft` serve 90 rows, up to 7 each: labels are up to 100 ms old; `pick = \"linear\"` would change Fz by 0.176 N in the mean and 0.526 N at most"
+        "16 rows of `ft` label 90 rows, up to 7 each: labels are up to 100 ms old; `pick = \"linear\"` would change Fz by 0.176 N on average and by at most 0.526 N"
     );
     assert_eq!(codes(&report), [("TAC037", Severity::Warning)]);
     says_nothing(&joined(cam, ft, "linear", ALL), "TAC037");

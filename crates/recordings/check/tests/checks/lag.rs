@@ -28,7 +28,7 @@ fn forces_that_go_with_earlier_pictures_are_a_lag_of_clocks() {
     let lag = lag.expect("a lag");
     assert!(
         lag.message
-            .starts_with("Fz comes about 155 ms (5 steps) later than the pictures"),
+            .starts_with("Fz is about 155 ms (5 steps) later than the pictures"),
         "{}",
         lag.message
     );

@@ -67,7 +67,11 @@ fn a_picture_that_was_dimmed_shifted_or_torn_after_the_reference_is_noticed() {
         .findings
         .iter()
         .find(|finding| finding.code == "TAC034");
-    assert!(hint.expect("found").hint.contains("new untouched picture"));
+    assert!(
+        hint.expect("found")
+            .hint
+            .contains("new untouched reference picture")
+    );
 }
 
 #[test]

@@ -41,7 +41,7 @@ fn every_fourth_and_every_third_frame_that_is_dropped_is_missing_and_the_rate_ha
             &report,
             "TAC023",
             &format!(
-                "{missing} frames seem to be missing before {missing} of 199 steps, which are up to 2 times the period of 0.0310 s"
+                "{missing} frames seem to be missing in {missing} of 199 steps, which are up to 2 times the period of 0.0310 s"
             ),
         );
         let rate = message(&report, "TAC008");
@@ -64,7 +64,7 @@ fn three_in_ten_frames_that_are_dropped_at_random_are_missing() {
     starts(
         &report,
         "TAC023",
-        &format!("{missing} frames seem to be missing before "),
+        &format!("{missing} frames seem to be missing in "),
     );
     assert!(!message(&report, "TAC008").contains("without gaps"));
 }
@@ -74,11 +74,11 @@ fn one_dropped_frame_is_said_in_the_singular_and_leaves_a_gap() {
     let report = stamped(|number| regular(number + u32::from(number >= 90)), |_| {});
     assert_eq!(
         message(&report, "TAC023"),
-        "1 frame seems to be missing before 1 of 199 steps, which is 2 times the period of 0.0310 s"
+        "1 frame seems to be missing in 1 of 199 steps, which is 2 times the period of 0.0310 s"
     );
     assert_eq!(
         message(&report, "TAC008"),
-        "32.2581 Hz by the median step of 0.0310 s; 1 frame seems to be missing"
+        "32.2581 Hz from the median step of 0.0310 s; 1 frame seems to be missing"
     );
 }
 
@@ -92,7 +92,7 @@ fn steps_that_are_no_multiples_of_a_period_miss_no_frame_and_have_a_median_and_a
     starts(
         &report,
         "TAC008",
-        "50.0000 Hz by the median step of 0.0200 s, 30.",
+        "50.0000 Hz from the median step of 0.0200 s, 30.",
     );
     assert!(!message(&report, "TAC008").contains("without gaps"));
     // Stamps that come up to 12 ms late.
@@ -127,7 +127,7 @@ fn two_units_in_turn_have_a_clock_each() {
     has_no_warning_of_times(&report);
     assert_eq!(
         message(&report, "TAC008"),
-        "32.2581 Hz by the median step of 0.0310 s, without gaps"
+        "32.2581 Hz from the median step of 0.0310 s, without gaps"
     );
     // What one of them misses is missing still.
     let report = in_turn(|number| {
@@ -158,7 +158,7 @@ fn units_of_different_months_have_one_kind_of_clock_and_units_since_1970_and_sin
     starts(
         &two,
         "TAC024",
-        "the stamps of some tables or units are of a clock since 1970",
+        "two clocks in one column: some tables or units have stamps since 1970",
     );
     // What one of them shows is no time since 1970, however late the other one is.
     let stated = in_turn(Clock::Unix, 20.0);
@@ -181,7 +181,7 @@ fn a_clock_that_jumps_ahead_without_contact_points_is_noticed() {
             &report,
             "TAC024",
             &format!(
-                "1 step between samples without contact points is over 100 times the usual one of 0.0310 s, {longest} s: "
+                "1 step between samples without contact points is over 100 times the usual step of 0.0310 s, {longest} s: "
             ),
         );
     }

@@ -67,7 +67,7 @@ fn frames_that_are_the_one_before_once_more_are_counted_with_the_true_rate() {
     });
     assert_eq!(
         message(&report, "TAC022"),
-        "100 of 199 steps from a frame to the next bring the same frame once more, up to 2 in a row: the stamps say 32.2581 Hz, new pictures come at 16.0480 Hz"
+        "100 of 199 steps repeat the previous frame, up to 2 in a row: the stamps are at 32.2581 Hz, new pictures at 16.0480 Hz"
     );
     // A copy elsewhere is a copy, and no stream that stands still.
     let report = stamped(regular, |recording| {
@@ -87,9 +87,8 @@ fn steps_of_two_and_four_usual_ones_are_dropped_frames_and_a_pause_is_none() {
         |_| {},
     );
     assert!(
-        message(&report, "TAC023").starts_with(
-            "4 frames seem to be missing before 2 of 199 steps, which are up to 4 times"
-        ),
+        message(&report, "TAC023")
+            .starts_with("4 frames seem to be missing in 2 of 199 steps, which are up to 4 times"),
         "{}",
         message(&report, "TAC023")
     );
@@ -112,7 +111,7 @@ fn stamps_of_two_clocks_a_clock_that_was_set_and_one_that_is_not_the_stated_are_
         |recording| recording.clock = Clock::Unix,
     );
     assert!(
-        message(&two, "TAC024").starts_with("two clocks stamped these samples: 1 times"),
+        message(&two, "TAC024").starts_with("these samples have stamps of two clocks: 1 steps"),
         "{}",
         message(&two, "TAC024")
     );
@@ -142,7 +141,7 @@ fn frames_of_one_colour_are_blank() {
     });
     assert_eq!(
         message(&report, "TAC025"),
-        "3 of 200 frames are one colour from edge to edge"
+        "3 of 200 frames have a single colour"
     );
 }
 
@@ -151,7 +150,7 @@ fn frames_of_one_colour_are_found_by_a_check_that_is_asked_for_alone() {
     let report = imported_and_checked(blank_lab().path(), BLANK_MAP, &["TAC025"]);
     assert_eq!(
         message(&report, "TAC025"),
-        "2 of 2 frames are one colour from edge to edge"
+        "2 of 2 frames have a single colour"
     );
 }
 
@@ -204,7 +203,7 @@ fn rows_that_a_join_left_out_are_repeated_by_the_check_and_a_whole_import_says_n
     );
     assert_eq!(
         message(&report, "TAC021"),
-        "1 rows are not in the recording, since no row of a joined table belongs to them (join ft 1; 2 rows are kept)"
+        "1 rows are not in the recording, because no row of a joined table matches them (join ft 1; 2 rows are kept)"
     );
     let whole = [
         ("run.csv", "k\n1\n2\n"),

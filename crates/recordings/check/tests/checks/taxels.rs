@@ -69,8 +69,7 @@ fn a_taxel_at_the_end_of_its_converter_is_named_and_one_that_is_silent_at_rest_i
     };
     assert_eq!(*code, "TAC017");
     assert!(
-        message
-            .starts_with("1 of 15 signals end where many samples stand: taxel_4_0_z is 400 uT in "),
+        message.starts_with("1 of 15 signals are clipped at a limit: taxel_4_0_z is 400 uT in "),
         "{message}"
     );
     // Below 320 µT, which hardly any press stays under, it says nothing.

@@ -31,7 +31,7 @@ fn a_transducer_that_was_zeroed_anew_half_way_is_a_step_of_untouched_pictures() 
     ];
     let report = imported(&files, &map(FZ, TIMED), &["TAC035"]);
     let said = message(&report, "TAC035");
-    let start = "Fz of 30 pictures that look alike and are without contact steps from -0.002 N to 1.502 N at ";
+    let start = "Fz of 30 similar pictures without contact steps from -0.002 N to 1.502 N at ";
     assert!(said.starts_with(start), "{said}");
 }
 
@@ -99,7 +99,7 @@ fn a_zero_of_rows_without_times_steps_at_a_row() {
     let step = |number: u32| if number < 120 { 0.0 } else { -0.6 };
     let report = with_zero("Fz", false, step);
     let said = message(&report, "TAC035");
-    assert!(said.contains("at row 121: the zero was moved"), "{said}");
+    assert!(said.contains("at row 121: the zero has moved"), "{said}");
 }
 
 #[test]

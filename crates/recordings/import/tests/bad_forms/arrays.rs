@@ -63,7 +63,7 @@ fn a_draft_of_nothing_but_links_that_lead_nowhere_names_them() {
     let refused = taceva_import::MapDraft::of(folder.path()).expect_err("nothing else is in it");
     let refused = refused.to_string();
     for words in [
-        "the soft link `/frames` leads to `/nowhere`, which is not there",
+        "the soft link `/frames` leads to `/nowhere`, which does not exist",
         "del f['frames']",
     ] {
         assert!(refused.contains(words), "{refused}");

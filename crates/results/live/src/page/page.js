@@ -13,8 +13,8 @@
   };
 
   const refusals = {
-    401: 'This address has no token or an old one: open the address that the program printed, with all that stands behind #.',
-    503: 'Two pages are open already: close one. Stop works here all the same.',
+    401: 'This address has no token or an old one: open the whole address that the program printed, including the part after #.',
+    503: 'Two pages are already open: close one. Stop still works here.',
   };
 
   const post = async (path, body) => {
@@ -60,7 +60,7 @@
   const show = (state) => {
     document.title = state.question ? `Your turn · ${state.title}` : state.title;
     find('title').textContent = state.title;
-    find('stage').textContent = state.ended || (state.is_stopping ? 'stopping; press again to halt at once, where it is' : state.stage);
+    find('stage').textContent = state.ended || (state.is_stopping ? 'stopping; press again to halt at once' : state.stage);
     gauge('normal', state.Fz_N, state.limits.Fz_max_N, 'N', 2);
     gauge('shear', state.Fxy_N, state.limits.Fxy_max_N, 'N', 2);
     gauge('depth', state.Pz_mm, state.limits.Pz_max_mm, 'mm', 3);

@@ -324,7 +324,7 @@ fn without_its_token_it_says_which_address_is_needed() {
     opened.browser.open(bare);
     opened.until("!document.getElementById('lost').hidden");
     let said = opened.text("lost");
-    assert!(said.contains("all that stands behind #"), "{said}");
+    assert!(said.contains("including the part after #"), "{said}");
     let seen = opened
         .browser
         .evaluate("document.getElementById('frame').width");

@@ -28,7 +28,7 @@ impl Cache {
         {
             if held.exists() && header_digest(&held) != Some(header) {
                 self.note(format!(
-                    "{} holds another recording than it did; its presses are made anew",
+                    "the recording in {} has changed; its presses are made again",
                     held.display()
                 ));
                 continue;
@@ -47,7 +47,7 @@ impl Cache {
                         return found;
                     }
                     Err(problem) => self.note(format!(
-                        "{}: {problem}; its presses are made anew",
+                        "{}: {problem}; its presses are made again",
                         held.display()
                     )),
                 },

@@ -81,7 +81,7 @@ impl Cache {
         };
         match taken(&file) {
             Ok(Some(value)) => return Some(value),
-            Ok(None) => self.discard(key, "it is not what was written there"),
+            Ok(None) => self.discard(key, "its content has changed since it was written"),
             Err(error) => self.note_unreadable(&entry, &error),
         }
         None
@@ -181,7 +181,7 @@ mod tests {
             fs::write(&entry, altered).expect("altered");
             assert_eq!(cache.take_value::<Column>(&key), None, "byte {position}");
         }
-        assert!(cache.notes()[0].contains("not what was written"));
+        assert!(cache.notes()[0].contains("its content has changed"));
         cache.keep_value(&key, &numbers());
         assert_eq!(cache.take_value(&key), Some(numbers()));
     }
@@ -199,7 +199,7 @@ mod tests {
         }
         let notes = cache.notes();
         assert!(
-            matches!(&notes[..], [note] if note.contains("cannot be written")),
+            matches!(&notes[..], [note] if note.contains("cannot write to the cache")),
             "{notes:?}"
         );
         assert_eq!(fs::read(&file).expect("there"), b"mine");

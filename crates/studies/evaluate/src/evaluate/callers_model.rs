@@ -85,7 +85,7 @@ impl GivenRows {
         let train = usable(dataset, &whole, need);
         if request.learns && train.is_empty() {
             return Err(EvaluateError::Request(
-                "no training sample has a label of every channel: name fewer channels".to_owned(),
+                "no training sample has labels of all channels: name fewer channels".to_owned(),
             ));
         }
         let target = Target::of(dataset, divided, request.part, request.reads_frames)?;

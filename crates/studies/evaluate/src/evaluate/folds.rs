@@ -147,8 +147,8 @@ impl<'a> Folds<'a> {
         }
         let count = recordings.len();
         let note = format!(
-            "each of {count} recordings was predicted by a model that was fitted on the other {}; skill is measured by the mean of truth, because \
-             these {count} models have no constant in common",
+            "each of {count} recordings was predicted by a model fitted on the other {}; the baseline of skill is the mean of the truth, \
+             because these {count} models share no constant",
             count - 1
         );
         let whole = Divided {
@@ -205,9 +205,8 @@ impl<'a> Folds<'a> {
             left_out: left_out.collect(),
             test: tested,
             note: Some(format!(
-                "each sample was predicted once, by one of {count} models that were fitted without its group ({named} groups), and settings were \
-                 chosen among the groups that each model was fitted on; skill is measured by the mean of truth, because these models have no \
-                 constant in common"
+                "each sample was predicted once, by one of {count} models fitted without its group ({named} groups), whose settings were \
+                 chosen on the groups of its fit; the baseline of skill is the mean of the truth, because these models share no constant"
             )),
             ..Split::default()
         };
@@ -243,8 +242,8 @@ impl<'a> Folds<'a> {
         match request.part {
             None => Ok(()),
             Some(part) => Err(EvaluateError::Request(format!(
-                "part `{}`: {} scores every sample, each by a model that has not seen its {}; leave --part out, or name a --split that keeps a test \
-                 part, such as by-point",
+                "part `{}`: {} scores every sample, with a model fitted without its {}; leave --part out, or name a --split that has a \
+                 test part, such as by-point",
                 part.name(),
                 self.words(),
                 match self.are_recordings {

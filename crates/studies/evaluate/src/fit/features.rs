@@ -42,7 +42,7 @@ impl FitPlan<'_> {
             ((Some(info), _), Some(frames), _) => (info.into(), frames.reference.is_some()),
             _ => {
                 return Err(EvaluateError::Request(
-                    "the dataset has no frames, the model needs them".to_owned(),
+                    "the model needs frames, and the dataset has none".to_owned(),
                 ));
             }
         };
@@ -101,7 +101,7 @@ impl FitPlan<'_> {
         let samples = self.train.len();
         if samples < RUNS * LEFT_OUT_OF {
             return Err(EvaluateError::Request(format!(
-                "{samples} training samples, at least {} are needed to choose features by `auto`",
+                "{samples} training samples: `auto` needs at least {} to choose features",
                 RUNS * LEFT_OUT_OF
             )));
         }

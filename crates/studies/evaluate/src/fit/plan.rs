@@ -153,7 +153,7 @@ impl<'a> FitPlan<'a> {
         let rows = self.train.len() + self.validation.len();
         if self.model.reads_features() {
             let features = match self.open {
-                Some(_) => format!("{} and others, of which some are chosen", self.features),
+                Some(_) => format!("{} and other candidates, chosen in the fit", self.features),
                 None => match self.closer {
                     Some(closer) => format!("{} and {closer}", self.features),
                     None => self.features.to_string(),

@@ -36,7 +36,7 @@ impl FitRequest {
         const SEED: &str = "seed";
         if !self.model.setting_keys().contains(&SEED) {
             return Err(EvaluateError::Request(format!(
-                "the model {} draws nothing: with every seed it would be the same, so run it without --seeds",
+                "the model {} uses no random numbers, so every seed gives the same result: run it without --seeds",
                 self.model.name()
             )));
         }

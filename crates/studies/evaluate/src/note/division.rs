@@ -76,14 +76,15 @@ pub(super) fn write(
     match division {
         Division::Blocks { count, gap } => write!(
             f,
-            ", so {count} blocks of time stay together, with a gap of {gap} samples between those that are learnt from and tested on"
+            ", so {count} blocks of time stay together, with a gap of {gap} samples between training and test blocks"
         ),
         Division::Column(name) => {
-            write!(f, ", so samples with one `{}` stay together", shown(name))
+            write!(f, ", so samples with equal `{}` stay together", shown(name))
         }
         Division::Separated { beside, of } => write!(
             f,
-            ", and {beside} of {of} tested samples have a neighbour that was learnt from: the scores flatter; divide by --split 'cv:5 by-block'"
+            ", and {beside} of {of} test samples have a neighbour in the training part: the scores are optimistic; divide with --split \
+             'cv:5 by-block'"
         ),
     }
 }

@@ -12,10 +12,10 @@ fn the_note_says_what_the_clusters_are_and_how_many_there_are_of_both() {
     };
     let few = note(3, 24);
     assert!(few.contains("24 contact points of 3 recordings"), "{few}");
-    assert!(few.contains("by contact point within"), "{few}");
+    assert!(few.contains("by contact point do not show"), "{few}");
     let enough = note(5, 40);
     assert!(
-        enough.contains("by recording, 5 of them with 40"),
+        enough.contains("(5 recordings with 40 contact points)"),
         "{enough}"
     );
     assert!(enough.contains("5 are few") && enough.contains("4 degrees of freedom"));

@@ -12,7 +12,7 @@ fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let fitted_on = model.card().provenance.view.as_deref();
     match (fitted_on, dataset.view()) {
         (Some(own), Some(seen)) if own != seen => Err(EvaluateError::Unsuited(format!(
-            "it was fitted on the view `{}`, and the pictures are those of `{}`: leave --view out, or fit a model of that view",
+            "it was fitted on the view `{}`, but the pictures are of the view `{}`: leave --view out, or fit a model on that view",
             shown(&own),
             shown(&seen)
         ))),
@@ -72,7 +72,7 @@ impl Target {
             (None, DataPart::All) => dataset.all_rows(),
             (None, part) => {
                 return Err(EvaluateError::Request(format!(
-                    "part `{}`: the model was fitted on another dataset, only `all` of this one can be taken",
+                    "part `{}`: the model was fitted on another dataset, so this one has only the part `all`",
                     part.name()
                 )));
             }

@@ -123,7 +123,8 @@ impl Matching {
     ) -> EvaluateError {
         let [of_truth, of_prediction] = agreement.columns;
         let expected = format!(
-            "expected `{}`, as in {}: these rows were paired {}, but differ in {}; name the key of the rows with --key NAME, or mend the tables",
+            "expected `{}`, as in {}: these rows were paired {}, but differ in {}; name the key column with --key NAME, or correct the \
+             tables",
             shown(truth.cell(row, of_truth)),
             truth.place(row, of_truth),
             self.by,

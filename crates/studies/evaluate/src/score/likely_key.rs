@@ -92,8 +92,8 @@ fn check(
             return Err(refused(
                 request,
                 format!(
-                    "column `{}` holds texts such as `{}`, which are not scored: if it names rows, pair them by it with --key {}, \
-                     else leave it out of the predictions",
+                    "column `{}` holds texts such as `{}`, which cannot be scored: if it identifies rows, pair them with --key {}, else \
+                     remove it from the predictions",
                     shown(name),
                     shown(&first),
                     shown(name)
@@ -104,8 +104,8 @@ fn check(
             return Err(refused(
                 request,
                 format!(
-                    "column `{}` holds the same whole numbers in both tables, each of them once, so it likely names rows: pair them by it with \
-                     --key {}, or score it as a channel with --units {}=1",
+                    "column `{}` holds the same unique whole numbers in both tables, so it probably identifies rows: pair them with --key \
+                     {}, or score it as a channel with --units {}=1",
                     shown(name),
                     shown(name),
                     shown(name)

@@ -42,9 +42,9 @@ impl Shard {
     /// [`ShardError`] if `of` is 0, or `number` is not in 1 to `of`.
     pub fn new(number: u32, of: u32) -> Result<Shard, ShardError> {
         let problem = match (number, of) {
-            (_, 0) => "there is no shard",
-            (0, _) => "shards count from 1",
-            (number, of) if number > of => "there are fewer shards",
+            (_, 0) => "the number of shards is 0",
+            (0, _) => "shard numbers begin at 1",
+            (number, of) if number > of => "K is above N",
             _ => return Ok(Shard { number, of }),
         };
         Err(ShardError {
@@ -112,9 +112,9 @@ mod tests {
     #[test]
     fn what_is_no_shard_is_refused_with_what_would_be() {
         for (text, problem) in [
-            ("0/7", "shards count from 1"),
-            ("8/7", "there are fewer shards"),
-            ("1/0", "there is no shard"),
+            ("0/7", "shard numbers begin at 1"),
+            ("8/7", "K is above N"),
+            ("1/0", "the number of shards is 0"),
             ("7", "no shard"),
             ("-1/7", "no shard"),
             ("1/7/2", "no shard"),

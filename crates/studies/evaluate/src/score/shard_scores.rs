@@ -66,7 +66,7 @@ impl ScoreTables {
             false => Err(EvaluateError::Tables {
                 path: tables.prediction.path().to_owned(),
                 problem: format!(
-                    "{} rows, but {} has {}: each row of the truth has one prediction",
+                    "{} rows, but {} has {}: each row of the truth needs one prediction",
                     tables.prediction.rows(),
                     shown(tables.truth.path()),
                     tables.truth.rows()
@@ -130,7 +130,7 @@ impl ScoreTables {
             plan.step(
                 "read",
                 format!(
-                    "rows {} to before {} of the {} of {}",
+                    "rows {} up to but excluding {}, of {} of {}",
                     own.start,
                     own.end,
                     self.rows(),

@@ -80,7 +80,7 @@ impl TableParts {
             false => Err(EvaluateError::Tables {
                 path: self.path,
                 problem: format!(
-                    "it is another table than when the sweep was planned: {}, expected {}; start the sweep again",
+                    "the table has changed since the sweep was planned: digest {}, expected {}; start the sweep again",
                     now.digest, self.digest
                 ),
             }),

@@ -68,7 +68,7 @@ pub(super) fn check_distinct(request: &ScoreRequest) -> Result<(), EvaluateError
         return Ok(());
     }
     Err(EvaluateError::Request(format!(
-        "{} and {} are one file: nothing is predicted; name a table of what is true and another of what was predicted",
+        "{} and {} are the same file; name one table of truth and another of predictions",
         shown(&request.truth),
         shown(&request.prediction)
     )))
@@ -90,7 +90,7 @@ pub(super) fn check_some(path: &Path, rows: u64) -> Result<(), EvaluateError> {
     match rows {
         0 => Err(EvaluateError::Tables {
             path: path.to_owned(),
-            problem: "no row below the header: there is nothing to score".to_owned(),
+            problem: "the table has no row below its header".to_owned(),
         }),
         _ => Ok(()),
     }
@@ -146,7 +146,7 @@ pub(super) fn channels(
         .find(|name| six(name).is_some() && !prediction.has(name));
     if let Some(name) = absent {
         let problem = format!(
-            "no column `{name}`, which {} has: both must have the same channels",
+            "no column `{name}`, although {} has it: both tables must have the same channels",
             shown(&truth.path())
         );
         return Err(wrong(prediction, problem));
@@ -155,12 +155,13 @@ pub(super) fn channels(
     let periods = periods.iter().map(|(name, _)| ("period", name));
     if let Some((what, name)) = units.chain(periods).find(|(_, name)| !prediction.has(name)) {
         return Err(EvaluateError::Request(format!(
-            "a {what} is given for `{name}`, which is no column of the predictions"
+            "a {what} is given for `{name}`, but the predictions have no such column"
         )));
     }
     if found.is_empty() {
         let problem =
-            "no column is a channel: expected Px, Py, Pz, Fx, Fy, Fz or named others".to_owned();
+            "no column is a channel: expected Px, Py, Pz, Fx, Fy, Fz or channels named by --units"
+                .to_owned();
         return Err(wrong(prediction, problem));
     }
     Channels::new(found).map_err(|error| wrong(prediction, error.to_string()))
@@ -198,7 +199,7 @@ pub(super) fn pair<'a>(
         return Err(EvaluateError::Tables {
             path: prediction.path().to_owned(),
             problem: format!(
-                "{} rows, but {} has {}; without a column `sample` or `id` in both, rows are matched by order",
+                "{} rows, but {} has {}; rows are matched by order, because no column `sample` or `id` is in both tables",
                 prediction.rows(),
                 shown(&truth.path()),
                 truth.rows()
@@ -254,7 +255,7 @@ pub(super) fn comes_twice(name: &str, key: &str, places: Option<[Place; 2]>) -> 
         format!(", in lines {first} and {second}")
     });
     format!(
-        "{} `{}` comes twice{lines}: rows are paired by it, so each row needs its own; name another column with --key NAME, or --key order",
+        "{} `{}` occurs twice{lines}: rows are paired by it, so it must be unique; name another column with --key NAME, or use --key order",
         in_words(name),
         shown(key)
     )
@@ -269,12 +270,12 @@ pub(super) fn is_lacking<'a>(
 ) -> String {
     let nearly = nearly(key, others).map_or_else(String::new, |other| {
         format!(
-            "; `{}` differs from it in blanks or case alone: write both alike",
+            "; `{}` differs only in blanks or case: write both alike",
             shown(other)
         )
     });
     format!(
-        "no row with {} `{}`, which {} has{nearly}",
+        "no row with {} `{}`, although {} has one{nearly}",
         in_words(name),
         shown(key),
         shown(has)

@@ -127,7 +127,7 @@ impl WrittenPlan {
             .map_err(|error| wrong(error.to_string()))?;
         let field = |name: &String| {
             let found = Field::ALL.into_iter().find(|field| field.name() == name);
-            found.ok_or_else(|| wrong(format!("`{name}` is no field")))
+            found.ok_or_else(|| wrong(format!("unknown field `{name}`")))
         };
         let fields: FieldSet = self.fields.iter().map(field).collect::<Result<_, _>>()?;
         let footprint = self.footprint.as_ref().map(WrittenFootprint::to_core);
@@ -179,7 +179,9 @@ impl WrittenFootprint {
         match (self.radius_nm, self.half_nm) {
             (Some(radius), None) => Footprint::disc(millimetres(radius), depth),
             (None, Some([x, y])) => Footprint::rectangle(millimetres(x), millimetres(y), depth),
-            _ => return Err("a footprint has either `radius_nm` or `half_nm`".to_owned()),
+            _ => {
+                return Err("a footprint needs exactly one of `radius_nm` and `half_nm`".to_owned());
+            }
         }
         .map_err(|error| error.to_string())
     }

@@ -94,7 +94,7 @@ fn a_report_states_the_zero_of_the_map_and_the_angle_between_declared_rotations(
     );
     assert!(!plain.contains("rotation Rx"), "{plain}");
     let declared = notes("rotation = [\"Rx\", \"Ry\", \"Rz\"]\n");
-    let start = "rotation Rx, Ry, Rz: predictions are turned from the truth by ";
+    let start = "rotation Rx, Ry, Rz: mean angle between predictions and truth ";
     let angle = declared.lines().find_map(|line| line.strip_prefix(start));
     let angle: f64 = angle
         .and_then(|rest| rest.split(' ').next()?.parse().ok())

@@ -167,7 +167,7 @@ fn points_of_one_row_each_in_a_stream_are_no_reason_to_divide_at_random() {
         let random = evaluated(&dataset, "knn", Some(split));
         assert!(r2(&random) > 0.9, "{split}: {}", r2(&random));
         assert!(
-            said(&random).contains("the scores flatter"),
+            said(&random).contains("the scores are optimistic"),
             "{split}: {}",
             said(&random)
         );
@@ -216,7 +216,7 @@ fn independent_presses_are_points_of_their_own_and_have_intervals() {
         "{}",
         method(&found)
     );
-    let once = said(&found).matches("point of its own").count();
+    let once = said(&found).matches("counts as one contact point").count();
     assert_eq!(once, 1, "{}", said(&found));
     assert_eq!(found.report.provenance.neighbours, None);
 }

@@ -186,12 +186,13 @@ fn keys_of_two_names_and_of_numbers_written_as_decimals_pair_the_same_rows() {
 fn rows_without_a_common_key_are_paired_by_order_and_it_is_said() {
     let scored = Tables::new("sample,Fz\na,1\nb,2\nc,3\n", "Fz\n1\n2\n4\n").scored();
     assert!(
-        notes(&scored).contains("rows were paired by order, because no key of rows stands in both"),
+        notes(&scored)
+            .contains("rows were paired by order, because the tables share no key column"),
         "{}",
         notes(&scored)
     );
     let asked = Tables::new("id,Fz\n1,1\n2,2\n", "id,Fz\n8,1\n9,2\n").with_key("order");
-    assert!(notes(&asked.scored()).contains("by order, as was asked for"));
+    assert!(notes(&asked.scored()).contains("by order, as requested"));
 }
 
 #[test]
@@ -211,7 +212,7 @@ fn a_key_that_comes_twice_is_refused_with_both_lines() {
     ] {
         let error = Tables::new(truth, prediction).refused();
         assert!(
-            error.contains(file) && error.contains("comes twice, in lines"),
+            error.contains(file) && error.contains("occurs twice, in lines"),
             "{error}"
         );
         assert!(error.contains("--key"), "{error}");
@@ -235,9 +236,7 @@ fn keys_that_differ_in_blanks_or_case_are_refused_with_both() {
             "{error}"
         );
         assert!(
-            error.contains(&format!(
-                "`{other}` differs from it in blanks or case alone"
-            )),
+            error.contains(&format!("`{other}` differs only in blanks or case")),
             "{error}"
         );
     }
@@ -310,7 +309,7 @@ fn a_column_of_whole_numbers_that_names_rows_is_asked_about_and_never_scored() {
     for tables in [tables(), tables().in_parquet()] {
         let error = tables.refused();
         assert!(
-            error.contains("`frame_number` holds the same whole numbers"),
+            error.contains("`frame_number` holds the same unique whole numbers"),
             "{error}"
         );
         assert!(error.contains("--key frame_number"), "{error}");

@@ -284,7 +284,7 @@ fn race(
 }
 
 fn finished(time: Option<Spread>) -> Result<Spread, EvaluateError> {
-    time.ok_or_else(|| EvaluateError::Request("nothing was timed".to_owned()))
+    time.ok_or_else(|| EvaluateError::Request("no measurement was made".to_owned()))
 }
 
 fn on_every_input(candidate: Candidate) -> Vec<InputDigits> {

@@ -106,12 +106,14 @@ pub fn models(
 ) -> Result<ModelTrials, EvaluateError> {
     let requests = race.requests;
     let Some(first) = requests.first() else {
-        return Err(EvaluateError::Request("no model to race".to_owned()));
+        return Err(EvaluateError::Request(
+            "no model to compare: name at least one".to_owned(),
+        ));
     };
     let same = |request: &FitRequest| (&request.split, request.seed) == (&first.split, first.seed);
     if !requests.iter().all(same) {
         return Err(EvaluateError::Request(
-            "models are raced on one split and one seed".to_owned(),
+            "all models of a benchmark need the same split and seed".to_owned(),
         ));
     }
     for request in requests {

@@ -61,15 +61,18 @@ impl RunFolder {
                 return Ok(folder);
             }
             Existing::Resume if !is_there => {
-                return Err(refused("there is no run to go on with".to_owned()));
+                return Err(refused(
+                    "no run to resume: the folder does not exist".to_owned(),
+                ));
             }
             Existing::Replace if is_run => fs::remove_dir_all(path).map_err(failed)?,
             _ if is_there && !is_empty(path).map_err(failed)? => {
                 return Err(refused(match existing {
                     Existing::Refuse => {
-                        "exists already; --resume goes on, --force begins anew".to_owned()
+                        "it exists already; use --resume to continue it, or --force to start again"
+                            .to_owned()
                     }
-                    _ => "holds something that is no run".to_owned(),
+                    _ => "it is not the folder of a run".to_owned(),
                 }));
             }
             _ => {}
@@ -276,7 +279,10 @@ mod tests {
         assert!(RunFolder::open(&run, &own, Existing::Refuse).is_err());
         RunFolder::open(&run, &own, Existing::Resume).expect("goes on");
         let refused = RunFolder::open(&run, &other, Existing::Resume).expect_err("other plans");
-        assert!(refused.to_string().contains("other plans"), "{refused}");
+        assert!(
+            refused.to_string().contains("a different plan"),
+            "{refused}"
+        );
         RunFolder::open(&run, &other, Existing::Replace).expect("begun anew");
         RunFolder::open(&run, &other, Existing::Resume).expect("goes on");
     }

@@ -95,14 +95,18 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
             Cell::text(choice.unit.as_str()),
         ]);
     }
-    table.note("Chosen by the least root mean square error on validation parts, or on what a model left out of its training part in turn, the mean over seeds; models that report neither take no part. Test parts took no part in any choice: the test error is that of what was chosen.");
+    table.note("Chosen by the least root mean square error, mean over seeds, on validation parts or in cross-validation within the \
+        training part; models that report neither are excluded. Choices use no test part: the test error is that of the chosen \
+        configuration.");
     let silent = without_validation(groups);
     if !silent.is_empty() {
         table.note(format!(
-            "No candidates, as they report no such error: {}.",
+            "Excluded, because they report no such error: {}.",
             silent.join("; ")
         ));
     }
-    table.note("Test MAE is the mean over seeds, and the interval over seeds is of that mean: how far it would move with other divisions and random numbers, on the same recording. The interval over contact points is of the MAE of one seed beside it: how far that would move with other presses and the same training. They are not to be added.");
+    table.note("Test MAE is the mean over seeds. The interval over seeds shows how that mean varies with other divisions and random \
+        numbers on the same recording. The interval over contact points shows how the MAE of one seed, beside it, varies with other \
+        presses and the same training. Do not add the two.");
     table
 }

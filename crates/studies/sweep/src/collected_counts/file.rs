@@ -65,7 +65,7 @@ impl Collected {
         };
         let wrong = |problem: String| SweepError::Kept {
             path: path.clone(),
-            problem: format!("{problem}; `taceva sweep collect` makes it anew"),
+            problem: format!("{problem}; run `taceva sweep collect` to make it again"),
         };
         let head: Head = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
         if head.schema != SCHEMA {

@@ -3,7 +3,7 @@
 use crate::task::Task;
 
 /// The accepted forms, for messages.
-const UNDERSTOOD: &str = "expected NAME = VALUE or NAME != VALUE, several with ` and ` or ` or ` between them (no parentheses), or the key of a task";
+const UNDERSTOOD: &str = "expected NAME = VALUE or NAME != VALUE, joined by ` and ` or ` or ` (no parentheses), or the key of a task";
 /// Signs that no bare value contains: a term with one of them is a mistake.
 const SIGNS: [char; 9] = ['=', '!', '<', '>', '&', '|', '(', ')', '"'];
 

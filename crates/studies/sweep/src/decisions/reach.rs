@@ -35,7 +35,8 @@ pub(super) fn out_of_reach(family: &[Difference]) -> Option<String> {
     let least = least.min_by(f64::total_cmp)?;
     (least > step).then(|| {
         format!(
-            "Nothing can be shown here, whatever the difference: the first of {} tests needs p ≤ {step:.2e}, and with so few contact points or flips no p is below {least:.2e}. Sweep fewer configurations, press more points, or ask one question with taceva compare.",
+            "No difference can be shown here: the first of {} tests needs p ≤ {step:.2e}, but the smallest p with so few contact points \
+             or flips is {least:.2e}. Sweep fewer configurations, press more points, or compare two results with taceva compare.",
             family.len()
         )
     })
@@ -83,7 +84,7 @@ mod tests {
         let family = family(10, 8);
         assert!(family.iter().all(|difference| !difference.is_shown));
         let words = out_of_reach(&family).expect("out of reach");
-        assert!(words.contains("Nothing can be shown"), "{words}");
+        assert!(words.contains("No difference can be shown"), "{words}");
         assert_eq!(out_of_reach(&[]), None);
     }
 }

@@ -31,7 +31,7 @@ impl SweepFile {
             return Err(place.wrong(
                 "sweep_version",
                 format!(
-                    "version {} of the form; this program reads version {VERSION}",
+                    "`sweep_version` is {}, expected {VERSION}",
                     written.sweep_version
                 ),
             ));
@@ -58,7 +58,7 @@ impl SweepFile {
             let known = known.map_err(|error| place.wrong("splits", error.to_string()))?;
             if matches!(known.kind, SplitKind::Folds(_)) {
                 let problem = format!(
-                    "`{}`: a sweep chooses by the validation part of one division; name one that keeps a test part, such as by-point or by-block",
+                    "`{}`: a sweep needs one division with validation and test parts, such as by-point or by-block",
                     shown(split)
                 );
                 return Err(place.wrong("splits", problem));

@@ -41,7 +41,7 @@ impl TablesEntry {
                 return Err(place.wrong("shards", problem.to_owned()));
             }
             shards if shards > MOST_TASKS => {
-                let problem = format!("`shards = {shards}`: {MOST_TASKS} are the most");
+                let problem = format!("`shards = {shards}`: expected at most {MOST_TASKS}");
                 return Err(place.wrong("shards", problem));
             }
             _ => {}
@@ -53,7 +53,7 @@ impl TablesEntry {
                 let suggestion = Suggestion::of(symbol, known);
                 place.wrong(
                     name,
-                    format!("`{name}`: no unit `{}`, {suggestion}", shown(symbol)),
+                    format!("`{name}`: unknown unit `{}`, {suggestion}", shown(symbol)),
                 )
             })
         };
@@ -85,7 +85,7 @@ pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Resul
         Some((key, _)) => Err(place.wrong(
             key,
             format!(
-                "`{key}` stands beside `[score]`: a sweep is of recordings or of tables; write two files"
+                "`{key}` cannot be combined with `[score]`: a sweep is of recordings or of tables; write two files"
             ),
         )),
     }

@@ -19,7 +19,7 @@ pub(super) fn vary(
             return Err(place.wrong(
                 &key,
                 format!(
-                    "`{key}` varies and is set by the model {}; keep one of both",
+                    "`{key}` is both varied and set by the model {}; keep only one",
                     model.name
                 ),
             ));

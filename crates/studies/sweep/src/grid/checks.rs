@@ -40,7 +40,7 @@ pub(super) fn size(file: &SweepFile, recordings: usize) -> Result<(), SweepError
             path: file.path.clone(),
             line: None,
             problem: format!(
-                "a grid of {count} tasks ({}), {MOST_TASKS} are the most: vary less, or make several sweeps",
+                "a grid of {count} tasks ({}), at most {MOST_TASKS} are allowed: vary less, or make several sweeps",
                 parts.join(" × ")
             ),
         });
@@ -61,8 +61,7 @@ pub(super) fn words(file: &SweepFile) -> Result<(), SweepError> {
         }
     }
     if file.vary.contains_key("seed") {
-        let problem =
-            "`seed` varies by `seeds`, which divide the samples and are what models draw by";
+        let problem = "vary the seed with `seeds`, which set both the division of samples and the random numbers of models";
         return Err(file.wrong("seed", problem.to_owned()));
     }
     let own = file.models.iter().flat_map(|model| model.set.keys());

@@ -74,7 +74,8 @@ pub(super) fn named(file: &SweepFile, scenes: &[SceneRecording]) -> Result<Vec<N
     for SceneRecording { name, .. } in scenes {
         if !known.insert(name.clone()) {
             let problem = format!(
-                "two recordings are called `{name}`, of which one is of a scene: name a folder `./{name}`, or give the scene another `name`",
+                "a folder and a recording of a scene are both called `{name}`: write the folder as `./{name}`, or give the scene another \
+                 `name`",
                 name = shown(name)
             );
             return Err(file.wrong("scenes", problem));
@@ -103,7 +104,8 @@ pub(super) fn open(file: &SweepFile, all: &[Named]) -> Result<Vec<Recording>, Sw
         let alike = recordings.iter().find(|other| other.digest == digest);
         if let Some(other) = alike {
             let problem = format!(
-                "`{}` and `{}` are one recording, the same to the last byte of its header; name it once, or give the copy of another unit its serial number",
+                "`{}` and `{}` are the same recording, with equal headers; name it once, or give the copy of another unit its own serial \
+                 number",
                 shown(&other.name),
                 shown(&one.name)
             );

@@ -113,11 +113,11 @@ impl Runner<'_> {
             }
             Ok(Err(error @ SweepError::Io { .. })) => {
                 // A full disk or a missing folder is no fault of the task: it is tried again next time.
-                log.say(&format!("not carried out: {error}"));
+                log.say(&format!("not run: {error}"));
                 return Outcome::Failed(error.to_string());
             }
             Ok(Err(error)) => task.without_folders(&error.to_string(), self.folder),
-            Err(panic) => format!("an internal error, which is a bug of TacEva: {panic}"),
+            Err(panic) => format!("internal error, a bug of TacEva: {panic}"),
         };
         log.say(&format!("failed: {reason}"));
         timer.keep(self.folder, &task.key);

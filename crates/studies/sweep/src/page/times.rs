@@ -11,7 +11,8 @@ use crate::times::TaskTime;
 /// The page of times, which differs between runs: run time against error, a figure for each recording and channel with R².
 pub(crate) fn times(folder: &SweepFolder, list: &TaskList, loaded: &[Loaded<'_>]) -> String {
     let mut parts = vec![PagePart::Words(
-        "What a task took depends on the machine, its load and on what was in the cache before. Filled: no other configuration is both faster and more accurate.".to_owned(),
+        "The time of a task depends on the machine, its load and the content of the cache. Filled: no other configuration is both faster \
+         and more accurate.".to_owned(),
     )];
     let groups = analysis::groups(loaded);
     let mut places: Vec<(&str, Option<&str>)> = Vec::new();
@@ -44,9 +45,9 @@ pub(crate) fn times(folder: &SweepFolder, list: &TaskList, loaded: &[Loaded<'_>]
                 let split = place.1.unwrap_or("split as recorded");
                 parts.push(PagePart::Figure(Box::new(race(&Race {
                     title: format!("{channel} of {}, {split}", place.0),
-                    caption: "Seconds of a task, features included, against R² on the test part, means over seeds.".to_owned(),
+                    caption: "Seconds per task, including features, against R² on the test part; means over seeds.".to_owned(),
                     gain: format!("R² of {channel}"),
-                    cost: "s a task".to_owned(),
+                    cost: "s per task".to_owned(),
                     floor: None,
                     points,
                 }))));
@@ -56,7 +57,9 @@ pub(crate) fn times(folder: &SweepFolder, list: &TaskList, loaded: &[Loaded<'_>]
     TablesPage {
         title: format!("{}: times", title(list)),
         badge: badge(loaded),
-        lead: vec!["Run times stand apart from results: times.csv has a row a task.".to_owned()],
+        lead: vec![
+            "Run times are separate from results: times.csv has one row per task.".to_owned(),
+        ],
         sections: vec![PageSection {
             id: "times",
             title: "Run time against error",

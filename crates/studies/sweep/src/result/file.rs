@@ -29,7 +29,7 @@ impl TaskResult {
         };
         let wrong = |problem: String| SweepError::Kept {
             path: path.clone(),
-            problem: format!("{problem}; remove the file, and the task is carried out again"),
+            problem: format!("{problem}; remove the file to run the task again"),
         };
         let result: TaskResult = seal::value(&text).map_err(wrong)?;
         if result.schema != SCHEMA {
@@ -40,13 +40,16 @@ impl TaskResult {
         }
         if result.taceva != env!("CARGO_PKG_VERSION") {
             return Err(wrong(format!(
-                "a result of TacEva {}, this is {}",
+                "it was written by TacEva {}, but this is {}",
                 result.taceva,
                 env!("CARGO_PKG_VERSION")
             )));
         }
         if &result.key != key {
-            return Err(wrong(format!("the result of the task {}", result.key)));
+            return Err(wrong(format!(
+                "it holds the result of another task, {}",
+                result.key
+            )));
         }
         Ok(Some(result))
     }
@@ -59,7 +62,8 @@ impl TaskResult {
             true => Ok(text),
             false => Err(SweepError::Kept {
                 path,
-                problem: "it is not what the task wrote; remove it and the file of the same name in `results`, and the task is carried out again".to_owned(),
+                problem: "it has changed since the task wrote it; remove it and the file of the same name in `results` to run the task \
+                    again".to_owned(),
             }),
         }
     }

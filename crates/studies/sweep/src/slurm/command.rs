@@ -28,7 +28,7 @@ pub(super) fn run(command: &'static str, words: &[String]) -> Result<String, Swe
     let refused = |words: String| SweepError::Scheduler { command, words };
     let output = Command::new(command).args(words).output().map_err(|error| {
         refused(format!(
-            "cannot be started ({error}): no Slurm on this machine? The scripts are written, and may be submitted elsewhere"
+            "cannot be started ({error}): this machine may have no Slurm. The scripts are written and can be submitted elsewhere"
         ))
     })?;
     if output.status.success() {

@@ -56,7 +56,7 @@ impl Submitted {
         let wrong = |problem: String| SweepError::Kept {
             path: path.clone(),
             problem: format!(
-                "{problem}; remove the file, and look with `squeue --me` for jobs that are left"
+                "{problem}; remove the file, and check with `squeue --me` for remaining jobs"
             ),
         };
         let record: Record = seal::value(&text).map_err(wrong)?;

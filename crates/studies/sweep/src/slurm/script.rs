@@ -45,7 +45,8 @@ impl Script<'_> {
         text.push_str(&self.setup());
         let blocks = self.root.join(format!("slurm/{name}.blocks"));
         text.push_str(&format!(
-            "blocks={}\n[ -r \"$blocks\" ] || {{ echo \"$blocks is not on $(hostname): the folder of the sweep is not shared with this node\" >&2; exit 1; }}\n",
+            "blocks={}\n[ -r \"$blocks\" ] || {{ echo \"$blocks is not on $(hostname): the folder of the sweep is not shared with this \
+             node\" >&2; exit 1; }}\n",
             shell_word(&blocks.to_string_lossy())
         ));
         text.push_str("block=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" \"$blocks\")\n");
@@ -75,7 +76,9 @@ impl Script<'_> {
     fn head(&self, name: &str, log: &str) -> String {
         let root = self.root.to_string_lossy();
         let mut text = format!(
-            "#!/bin/bash\n# Written by `taceva sweep --on slurm`; it may be submitted by hand again: what has a result is not made twice.\n#SBATCH --job-name=taceva-{name}\n#SBATCH --chdir={root}\n#SBATCH --output={root}/slurm/logs/{name}-{log}.txt\n#SBATCH --open-mode=append\n"
+            "#!/bin/bash\n# Written by `taceva sweep --on slurm`; it may be submitted again by hand: tasks with a result are \
+             skipped.\n#SBATCH --job-name=taceva-{name}\n#SBATCH --chdir={root}\n#SBATCH \
+             --output={root}/slurm/logs/{name}-{log}.txt\n#SBATCH --open-mode=append\n"
         );
         if let Some(partition) = &self.spec.partition {
             text.push_str(&format!("#SBATCH --partition={partition}\n"));

@@ -49,14 +49,14 @@ impl TaskList {
         };
         let text = fs::read_to_string(path).map_err(|error| {
             wrong(format!(
-                "no list of tasks: {error}; is the folder of the sweep shared with this machine?"
+                "cannot read the list of tasks: {error}; check that the folder of the sweep is shared with this machine"
             ))
         })?;
         let again = |problem: String| wrong(format!("{problem}; start the sweep again"));
         let head: Head = serde_json::from_str(&text).map_err(|error| again(error.to_string()))?;
         if head.schema != SCHEMA || head.taceva != env!("CARGO_PKG_VERSION") {
             return Err(again(format!(
-                "{} planned by TacEva {}, this is {} and reads {SCHEMA}",
+                "{} planned by TacEva {}, but this is {}, which reads {SCHEMA}",
                 head.schema,
                 head.taceva,
                 env!("CARGO_PKG_VERSION")
@@ -88,7 +88,7 @@ impl TaskList {
         {
             return Err(SweepError::Changed {
                 path: path.clone(),
-                problem: "it is another file than when the sweep was planned".to_owned(),
+                problem: "the file has changed since the sweep was planned".to_owned(),
             });
         }
         Ok(Some(SensorFile::read(path)?))

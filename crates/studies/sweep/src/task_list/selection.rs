@@ -37,7 +37,7 @@ impl TaskList {
         match matching.is_empty() {
             true => Err(SweepError::Condition {
                 text: only.text().to_owned(),
-                problem: format!("none of the {} tasks is meant", self.tasks.len()),
+                problem: format!("it selects none of the {} tasks", self.tasks.len()),
             }),
             false => Ok(matching),
         }

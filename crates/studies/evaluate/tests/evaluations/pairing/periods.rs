@@ -25,7 +25,7 @@ fn a_period_of_a_length_or_of_no_column_is_refused() {
         (
             "roll",
             360,
-            "a period is given for `roll`, which is no column of the predictions",
+            "a period is given for `roll`, but the predictions have no such column",
         ),
         (
             "yaw",

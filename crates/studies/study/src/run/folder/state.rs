@@ -32,7 +32,7 @@ impl RunFolder {
         match before.trim_end() == self.plans_of(scene)? {
             true => Ok(true),
             false => Err(self.refused(
-                "the run there has other plans: run the same scene with the same seed, or choose another folder"
+                "the run in it has a different plan: run the same scene with the same seed, or choose another folder"
                     .to_owned(),
             )),
         }

@@ -73,7 +73,7 @@ impl<'a> Pictures<'a> {
         let frames = dataset.header().frames.as_ref();
         let frames = frames.ok_or_else(|| {
             EvaluateError::Request(
-                "the recording has no frames from which spacings could be classified".to_owned(),
+                "the recording has no frames to classify spacings from".to_owned(),
             )
         })?;
         Ok(Pictures {
