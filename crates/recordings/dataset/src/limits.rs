@@ -2,6 +2,8 @@
 
 /// A map, a header or another TOML file.
 pub const TOML_BYTES: u64 = 1 << 20;
+/// The list of files that an import read.
+pub const SOURCES_BYTES: u64 = 256 << 20;
 /// A table as text; cells are found by 32-bit offsets.
 pub const TABLE_BYTES: u64 = u32::MAX as u64 - 1;
 /// Columns of a table.

@@ -9,8 +9,8 @@ use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{
-    Extension, FramesInfo, Header, LeftOut, LivePredictions, Mapping, RecordingFacts, StreamFacts,
-    TableInfo, ViewInfo, dataset_digest,
+    Extension, FramesInfo, Header, LeftOut, LivePredictions, Mapping, RecordingFacts, SourcesInfo,
+    StreamFacts, TableInfo, ViewInfo, dataset_digest,
 };
 use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
@@ -40,6 +40,8 @@ pub struct Beside {
     pub predictions: Option<LivePredictions>,
     /// The file of signals, which is written already.
     pub signals: Option<SignalsInfo>,
+    /// The list of files that an import read, which is written already.
+    pub sources: Option<SourcesInfo>,
     /// What the recording was before rows were added to it.
     pub extended: Vec<Extension>,
     /// Edits of its header that were accepted before that.
@@ -92,6 +94,7 @@ pub fn write_table_and_header(
         predictions: beside.predictions,
         signals: beside.signals,
         extended: beside.extended,
+        sources: beside.sources,
         table: TableInfo {
             rows: table.rows() as u64,
             digest: table_digest,

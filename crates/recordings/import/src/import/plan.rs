@@ -53,6 +53,8 @@ pub struct ImportPlan {
     pub(super) mapping: Mapping,
     /// Whether samples are called by the number of their row, because the map names no column for it.
     pub(super) is_numbered: bool,
+    /// The folder, which knows what was read in it.
+    pub(super) folder: SourceFolder,
 }
 
 impl ImportPlan {
