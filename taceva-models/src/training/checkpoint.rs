@@ -54,20 +54,10 @@ impl Checkpoints {
     /// # Errors
     /// Errors of the system, except for a missing file.
     pub fn remove(&self) -> io::Result<()> {
-        for path in [&self.path, &self.beside()] {
-            match fs::remove_file(path) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-                _ => {}
-            }
+        match fs::remove_file(&self.path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
         }
-        Ok(())
-    }
-
-    /// Path of the incomplete file. The name is constant, so that an abandoned file is overwritten.
-    fn beside(&self) -> PathBuf {
-        let name = self.path.file_name().unwrap_or_default();
-        self.path
-            .with_file_name(format!(".{}.partial", name.to_string_lossy()))
     }
 
     /// Reads the checkpoint of the training run `identity`. `None` if there is none.
@@ -101,8 +91,8 @@ impl Checkpoints {
     /// Writes a checkpoint of `trainer`, whose training run is `identity`.
     fn put(&self, identity: &Identity, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         let checkpoint = trainer.checkpoint().map_err(CheckpointError::Unread)?;
-        taceva_files::replace(&self.path, &self.beside(), |beside| {
-            bytes::write(identity, &checkpoint, File::create(beside)?)
+        taceva_files::replace(&self.path, |staged| {
+            bytes::write(identity, &checkpoint, File::create(staged)?)
         })
         .map_err(|source| CheckpointError::Write {
             path: self.path.clone(),

@@ -156,7 +156,6 @@ impl<'a> ExportPlan<'a> {
             progress,
         };
         let staged = StagedFolder::create(target, Place::Free)?;
-        staged.mark()?;
         progress.begin("export samples", Some(table.rows() as u64));
         let written = match form {
             ExportForm::Csv => csv::write(&exported, &staged),
