@@ -2,9 +2,9 @@
 
 mod guard;
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufWriter, IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use taceva_core::shown;
 
 use anyhow::{Context as _, bail};
@@ -94,15 +94,8 @@ fn write_file(
     path: &Path,
     render: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> anyhow::Result<()> {
-    let beside = beside(path)?;
-    let written = write_whole(&beside, render)
-        .and_then(|()| fs::rename(&beside, path))
-        .and_then(|()| sync_parent(path));
-    if written.is_err() {
-        // The first error is reported.
-        drop(fs::remove_file(&beside));
-    }
-    written.with_context(|| format!("cannot write {}", shown(path)))
+    taceva_files::replace(path, |staged| write_whole(staged, render))
+        .with_context(|| format!("cannot write {}", shown(path)))
 }
 
 fn write_whole(
@@ -114,23 +107,4 @@ fn write_whole(
     out.into_inner()
         .map_err(io::IntoInnerError::into_error)?
         .sync_all()
-}
-
-/// Makes the name of `path` durable.
-fn sync_parent(path: &Path) -> io::Result<()> {
-    let parent = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    File::open(parent)?.sync_all()
-}
-
-fn beside(path: &Path) -> anyhow::Result<PathBuf> {
-    let name = path
-        .file_name()
-        .with_context(|| format!("{}: expected a path that ends in a file name", shown(path)))?;
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{}.partial", std::process::id()));
-    Ok(path.with_file_name(hidden))
 }

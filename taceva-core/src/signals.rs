@@ -96,7 +96,7 @@ impl fmt::Display for SignalInfo {
     }
 }
 
-/// The numbers of all places at one instant, each finite.
+/// Numbers of all places (taxels) at one instant; all are finite.
 ///
 /// # Shapes
 /// `[rows, columns, channels]`, contiguous and row-major; all numbers of a place are adjacent.

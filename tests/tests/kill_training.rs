@@ -212,7 +212,7 @@ fn a_checkpoint_of_another_training_stops_the_command_and_force_begins_anew() {
     let said = complaint(&refused);
     assert_eq!(refused.status.code(), Some(3), "{said}");
     assert!(
-        said.contains("belongs to another training, with other settings"),
+        said.contains("belongs to another training run, with other settings"),
         "{said}"
     );
     assert_eq!(fs::read(&checkpoint).expect("there"), left);

@@ -1,5 +1,6 @@
 //! Tests that cross crates, in one program.
 
+mod book;
 mod circles;
 mod damage;
 mod damaged_jpegs;
@@ -8,8 +9,10 @@ mod disk_full;
 mod documents;
 mod embedding;
 mod flips;
+mod foretold_names;
 mod glossary;
 mod kill;
+mod kill_commands;
 mod kill_training;
 mod layering;
 mod minimum_rust;
@@ -21,6 +24,7 @@ mod public_types;
 mod recordings;
 mod reports;
 mod skips;
+mod source_digests;
 mod structure;
 mod study;
 mod taxels;

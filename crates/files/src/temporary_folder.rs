@@ -1,15 +1,19 @@
 //! Temporary folders with random names and owner-only access. Leftovers of killed processes are removed.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use tempfile::TempDir;
+use crate::durable::{parent_of, sync_folder};
 
-/// Marker file of our folders, locked while their process lives.
-const MARKER: &str = ".taceva-temporary";
-/// Limit of attempts, as another process may remove a folder before it is locked.
+/// The file by which a folder is known to be one of ours; it is locked as long as its process lives.
+pub(crate) const MARKER: &str = ".taceva-temporary";
+/// The name in such a folder of what stood at the name behind it, before two renames put another there.
+pub(crate) const FORMER: &str = "replaced-";
+/// Times that a folder is made anew which vanished before it was locked.
 const CREATIONS: u32 = 16;
+/// Letters and digits behind the prefix of a name.
+const RANDOM: usize = 6;
 
 /// Folder with a random name and owner-only access, removed on drop.
 ///
@@ -26,8 +30,8 @@ const CREATIONS: u32 = 16;
 /// ```
 #[derive(Debug)]
 pub struct TemporaryFolder {
-    folder: TempDir,
-    /// Keeps the lock.
+    path: PathBuf,
+    /// Holds the lock.
     _marker: File,
 }
 
@@ -39,24 +43,34 @@ impl TemporaryFolder {
     /// # Errors
     /// [`io::Error`] of the file system.
     pub fn create(parent: &Path, prefix: &str) -> io::Result<TemporaryFolder> {
+        let made = TemporaryFolder::make(parent, prefix)?;
+        clear(parent, prefix);
+        Ok(made)
+    }
+
+    /// Makes a folder and leaves leftovers alone.
+    pub(crate) fn make(parent: &Path, prefix: &str) -> io::Result<TemporaryFolder> {
         for _ in 0..CREATIONS {
             let mut builder = tempfile::Builder::new();
             #[cfg(unix)]
             builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-            let folder = builder.prefix(prefix).tempdir_in(parent)?;
+            let folder = builder
+                .prefix(prefix)
+                .rand_bytes(RANDOM)
+                .tempdir_in(parent)?;
             let path = folder.path().join(MARKER);
-            let marker = OpenOptions::new()
-                .write(true)
-                .create_new(true)
-                .open(&path)?;
-            marker.try_lock()?;
-            // Another process removed it as a leftover before it was locked.
-            if !path.exists() {
+            let marker = match OpenOptions::new().write(true).create_new(true).open(&path) {
+                // Taken for an empty leftover.
+                Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                marker => marker?,
+            };
+            let is_taken = matches!(marker.try_lock(), Err(TryLockError::WouldBlock));
+            // Taken for a leftover between its making and its lock.
+            if is_taken || !path.exists() {
                 continue;
             }
-            clear(parent, prefix, folder.path());
             return Ok(TemporaryFolder {
-                folder,
+                path: folder.keep(),
                 _marker: marker,
             });
         }
@@ -67,104 +81,119 @@ impl TemporaryFolder {
 
     /// Path of the folder.
     pub fn path(&self) -> &Path {
-        self.folder.path()
+        &self.path
     }
 }
 
-/// Removes the unlocked folders in `parent` that have the prefix and marker and belong to the owner of `own`.
-fn clear(parent: &Path, prefix: &str, own: &Path) {
+impl Drop for TemporaryFolder {
+    fn drop(&mut self) {
+        // What cannot be removed now is met by the next one.
+        drop(remove(&self.path));
+    }
+}
+
+/// Removes the folders in `parent` that bear the prefix and the marker, belong to this user, and are held by nobody.
+pub(crate) fn clear(parent: &Path, prefix: &str) {
+    let mut is_durable = false;
+    for path in folders(parent, prefix) {
+        if is_living(&path) {
+            continue;
+        }
+        // What is in place of the old stays there, whatever becomes of the power.
+        is_durable = is_durable || sync_folder(parent).is_ok();
+        if is_durable {
+            drop(remove_dead(&path));
+        }
+    }
+}
+
+/// The folders in `parent` that bear the prefix and belong to this user; a link is none.
+pub(crate) fn folders(parent: &Path, prefix: &str) -> impl Iterator<Item = PathBuf> {
     let entries = fs::read_dir(parent).into_iter().flatten().flatten();
-    for entry in entries {
+    entries.filter_map(move |entry| {
         let name = entry.file_name();
-        let is_like = name.to_str().is_some_and(|name| name.starts_with(prefix));
-        // Type of the entry itself, without following links.
+        let rest = name.to_str()?.strip_prefix(prefix)?;
+        let is_ours = rest.len() == RANDOM && rest.bytes().all(|byte| byte.is_ascii_alphanumeric());
+        // The type of the entry itself: a link is no folder.
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
         let path = entry.path();
-        if !is_like || !is_folder || path == own || !is_of_owner(&path, own) {
-            continue;
-        }
-        let marker = path.join(MARKER);
-        if !fs::symlink_metadata(&marker).is_ok_and(|marker| marker.is_file()) {
-            continue;
-        }
-        if File::open(&marker).is_ok_and(|marker| marker.try_lock().is_ok()) {
-            // The next process retries a failed removal.
-            drop(fs::remove_dir_all(&path));
-        }
+        (is_ours && is_folder && is_of_this_user(&path)).then_some(path)
+    })
+}
+
+/// True while the process that made the folder at `path` holds its marker.
+pub(crate) fn is_living(path: &Path) -> bool {
+    marker(path).is_some_and(|marker| matches!(marker.try_lock(), Err(TryLockError::WouldBlock)))
+}
+
+/// The marker in the folder at `path`; a link is none.
+fn marker(path: &Path) -> Option<File> {
+    let marker = path.join(MARKER);
+    let is_file = fs::symlink_metadata(&marker).is_ok_and(|marker| marker.is_file());
+    is_file.then(|| File::open(&marker).ok())?
+}
+
+/// Removes the folder of a dead process. One without a marker is removed only while it is empty.
+fn remove_dead(path: &Path) -> io::Result<()> {
+    let Some(marker) = marker(path) else {
+        return fs::remove_dir(path);
+    };
+    // Held until it is gone, so that nobody else removes a folder of the same name.
+    match marker.try_lock() {
+        Ok(()) => remove(path),
+        Err(_) => Ok(()),
     }
 }
 
-/// True if both folders have the same owner.
+/// Removes a folder of ours, its marker last, so that what a kill leaves of it is known.
+///
+/// It stays while somebody reads a folder in it, or while nothing else holds what stood in a place that is empty now.
+fn remove(path: &Path) -> io::Result<()> {
+    let mut inner = Vec::new();
+    let mut held = Vec::new();
+    for entry in fs::read_dir(path)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let former = name.to_str().and_then(|name| name.strip_prefix(FORMER));
+        if former.is_some_and(|name| fs::symlink_metadata(parent_of(path).join(name)).is_err()) {
+            return Ok(());
+        }
+        let is_folder = entry.file_type()?.is_dir();
+        if is_folder {
+            let folder = File::open(entry.path())?;
+            if matches!(folder.try_lock(), Err(TryLockError::WouldBlock)) {
+                return Ok(());
+            }
+            held.push(folder);
+        }
+        if name != MARKER {
+            inner.push((entry.path(), is_folder));
+        }
+    }
+    for (path, is_folder) in inner {
+        match is_folder {
+            true => fs::remove_dir_all(path)?,
+            false => fs::remove_file(path)?,
+        }
+    }
+    match fs::remove_file(path.join(MARKER)) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => fs::remove_dir(path),
+    }
+}
+
+/// True if what is at `path` belongs to the user of this process.
 #[cfg(unix)]
-fn is_of_owner(path: &Path, own: &Path) -> bool {
+fn is_of_this_user(path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
-    let owner = |path: &Path| {
-        fs::symlink_metadata(path)
-            .map(|metadata| metadata.uid())
-            .ok()
-    };
-    owner(path).is_some() && owner(path) == owner(own)
+    let owner = fs::symlink_metadata(path).map(|metadata| metadata.uid());
+    owner.is_ok_and(|owner| owner == rustix::process::geteuid().as_raw())
 }
 
 #[cfg(not(unix))]
-fn is_of_owner(_path: &Path, _own: &Path) -> bool {
+fn is_of_this_user(_path: &Path) -> bool {
     true
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn names(folder: &Path) -> Vec<String> {
-        let entries = fs::read_dir(folder).expect("listed").flatten();
-        let mut names: Vec<String> = entries
-            .map(|entry| entry.file_name().to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        names
-    }
-
-    /// K4.
-    #[test]
-    fn what_a_killed_process_left_is_cleared_and_what_is_held_is_not() {
-        let parent = tempfile::tempdir().expect("a folder");
-        let held = TemporaryFolder::create(parent.path(), ".x-").expect("made");
-        let killed = parent.path().join(".x-killed");
-        fs::create_dir(&killed).expect("made");
-        fs::write(killed.join(MARKER), "").expect("written");
-        fs::write(killed.join("labels.csv"), "Fz\n").expect("written");
-        let second = TemporaryFolder::create(parent.path(), ".x-").expect("made");
-        assert!(!killed.exists());
-        assert!(held.path().exists() && second.path().exists());
-        drop((held, second));
-        assert_eq!(names(parent.path()), [""; 0]);
-    }
-
-    /// K3.
-    #[cfg(unix)]
-    #[test]
-    fn links_and_folders_without_the_marker_are_never_entered_or_removed() {
-        use std::os::unix::fs::{PermissionsExt, symlink};
-        let parent = tempfile::tempdir().expect("a folder");
-        let theirs = tempfile::tempdir().expect("a folder");
-        fs::write(theirs.path().join("dataset.toml"), "theirs").expect("written");
-        fs::write(theirs.path().join(MARKER), "").expect("written");
-        symlink(theirs.path(), parent.path().join(".x-link")).expect("linked");
-        let foreign = parent.path().join(".x-foreign");
-        fs::create_dir(&foreign).expect("made");
-        fs::write(foreign.join("thesis.tex"), "x").expect("written");
-        let trap = parent.path().join(".x-trap");
-        fs::create_dir(&trap).expect("made");
-        symlink(theirs.path().join(MARKER), trap.join(MARKER)).expect("linked");
-        let made = TemporaryFolder::create(parent.path(), ".x-").expect("made");
-        let mode = fs::metadata(made.path())
-            .expect("there")
-            .permissions()
-            .mode();
-        assert_eq!(mode & 0o777, 0o700);
-        drop(made);
-        assert_eq!(names(parent.path()), [".x-foreign", ".x-link", ".x-trap"]);
-        assert_eq!(names(theirs.path()), [MARKER, "dataset.toml"]);
-        assert!(foreign.join("thesis.tex").exists());
-    }
-}
+mod tests;

@@ -134,8 +134,8 @@ pub enum NetworkError {
         /// The step, counted from 0.
         step: u64,
     },
-    /// The checkpoint belongs to another training.
-    #[error("the checkpoint belongs to another training: {what}")]
+    /// The checkpoint belongs to another training run.
+    #[error("the checkpoint belongs to another training run: {what}")]
     Checkpoint {
         /// The difference.
         what: String,

@@ -239,7 +239,7 @@ fn a_checkpoint_of_another_training_is_refused() {
         Trainer::resume(checkpoint.clone(), values(&other), None).expect_err("other samples");
     assert_eq!(
         error.to_string(),
-        "the checkpoint belongs to another training: 16 samples, expected 24"
+        "the checkpoint belongs to another training run: 16 samples, expected 24"
     );
     let mut torn = checkpoint.clone();
     torn.tensors
@@ -247,7 +247,7 @@ fn a_checkpoint_of_another_training_is_refused() {
     let error = Trainer::resume(torn, values(&training), None).expect_err("a tensor is missing");
     assert_eq!(
         error.to_string(),
-        "the checkpoint belongs to another training: `moment.0.features.0.1.bias` is missing or does not have 16 numbers"
+        "the checkpoint belongs to another training run: `moment.0.features.0.1.bias` is missing or does not have 16 numbers"
     );
 }
 

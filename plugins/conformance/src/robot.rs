@@ -286,9 +286,9 @@ fn guards_as_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let course = Course::of(tried, &mut *robot)?;
     let Some(guarded) = robot.guarded_motion() else {
-        return as_declared("stop by itself at a force", declared, false);
+        return as_declared("stop itself at a force limit", declared, false);
     };
-    as_declared("stop by itself at a force", declared, true)?;
+    as_declared("stop itself at a force limit", declared, true)?;
     for force in [f64::NAN, 0.0, -1.0] {
         let guard = Guard::at(Newton(force));
         let moved = guarded.move_guarded(course.home, course.speed, guard, tried.trial.deadline);

@@ -20,6 +20,7 @@ mod array;
 mod bench;
 mod error;
 mod exit_status;
+mod flood;
 mod keeper;
 mod kind;
 mod life;
@@ -40,6 +41,7 @@ mod spec;
 mod start;
 mod thread;
 mod timeouts;
+mod usage;
 mod watch;
 pub(crate) mod wire;
 

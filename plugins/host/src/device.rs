@@ -5,6 +5,7 @@ mod changer;
 mod force;
 mod handle;
 mod lighting;
+mod pace;
 mod rig;
 mod robot;
 mod sensor;

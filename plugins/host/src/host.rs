@@ -280,11 +280,14 @@ impl PluginHost {
             (spec.patience.start, spec.patience.open) = (limit, limit);
         }
         let log = self.log_of(plugin);
-        spec.ended = Some(Box::new(move |fate| {
-            // Callers get errors about any other end of the child.
+        spec.ended = Some(Box::new(move |fate, usage| {
+            // Of any other end somebody hears who asked for something.
             if fate.is_unheard() {
                 let why = format!("closed late: {fate}; recordings are not affected");
                 log(Level::Warn, "host", &why);
+            }
+            if usage.is_much() {
+                log(Level::Warn, "host", &usage.to_string());
             }
         }));
         spec.confinement.needs = grant.reached.iter().cloned().collect();

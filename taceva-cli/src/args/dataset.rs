@@ -42,7 +42,10 @@ pub(crate) struct Import {
     /// Replace a dataset that exists already
     #[arg(long)]
     pub(crate) force: bool,
-    /// The program that decodes unsupported clips, such as HEVC or FFV1; default: TACEVA_FFMPEG, or else ffmpeg on the PATH
+    /// Compare the folder with a list of digests before it is read: a file that has changed, is absent or is not named there is refused by name
+    #[arg(long, value_name = "SHA256SUMS", conflicts_with_all = ["presets", "print"])]
+    pub(crate) verify: Option<PathBuf>,
+    /// The program that decodes clips which are not decoded here, such as HEVC or FFV1; without it TACEVA_FFMPEG, or else ffmpeg on the PATH
     #[arg(long, value_name = "PROGRAM")]
     pub(crate) ffmpeg: Option<PathBuf>,
 }
@@ -109,7 +112,10 @@ pub(crate) struct Check {
     /// The dataset to check; several recordings are checked one by one, and then whether they can be joined
     #[arg(required = true, value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
-    /// Run only the checks with these codes, separated by commas
+    /// Compare this folder, or a tar of it, with the files that the dataset was imported from, and make no other check
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["only", "explain"])]
+    pub(crate) source: Option<PathBuf>,
+    /// Make only the checks with these codes, separated by commas
     #[arg(long, value_name = "CODES", value_delimiter = ',')]
     pub(crate) only: Vec<String>,
     #[command(flatten)]

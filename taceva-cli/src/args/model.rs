@@ -29,12 +29,12 @@ pub(crate) struct Fit {
     pub(crate) out: PathBuf,
     #[command(flatten)]
     pub(crate) split_out: SplitOutArgs,
-    /// Seconds between two checkpoints of a training, 0 for one after each step
+    /// Seconds between two checkpoints of a training run, 0 for one after each step
     #[arg(long, value_name = "SECONDS", default_value_t = Checkpoints::EVERY.as_secs())]
     pub(crate) checkpoint_every: u64,
     #[command(flatten)]
     pub(crate) cache: CacheArgs,
-    /// Replace a file that exists already, and the checkpoint of another training
+    /// Replace a file that exists already, and the checkpoint of another training run
     #[arg(long)]
     pub(crate) force: bool,
 }

@@ -36,7 +36,7 @@ Predictions of another program, in shards, instead of recordings and models:
 The same command continues a stopped sweep. `taceva sweep show FILE --by model,size` prints results.";
 
 /// Every combination of recordings, models, settings, splits and seeds is a task; its result file is named by the digest of all its inputs.
-/// The table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed.
+/// The table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed or a limit was missed.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = FILE_HELP)]
 pub(crate) struct Sweep {
@@ -90,7 +90,7 @@ pub(crate) enum SweepSubject {
     Status(SweepFolderArgs),
     /// Cancel the jobs of a sweep; results stay
     Cancel(SweepFolderArgs),
-    /// Make the table and the pages of the existing results; the exit code is 1 if some are missing
+    /// Make the table and the pages of the existing results; the exit code is 1 if a result is missing or a limit was missed
     Collect(SweepCollect),
     /// Run some tasks of a list, as a job of a scheduler does
     Task(SweepTask),

@@ -1,11 +1,15 @@
 //! `taceva check`.
 
+use std::path::Path;
+
 use taceva_check::{CheckRequest, Severity, check, check_plan};
 use taceva_core::shown;
 use taceva_dataset::Dataset;
+use taceva_import::{SourceSums, UnpackedArchive};
 
 use super::{Context, Usage, open};
 use crate::args::{Check, Format};
+use crate::output::Form;
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
@@ -28,6 +32,9 @@ pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
     for path in &args.datasets {
         recordings.push(open(path)?);
     }
+    if let Some(folder) = &args.source {
+        return compared(&recordings, folder, context);
+    }
     if args.explain.is_wanted {
         for dataset in &recordings {
             let plan = check_plan(dataset, &request)?;
@@ -49,5 +56,41 @@ pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
     Ok(match worst {
         Some(Severity::Error) => exit::CHECK_FAILED,
         _ => exit::DONE,
+    })
+}
+
+/// Compares `folder` with the files that each recording was imported from.
+fn compared(recordings: &[Dataset], folder: &Path, context: &Context) -> anyhow::Result<u8> {
+    let archive = UnpackedArchive::is_archive(folder)
+        .then(|| UnpackedArchive::open(folder, &std::env::temp_dir()))
+        .transpose()?;
+    let source = archive.as_ref().map_or(folder, UnpackedArchive::folder);
+    let mut has_differences = false;
+    for dataset in recordings {
+        let name = shown(dataset.path());
+        let Some(sums) = SourceSums::of_dataset(dataset)? else {
+            anyhow::bail!(
+                "{name} keeps no digests of its sources: it was recorded here, or imported by a version that kept none; import it again with `--force`"
+            );
+        };
+        let differences = sums.differences(source, context.jobs, &context.progress)?;
+        has_differences |= !differences.is_empty();
+        output::write_as(Form::Words, None, |out| {
+            for difference in &differences {
+                writeln!(out, "{name}: {}: {difference}", shown(folder))?;
+            }
+            match differences.len() {
+                0 => writeln!(out, "{name}: {} holds what was imported", shown(folder)),
+                count => writeln!(
+                    out,
+                    "{name}: {count} files of {} are not what was imported",
+                    shown(folder)
+                ),
+            }
+        })?;
+    }
+    Ok(match has_differences {
+        true => exit::CHECK_FAILED,
+        false => exit::DONE,
     })
 }

@@ -6,7 +6,9 @@ use taceva_core::shown;
 use taceva_dataset::internal::quoted;
 use taceva_dataset::{DatasetError, settle};
 use taceva_files::parent_of;
-use taceva_import::{Addition, Decoders, ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive};
+use taceva_import::{
+    Addition, Decoders, ImportMap, ImportPlan, MapDraft, Preset, SourceSums, UnpackedArchive,
+};
 
 use super::{Context, Usage};
 use crate::args::Import;
@@ -25,6 +27,16 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         return Ok(exit::DONE);
     }
     let source = Source::open(args, target)?;
+    if let Some(list) = &args.verify {
+        let sums = SourceSums::read(list)?;
+        let verified = sums.verify(source.folder(), context.jobs, &context.progress);
+        source.named(verified)?;
+        context.say(format_args!(
+            "{}: {} files verified",
+            shown(list),
+            sums.files()
+        ));
+    }
     if args.draft {
         let draft = source.named(MapDraft::of(source.folder()))?;
         return map_written(draft.text(), args, target, context);

@@ -4,7 +4,6 @@ mod check;
 mod tap;
 mod teach;
 
-use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -25,12 +24,7 @@ pub(crate) fn run(args: &RigCommand, context: &Context) -> anyhow::Result<u8> {
 
 /// Replaces the rig file at `path` by `text` atomically.
 fn write_anew(path: &Path, text: &str) -> anyhow::Result<()> {
-    let mut name = OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(".partial");
-    let beside = path.with_file_name(name);
-    let written = taceva_files::replace(path, &beside, |beside| -> io::Result<()> {
-        fs::write(beside, text)
-    });
+    let written =
+        taceva_files::replace(path, |staged| -> io::Result<()> { fs::write(staged, text) });
     written.with_context(|| shown(path).to_string())
 }

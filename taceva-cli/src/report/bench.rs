@@ -12,7 +12,7 @@ pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     let load = machine
         .load
         .map_or_else(String::new, |load| format!(", load {load:.2} a core"));
-    writeln!(out, "Ways to sum: time against correct digits")?;
+    writeln!(out, "Summation kernels: time and correct digits")?;
     writeln!(
         out,
         "machine  {}, {} of {} cores{load}",

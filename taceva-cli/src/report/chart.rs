@@ -18,7 +18,7 @@ pub(super) fn write(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> 
         is_on_front: row.pareto,
     });
     let figure = race(&Race {
-        title: "Time against correct digits of ways to sum".to_owned(),
+        title: "Summation kernels: time and correct digits".to_owned(),
         caption: format!(
             "{}; one thread; `any order`: the same bits in any order.",
             bench.machine.cpu

@@ -275,7 +275,11 @@ fn an_entry_of_another_layout_and_a_half_written_one_are_never_read() {
     assert_eq!(reused(&bench, "second"), [""; 0]);
     // What a run leaves that is stopped while it notes a recording.
     let recording = entry(&bench.path("kept"), "acquire");
-    fs::rename(recording, bench.path("kept/2/partial/1-0")).expect("moved");
+    fs::rename(
+        recording,
+        bench.path("kept/2/partial/.taceva-staged-a1b2c3"),
+    )
+    .expect("moved");
     bench.ok("run small.toml --out third --cache kept -q");
     assert_eq!(reused(&bench, "third"), ["fit", "predict", "classify"]);
     assert_eq!(written(&bench, "first"), written(&bench, "third"));
@@ -323,10 +327,12 @@ fn runs_at_once_with_one_cache_do_not_disturb_each_other() {
 fn a_run_that_is_gone_on_with_keeps_its_own_recording() {
     let bench = with_small();
     bench.ok("run small.toml --out first --no-cache -q");
-    bench.write("first/recordings/.1-small.partial/dataset.toml", "half");
+    let left = "first/recordings/.taceva-staged-a1b2c3";
+    bench.write(&format!("{left}/.taceva-temporary"), "");
+    bench.write(&format!("{left}/recording/dataset.toml"), "half");
     bench.ok("run small.toml --out first --resume -q");
     assert_eq!(reused(&bench, "first"), [""; 0]);
-    assert!(!bench.path("first/recordings/.1-small.partial").exists());
+    assert!(!bench.path(left).exists());
     bench.ok("run small.toml --out second -q");
     assert_eq!(reused(&bench, "second"), STAGES);
 }

@@ -62,7 +62,12 @@ fn rows_join_a_dataset_whose_table_is_then_that_of_one_import() {
     assert!(
         crate::support::leftovers(
             &bench.path("data"),
-            &["dataset.toml", "samples.parquet", "frames"]
+            &[
+                "dataset.toml",
+                "samples.parquet",
+                "sources.sha256",
+                "frames"
+            ]
         )
         .is_empty()
     );

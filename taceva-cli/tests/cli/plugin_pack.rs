@@ -131,7 +131,7 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     bench.ok("plugin install other.tar --force");
 
     // An installation that was cut off by a power cut is none: the plugin is there once.
-    let cut_off = installed.join(".org.example.my-scale.7.partial");
+    let cut_off = installed.join(".taceva-staged-a1b2c3");
     fs::create_dir(&cut_off).expect("made");
     fs::copy(&manifest, cut_off.join("plugin.toml")).expect("copied");
     let listed = bench.ok("plugin list");

@@ -119,7 +119,7 @@ fn sensor_fault(facts: &SensorFacts) -> Option<String> {
         .filter(|(limit, footprint)| limit.0 > footprint.to_millimetres());
     if let Some((limit, footprint)) = beyond {
         return Some(format!(
-            "the depth limit is {limit}, but the footprint is {footprint} deep"
+            "the depth limit of {limit} exceeds the depth of the footprint, {footprint}"
         ));
     }
     scenes_fault(&facts.scenes).or_else(|| {

@@ -1,4 +1,4 @@
-//! Batches, merges and damaged states in any sequence: `cargo +nightly fuzz run program`.
+//! Fuzzes sequences of batches, merges and damaged states: `cargo +nightly fuzz run program`.
 
 #![no_main]
 

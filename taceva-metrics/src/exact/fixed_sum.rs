@@ -17,7 +17,7 @@ pub(crate) struct FixedSum {
 }
 
 impl FixedSum {
-    /// Most numbers between settlements: each is below 2¹¹⁰ units.
+    /// Maximum additions before `settle_into`; 2¹⁶ values below 2¹¹⁰ units fit an `i128`.
     pub(crate) const MOST: usize = 1 << 16;
 
     /// Adds `value`. Returns false and adds nothing if its magnitude is 2¹⁴ or more, or if its last place is below a unit.

@@ -42,11 +42,11 @@ pub struct Difference {
     pub is_shown: bool,
     /// Test that gave `p` and the interval.
     pub test: DifferenceTest,
-    /// Result of the test for differences other than zero.
+    /// Data from which the confidence interval is computed at another level.
     inverse: Inverse,
 }
 
-/// Result of a test for any difference.
+/// Data from which the confidence interval is computed at another level.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Inverse {
     /// Intervals of both scores, at any level.

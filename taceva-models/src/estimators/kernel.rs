@@ -33,7 +33,7 @@ const LENGTH: SettingInfo = SettingInfo {
 };
 const LANDMARKS: SettingInfo = SettingInfo {
     key: "landmarks",
-    accepts: "a number from 1 to 5000",
+    accepts: "a whole number from 1 to 5000",
     default: "500",
     about: "greatest number of landmarks: training samples with which all samples are compared",
 };

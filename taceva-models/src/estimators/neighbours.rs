@@ -38,7 +38,7 @@ pub struct Neighbours {
 
 const COUNT: SettingInfo = SettingInfo {
     key: "neighbours",
-    accepts: "a number from 1 to 1000",
+    accepts: "a whole number from 1 to 1000",
     default: "chosen for each channel",
     about: "number of training samples whose mean is the prediction",
 };

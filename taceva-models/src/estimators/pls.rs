@@ -34,13 +34,13 @@ pub struct Pls {
 
 const COMPONENTS: SettingInfo = SettingInfo {
     key: "components",
-    accepts: "a number from 1 to 1000",
+    accepts: "a whole number from 1 to 1000",
     default: "chosen for each channel",
     about: "number of directions",
 };
 const MOST: SettingInfo = SettingInfo {
     key: "most",
-    accepts: "a number from 1 to 1000",
+    accepts: "a whole number from 1 to 1000",
     default: "60",
     about: "greatest number of directions to try, if their number is chosen",
 };

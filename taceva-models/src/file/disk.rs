@@ -78,15 +78,7 @@ fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let name = path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
-    let beside = path.with_file_name(format!(
-        ".{}.{}.partial",
-        name.to_string_lossy(),
-        std::process::id()
-    ));
-    taceva_files::replace(path, &beside, |beside| {
-        File::create_new(beside)?.write_all(bytes)
-    })
+    taceva_files::replace(path, |staged| File::create_new(staged)?.write_all(bytes))
 }
 
 /// Error of reading or writing a model file.

@@ -14,20 +14,20 @@ use taceva_network::{Checkpoint, Trainer};
 pub use error::CheckpointError;
 pub(crate) use identity::Identity;
 
-/// Location and interval of the checkpoints of a training.
+/// Location and interval of the checkpoints of a training run.
 ///
 /// Checkpoints do not affect the result: a resumed training ends with the same bits as an uninterrupted one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoints {
     /// Checkpoint file. Written first as `.<name>.partial` in the same folder, synchronised to disk and renamed.
     pub path: PathBuf,
-    /// Interval between checkpoints, applied after a step. A cancelled training writes one too.
+    /// Interval between checkpoints, applied after a step. A cancelled training run writes one too.
     pub every: Duration,
-    /// Treatment of a file of another training.
+    /// Action if the checkpoint is damaged or belongs to another training run.
     pub foreign: Foreign,
 }
 
-/// Treatment of a checkpoint of another training.
+/// Action for a checkpoint that is damaged or belongs to another training run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Foreign {
     /// Keeps the file and fails.
@@ -40,7 +40,7 @@ impl Checkpoints {
     /// Default interval of 30 s: little work is lost, and writing takes a small part of the time.
     pub const EVERY: Duration = Duration::from_secs(30);
 
-    /// Checkpoints at `path`, every [`EVERY`](Checkpoints::EVERY), without overwriting those of another training.
+    /// Checkpoints at `path`, every [`EVERY`](Checkpoints::EVERY), without overwriting those of another training run.
     pub fn at(path: PathBuf) -> Checkpoints {
         Checkpoints {
             path,
@@ -54,23 +54,13 @@ impl Checkpoints {
     /// # Errors
     /// Errors of the system, except for a missing file.
     pub fn remove(&self) -> io::Result<()> {
-        for path in [&self.path, &self.beside()] {
-            match fs::remove_file(path) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-                _ => {}
-            }
+        match fs::remove_file(&self.path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
-    /// Path of the incomplete file. The name is constant, so that an abandoned file is overwritten.
-    fn beside(&self) -> PathBuf {
-        let name = self.path.file_name().unwrap_or_default();
-        self.path
-            .with_file_name(format!(".{}.partial", name.to_string_lossy()))
-    }
-
-    /// Reads the checkpoint of the training `identity`. `None` if there is none.
+    /// Reads the checkpoint of the training run `identity`. `None` if there is none.
     pub(crate) fn take(&self, identity: &Identity) -> Result<Option<Checkpoint>, CheckpointError> {
         let refuse = |problem: String| CheckpointError::Damaged {
             path: self.path.clone(),
@@ -98,11 +88,11 @@ impl Checkpoints {
         }
     }
 
-    /// Writes a checkpoint of `trainer`, whose training is `identity`.
+    /// Writes a checkpoint of `trainer`, whose training run is `identity`.
     fn put(&self, identity: &Identity, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         let checkpoint = trainer.checkpoint().map_err(CheckpointError::Unread)?;
-        taceva_files::replace(&self.path, &self.beside(), |beside| {
-            bytes::write(identity, &checkpoint, File::create(beside)?)
+        taceva_files::replace(&self.path, |staged| {
+            bytes::write(identity, &checkpoint, File::create(staged)?)
         })
         .map_err(|source| CheckpointError::Write {
             path: self.path.clone(),
@@ -111,7 +101,7 @@ impl Checkpoints {
     }
 }
 
-/// Checkpoint of a running training.
+/// Checkpoint of a training run in progress.
 pub(crate) struct Shelf<'a> {
     checkpoints: &'a Checkpoints,
     identity: Identity,
@@ -131,7 +121,7 @@ impl<'a> Shelf<'a> {
         &self.checkpoints.path
     }
 
-    /// Reads the checkpoint of this training. `None` if there is none.
+    /// Reads the checkpoint of this training run. `None` if there is none.
     pub(crate) fn take(&self) -> Result<Option<Checkpoint>, CheckpointError> {
         self.checkpoints.take(&self.identity)
     }

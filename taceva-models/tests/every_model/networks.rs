@@ -236,6 +236,6 @@ fn an_ensemble_predicts_the_mean_of_networks_of_seeds_that_follow_each_other() {
     let refused = refused.estimator(&settings).map(drop).expect_err("one");
     assert_eq!(
         refused.to_string(),
-        "`members=1`: expected a number from 2 to 16"
+        "`members=1`: expected a whole number from 2 to 16"
     );
 }

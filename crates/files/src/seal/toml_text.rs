@@ -96,7 +96,7 @@ fn split(text: &str) -> Option<(&str, &str)> {
     Some(text.split_at(at))
 }
 
-/// Seal as written.
+/// Contents of the `[seal]` table.
 struct Written {
     digest: String,
     keys: String,

@@ -108,7 +108,7 @@ pub(crate) fn lz4(packed: &[u8], bytes: &mut [u8]) -> Result<(), Problem> {
         Ok(made) if made == expected => Ok(()),
         Ok(made) => Err(Problem::damaged(
             0,
-            format!("{made} bytes in an LZ4 block"),
+            format!("an LZ4 block unpacks to {made} bytes"),
             format!("{expected}"),
         )),
         Err(error) => Err(Problem::damaged(
@@ -128,7 +128,7 @@ pub(crate) fn lz4_with_length(packed: &[u8], most: usize) -> Result<Vec<u8>, Pro
     if length > most {
         return Err(Problem::damaged(
             0,
-            format!("{length} bytes in an LZ4 block"),
+            format!("an LZ4 block states {length} bytes"),
             format!("at most {most}"),
         ));
     }

@@ -135,7 +135,7 @@ impl Problem {
         }
     }
 
-    /// A copy of the problem, for repeated requests of a rejected array.
+    /// Repeats the problem for a later request; kinds not matched here become `Structure` with the same text.
     pub(crate) fn again(&self) -> Problem {
         match self {
             Problem::Unsupported { found, mend } => {

@@ -19,8 +19,10 @@ use crate::error::DatasetError;
 use crate::folder_handle::HeldFolder;
 use crate::header::Header;
 use crate::layout;
+use crate::limits;
 use crate::signals::SignalsReader;
 use crate::table::Table;
+use crate::toml_file::utf8;
 use verify::read_table;
 
 pub use pass::{Pass, StreamReport};
@@ -117,6 +119,27 @@ impl Dataset {
     /// The digest of everything that affects a number computed from this dataset.
     pub fn digest(&self) -> Digest {
         self.header.digest
+    }
+
+    /// The digests of the files that an import read, as `sha256sum` writes them; `None` of a recording, or where none were kept.
+    ///
+    /// # Errors
+    /// [`DatasetError::Digest`] if the list is not what was written; [`DatasetError::Io`].
+    pub fn source_sums(&self) -> Result<Option<String>, DatasetError> {
+        let Some(info) = self.header.sources else {
+            return Ok(None);
+        };
+        let path = self.path().join(layout::SOURCES);
+        let bytes = self.folder.read(layout::SOURCES, limits::SOURCES_BYTES)?;
+        let found = Digest::of(&bytes);
+        if found != info.sha256 {
+            return Err(DatasetError::Digest {
+                path,
+                expected: info.sha256,
+                found,
+            });
+        }
+        utf8(&path, bytes).map(Some)
     }
 
     /// The rows in order, for a pass over all of them.

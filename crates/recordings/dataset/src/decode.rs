@@ -189,7 +189,7 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
             PixelFormat::Rgb16,
             little_endian(without_alpha::<8, 2>(&pixels)?),
         ),
-        other => return Err(format!("pixels of type {other:?} are not read")),
+        other => return Err(unsupported("PNG pixel", &other)),
     };
     let info = FrameInfo {
         width,
@@ -197,6 +197,11 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         format,
     };
     Ok((info, pixels))
+}
+
+/// Message for a type of pixels or colours that is neither gray nor RGB.
+fn unsupported(what: &str, found: &dyn std::fmt::Debug) -> String {
+    format!("unsupported {what} type {found:?}; convert to gray or RGB")
 }
 
 /// True if a sequential JPEG codes each colour in its own scan: its first scan has fewer components than its frame (ITU-T T.81, B.2.2 and
@@ -240,7 +245,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let (format, output) = match decoder.input_colorspace() {
         Some(ColorSpace::Luma) => (PixelFormat::Gray8, ColorSpace::Luma),
         Some(ColorSpace::YCbCr | ColorSpace::RGB) => (PixelFormat::Rgb8, ColorSpace::RGB),
-        other => return Err(format!("colours of type {other:?} are not read")),
+        other => return Err(unsupported("JPEG colour", &other)),
     };
     decoder.set_options(options.jpeg_set_out_colorspace(output));
     let size = decoder.info().ok_or("no size in the file")?;
@@ -268,7 +273,7 @@ fn decode_scan_a_component(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String>
     let format = match found.pixel_format {
         JpegFormat::L8 => PixelFormat::Gray8,
         JpegFormat::RGB24 => PixelFormat::Rgb8,
-        other => return Err(format!("colours of type {other:?} are not read")),
+        other => return Err(unsupported("JPEG colour", &other)),
     };
     let info = FrameInfo {
         width: found.width.into(),

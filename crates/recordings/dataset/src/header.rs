@@ -14,6 +14,7 @@ mod omissions;
 mod picture_mapping;
 mod recording_facts;
 mod reduction;
+mod sources;
 mod stream;
 #[cfg(test)]
 mod tests;
@@ -50,6 +51,7 @@ pub use omissions::add as add_left_out;
 pub use picture_mapping::MappedPictures;
 pub use recording_facts::RecordingFacts;
 pub use reduction::ReducedFrames;
+pub use sources::SourcesInfo;
 pub use stream::StreamFacts;
 pub use view::ViewInfo;
 
@@ -147,7 +149,9 @@ pub struct Header {
     pub signals: Option<SignalsInfo>,
     /// The states of the recording before each addition of rows, the first first; empty if none were added.
     pub extended: Vec<Extension>,
-    /// Rows and digests of `samples.parquet`.
+    /// The list of files that an import read; `None` of a recording.
+    pub sources: Option<SourcesInfo>,
+    /// What `samples.parquet` must be: its number of rows and its digests.
     pub table: TableInfo,
     /// The digest of the dataset: of its table, its frames and its signals.
     pub digest: Digest,
@@ -186,6 +190,8 @@ struct Written {
     signals: Option<WrittenSignals>,
     #[serde(default, skip_serializing_if = "LeftOut::is_empty")]
     left_out: LeftOut,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    sources: Option<SourcesInfo>,
     table: TableInfo,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     extended: Vec<Extension>,
@@ -272,6 +278,7 @@ impl Header {
             presses: written.presses,
             stream: written.stream,
             predictions: written.predictions,
+            sources: written.sources,
             table: written.table,
             digest: written.digest,
             extended: written.extended,
@@ -328,6 +335,7 @@ impl Header {
             predictions: self.predictions.clone(),
             signals: self.signals.as_ref().map(WrittenSignals::from),
             left_out: self.left_out.clone(),
+            sources: self.sources,
             table: self.table,
             extended: self.extended.clone(),
             channels: self.channels.iter().map(ChannelInfo::of).collect(),

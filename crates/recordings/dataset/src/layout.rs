@@ -6,14 +6,20 @@ pub const HEADER: &str = "dataset.toml";
 pub const SAMPLES: &str = "samples.parquet";
 pub const SIGNALS: &str = "signals.parquet";
 pub const PREDICTIONS: &str = "predictions.csv";
+pub const SOURCES: &str = "sources.sha256";
 pub const FRAMES: &str = "frames";
 pub const JOURNAL: &str = "journal";
 
-/// Marks the folder of an export while it is written, so that the remains of a killed export are recognised.
-pub const MARK: &str = ".taceva-export";
-
-/// All names in the folder of a dataset or of a recording.
-pub const ALL: [&str; 6] = [HEADER, SAMPLES, SIGNALS, PREDICTIONS, FRAMES, JOURNAL];
+/// Every name that stands in the folder of a dataset or of a recording.
+pub const ALL: [&str; 7] = [
+    HEADER,
+    SAMPLES,
+    SIGNALS,
+    PREDICTIONS,
+    SOURCES,
+    FRAMES,
+    JOURNAL,
+];
 
 /// Maximum frames in one folder: some file systems slow down above a few thousand.
 const FRAMES_A_FOLDER: usize = 1_000;

@@ -50,7 +50,7 @@ pub use frame_retries::{add_frame_retries, frame_retries};
 pub use header::{
     Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, LivePredictions,
     MappedClass, MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames,
-    ReferenceInfo, SensorFacts, Shape, Source, StreamFacts, TableInfo, ViewInfo,
+    ReferenceInfo, SensorFacts, Shape, Source, SourcesInfo, StreamFacts, TableInfo, ViewInfo,
 };
 pub use pack::Span;
 pub use quality::names_quality;

@@ -94,12 +94,8 @@ impl SessionTable {
     /// Those of the file system.
     pub fn add(&mut self, session: Session) -> io::Result<()> {
         self.rows.push(session);
-        let mut name = std::ffi::OsString::from(".");
-        name.push(self.path.file_name().unwrap_or_default());
-        name.push(".partial");
-        let beside = self.path.with_file_name(name);
-        taceva_files::replace(&self.path, &beside, |beside| {
-            let mut table = csv::Writer::from_path(beside)?;
+        taceva_files::replace(&self.path, |staged| {
+            let mut table = csv::Writer::from_path(staged)?;
             self.rows.iter().try_for_each(|row| table.serialize(row))?;
             table.flush()
         })

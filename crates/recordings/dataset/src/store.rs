@@ -9,8 +9,8 @@ use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{
-    Extension, FramesInfo, Header, LeftOut, LivePredictions, Mapping, RecordingFacts, StreamFacts,
-    TableInfo, ViewInfo, dataset_digest,
+    Extension, FramesInfo, Header, LeftOut, LivePredictions, Mapping, RecordingFacts, SourcesInfo,
+    StreamFacts, TableInfo, ViewInfo, dataset_digest,
 };
 use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
@@ -40,7 +40,9 @@ pub struct Beside {
     pub predictions: Option<LivePredictions>,
     /// Signals; their file is already written.
     pub signals: Option<SignalsInfo>,
-    /// The states of the recording before each addition of rows.
+    /// The list of files that an import read, which is written already.
+    pub sources: Option<SourcesInfo>,
+    /// What the recording was before rows were added to it.
     pub extended: Vec<Extension>,
     /// Edits of its header that were accepted before that.
     pub history: Vec<Edit>,
@@ -92,6 +94,7 @@ pub fn write_table_and_header(
         predictions: beside.predictions,
         signals: beside.signals,
         extended: beside.extended,
+        sources: beside.sources,
         table: TableInfo {
             rows: table.rows() as u64,
             digest: table_digest,

@@ -54,7 +54,7 @@ const MAP: &str = "map.toml";
 pub struct ExportReport {
     /// Number of samples.
     pub samples: u64,
-    /// Number of pictures; each view has one per sample.
+    /// Number of pictures over all views; a sample may lack one.
     pub pictures: u64,
     /// Number of pictures that were re-encoded. Their bytes differ from the dataset, their pixels are equal.
     pub encoded_anew: u64,
@@ -156,7 +156,6 @@ impl<'a> ExportPlan<'a> {
             progress,
         };
         let staged = StagedFolder::create(target, Place::Free)?;
-        staged.mark()?;
         progress.begin("export samples", Some(table.rows() as u64));
         let written = match form {
             ExportForm::Csv => csv::write(&exported, &staged),

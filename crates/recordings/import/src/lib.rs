@@ -11,6 +11,7 @@ mod instant;
 mod layouts;
 mod preset;
 mod source_folder;
+mod source_sums;
 mod unit_suffix;
 
 pub use advice::advice;
@@ -26,4 +27,5 @@ pub use import::{
     ZeroSummary, magnitude_suspicion,
 };
 pub use layouts::Preset;
+pub use source_sums::{SourceDifference, SourceSums};
 pub use taceva_video::Decoders;

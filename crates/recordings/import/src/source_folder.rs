@@ -1,9 +1,12 @@
 //! Source folder of an import, which confines all paths.
 
+use std::collections::BTreeSet;
+use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use taceva_dataset::DatasetError;
-use taceva_dataset::internal::check_relative;
+use taceva_dataset::internal::{check_relative, layout, limits};
 
 /// Foreign folder. Paths that leave it are rejected.
 #[derive(Clone, Debug)]
@@ -12,6 +15,8 @@ pub(crate) struct SourceFolder {
     given: PathBuf,
     /// Path without links, for comparison.
     canonical: PathBuf,
+    /// What was asked for in it, through any copy of this.
+    named: Arc<Mutex<BTreeSet<PathBuf>>>,
 }
 
 impl SourceFolder {
@@ -22,6 +27,7 @@ impl SourceFolder {
         Ok(SourceFolder {
             given: path.to_owned(),
             canonical,
+            named: Arc::default(),
         })
     }
 
@@ -63,6 +69,42 @@ impl SourceFolder {
                  holds both",
             ));
         }
+        let mut named = self.named.lock().unwrap_or_else(PoisonError::into_inner);
+        named.insert(path.clone());
+        drop(named);
         Ok(path)
     }
+
+    /// The files that were asked for, and those below the folders that were.
+    pub(crate) fn files_read(&self) -> Vec<PathBuf> {
+        let named = self.named.lock().unwrap_or_else(PoisonError::into_inner);
+        let files = named.iter().flat_map(|path| match path.is_dir() {
+            true => files_below(path),
+            false => vec![path.clone()],
+        });
+        let files: BTreeSet<PathBuf> = files.collect();
+        files.into_iter().collect()
+    }
+}
+
+/// The files below `folder`, in the order of their names; links to folders are not followed.
+pub(crate) fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            match entry.file_type() {
+                Ok(kind) if kind.is_dir() && path.join(layout::HEADER).is_file() => {}
+                Ok(kind) if kind.is_dir() => folders.push(path),
+                Ok(_) if path.is_file() => files.push(path),
+                _ => {}
+            }
+        }
+        if files.len() as u64 > limits::WALKED_FILES {
+            break;
+        }
+    }
+    files.sort();
+    files
 }

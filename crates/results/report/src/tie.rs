@@ -137,7 +137,7 @@ fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
         let words: Vec<String> = all.into_iter().map(|(words, _)| words).collect();
         match is_same {
             true => ", and no finer tolerance separates them".to_owned(),
-            false => format!("; without any error {}", listed(&words)),
+            false => format!("; exact predictions: {}", words.join(", ")),
         }
     });
     let means: Vec<Option<String>> = tied

@@ -22,12 +22,13 @@ use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, Once, PoisonError};
 use std::time::Duration;
 
 use taceva_core::shown;
+use taceva_files::{STAGED, TemporaryFolder, clear_leftovers};
 
+use crate::claim::clear_dead_claims;
 pub(crate) use features::ONE_MAX;
 pub use inventory::{CacheEntry, Pruning, cache_entries, pruned, remove_entry};
 pub use key::CachedStage;
@@ -58,7 +59,8 @@ pub struct Cache {
     memory: Option<features::Memory>,
     /// True if entries are stored in the folder.
     is_on_disk: bool,
-    written: AtomicU64,
+    /// What killed runs left is cleared once.
+    cleared: Once,
     notes: Mutex<BTreeSet<String>>,
     records: Mutex<Vec<(usize, StageRecord)>>,
 }
@@ -75,7 +77,7 @@ impl Cache {
             is_of_many: false,
             memory: None,
             is_on_disk: true,
-            written: AtomicU64::new(0),
+            cleared: Once::new(),
             notes: Mutex::default(),
             records: Mutex::default(),
         }
@@ -154,7 +156,16 @@ impl Cache {
         self.folder.join(LAYOUT).join(PARTIAL)
     }
 
-    /// Writes an entry by `write` to a temporary path and renames it, unless another run was faster.
+    /// Removes what killed runs left half written, and their claims.
+    fn clear(&self) {
+        self.cleared.call_once(|| {
+            let partial = self.partial();
+            clear_leftovers(&partial);
+            clear_dead_claims(&partial);
+        });
+    }
+
+    /// Writes an entry by `write` beside its place and renames it, unless another run was faster.
     ///
     /// `write` creates a file or a folder and fails if the path exists.
     fn put(&self, key: &Key, write: impl Fn(&Path) -> io::Result<()>) {
@@ -191,20 +202,10 @@ impl Cache {
         for folder in entry.parent().into_iter().chain([partial.as_path()]) {
             fs::create_dir_all(folder)?;
         }
-        loop {
-            let number = self.written.fetch_add(1, Ordering::Relaxed);
-            let beside = partial.join(format!("{}-{number}", std::process::id()));
-            let written = match write(&beside) {
-                // Left by a stopped process with the same number, or in use by one on another machine.
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
-                written => written.and_then(|()| fs::rename(&beside, entry)),
-            };
-            if written.is_err() {
-                // The first error is returned, not that of the clean-up.
-                drop(remove(&beside));
-            }
-            return written;
-        }
+        let folder = TemporaryFolder::create(&partial, STAGED)?;
+        let staged = folder.path().join("entry");
+        write(&staged)?;
+        fs::rename(&staged, entry)
     }
 
     fn note_unreadable(&self, entry: &Path, error: &io::Error) {

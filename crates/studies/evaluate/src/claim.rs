@@ -35,8 +35,8 @@ pub struct Watch {
     since: Instant,
 }
 
-/// A name that is unique among threads, processes and machines at all times.
-pub fn unique_name() -> String {
+/// A name that no other thread, process or machine gives at any time.
+fn unique_name() -> String {
     static NEXT: AtomicU64 = AtomicU64::new(0);
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
     format!("{}-{number}", process_name())
@@ -144,7 +144,8 @@ impl Watch {
                 return Ok(false);
             }
             Err(error) => return Err(error),
-            Ok(_) => {}
+            // Whose mark it is: that of a killed process is cleared as its claims are.
+            Ok(mut file) => file.write_all(line(&unique_name(), 0).as_bytes())?,
         }
         let is_same = read(&self.path).is_ok_and(|text| text == self.seen);
         if is_same {
@@ -153,6 +154,32 @@ impl Watch {
         fs::remove_file(&mark)?;
         Ok(is_same)
     }
+}
+
+/// Removes the claims in `folder` of processes that ended on this machine, and their marks.
+///
+/// A task that is done already is asked for by nobody, so that nobody else would meet its claim. What is no claim stays, and so does a link.
+pub fn clear_dead_claims(folder: &Path) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries {
+        let path = entry.path();
+        let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
+        let text = is_file.then(|| read(&path).ok()).flatten();
+        if text.is_some_and(|text| is_line(&text) && ended_here(owner_of(&text))) {
+            // What cannot be removed now is met by the next one.
+            drop(Watch::new(&path).clear());
+        }
+    }
+}
+
+/// True for what [`line`] writes.
+fn is_line(text: &str) -> bool {
+    let count = text
+        .strip_suffix('\n')
+        .and_then(|text| text.split_once(' '));
+    count.is_some_and(|(_, count)| {
+        count.len() == 20 && count.bytes().all(|byte| byte.is_ascii_digit())
+    })
 }
 
 /// A line of constant length, so that it is written over in place.
@@ -246,6 +273,24 @@ mod tests {
         fs::write(&path, line(&owner, 7)).expect("written");
         assert!(Watch::new(&path).clear().expect("readable"));
         assert!(Claim::take(&path).expect("writable").is_some());
+    }
+
+    #[test]
+    fn dead_claims_of_a_folder_go_and_living_ones_and_other_files_stay() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        let dead = line(&format!("{}-999999999-1-0", machine()), 3);
+        let held = Claim::take(&at("held")).expect("writable");
+        fs::write(at("dead"), &dead).expect("written");
+        fs::write(at(".a.b.dead"), &dead).expect("written");
+        fs::write(at("elsewhere"), line("elsewhere-1-1-0", 3)).expect("written");
+        fs::write(at("notes"), "mine").expect("written");
+        clear_dead_claims(folder.path());
+        let names = fs::read_dir(folder.path()).expect("listed").flatten();
+        let mut names: Vec<_> = names.map(|entry| entry.file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["elsewhere", "held", "notes"]);
+        drop(held);
     }
 
     #[test]

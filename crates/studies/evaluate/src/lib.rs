@@ -43,7 +43,7 @@ pub use cache::{
     cache_entries, pruned, remove, remove_entry,
 };
 pub use calibration::calibration;
-pub use claim::{Claim, Watch, unique_name};
+pub use claim::{Claim, Watch, clear_dead_claims};
 pub use effort::Effort;
 pub use error::EvaluateError;
 pub use evaluate::{

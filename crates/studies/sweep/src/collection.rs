@@ -8,7 +8,7 @@ use crate::analysis::{self, Found, Loaded};
 use crate::collected_counts::Collected;
 use crate::error::SweepError;
 use crate::failure::Failure;
-use crate::folder::{SweepFolder, beside};
+use crate::folder::SweepFolder;
 use crate::page;
 use crate::result::TaskResult;
 use crate::shard_scores;
@@ -69,10 +69,9 @@ fn write_all(
     let at = |name: &str| folder.path().join(name);
     folder.write(&at("table.csv"), csv)?;
     let parquet = at("table.parquet");
-    let hidden = beside(&parquet);
     let table = TidyTable::of(loaded);
-    taceva_files::replace(&parquet, &hidden, |hidden| {
-        table.write_parquet(hidden).map_err(std::io::Error::other)
+    taceva_files::replace(&parquet, |staged| {
+        table.write_parquet(staged).map_err(std::io::Error::other)
     })
     .map_err(SweepError::io("write", &parquet))?;
     folder.write(&at("times.csv"), &times::csv(folder, &list.tasks)?)?;

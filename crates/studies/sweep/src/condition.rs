@@ -23,8 +23,8 @@ impl Condition {
     /// Names that a condition may use besides the settings of tasks.
     pub const NAMES: [&'static str; 5] = ["key", "dataset", "model", "split", "seed"];
 
-    /// Parses a condition: terms `NAME = VALUE` or `NAME != VALUE`, joined by ` and ` and ` or `, of which ` and ` binds closer.
-    /// Alternatively `text` is the key of a task or a prefix of it. A value that contains these words or signs is quoted.
+    /// Parses terms `NAME = VALUE` or `NAME != VALUE`, joined by ` and ` and ` or `; ` and ` has precedence. A value that contains an
+    /// operator must be quoted. A text of 4 to 32 hexadecimal digits is the key of a task or a prefix of it.
     ///
     /// ```
     /// use taceva_sweep::Condition;

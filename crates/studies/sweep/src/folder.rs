@@ -16,7 +16,6 @@
 mod keys;
 
 use std::fs;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::error::SweepError;
@@ -104,6 +103,10 @@ impl SweepFolder {
         self.path.join(format!("times/{key}.json"))
     }
 
+    pub(crate) fn claims(&self) -> PathBuf {
+        self.path.join("claims")
+    }
+
     pub(crate) fn claim(&self, key: &TaskKey) -> PathBuf {
         self.path.join(format!("claims/{key}"))
     }
@@ -118,27 +121,7 @@ impl SweepFolder {
     /// # Errors
     /// [`SweepError::Io`].
     pub fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
-        let beside = beside(path);
-        taceva_files::replace(path, &beside, |beside| {
-            let mut file = fs::File::create(beside)?;
-            file.write_all(bytes)
-        })
-        .map_err(SweepError::io("write", path))
+        taceva_files::replace(path, |staged| fs::write(staged, bytes))
+            .map_err(SweepError::io("write", path))
     }
-
-    /// Writes a file atomically but without durability: it may be lost in a power cut. For files that no result needs.
-    pub(crate) fn write_lightly(&self, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-        let beside = beside(path);
-        fs::write(&beside, bytes)?;
-        fs::rename(&beside, path)
-    }
-}
-
-/// A name in the same folder that no other thread, process or machine uses.
-pub(crate) fn beside(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(
-        ".{name}.{}.partial",
-        taceva_evaluate::unique_name()
-    ))
 }

@@ -56,6 +56,7 @@ impl Runner<'_> {
     /// [`SweepError`] if the folder cannot be used.
     pub fn run(&self, wanted: &[usize]) -> Result<Ran, SweepError> {
         self.folder.make()?;
+        taceva_evaluate::clear_dead_claims(&self.folder.claims());
         let results = self.folder.results()?;
         let failures = self.folder.failures()?;
         let mut ran = Ran::default();

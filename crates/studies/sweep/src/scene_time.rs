@@ -31,7 +31,7 @@ impl SceneTime {
         let times = folder.scene_times();
         let made = fs::create_dir_all(&times).ok();
         if let Some(text) = made.and_then(|()| serde_json::to_string(&self).ok()) {
-            drop(folder.write_lightly(&times.join(format!("{name}.json")), text.as_bytes()));
+            drop(folder.write(&times.join(format!("{name}.json")), text.as_bytes()));
         }
     }
 

@@ -49,7 +49,7 @@ impl Timer {
             job: job(),
         };
         if let Ok(text) = serde_json::to_string(&time) {
-            drop(folder.write_lightly(&folder.times(key), text.as_bytes()));
+            drop(folder.write(&folder.times(key), text.as_bytes()));
         }
     }
 }

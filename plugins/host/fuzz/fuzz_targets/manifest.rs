@@ -1,4 +1,4 @@
-//! Fuzzes manifests and descriptions by libraries: `cargo +nightly fuzz run manifest`.
+//! Fuzzes the parsers of manifests, library descriptions and plugin settings: `cargo +nightly fuzz run manifest`.
 
 #![no_main]
 

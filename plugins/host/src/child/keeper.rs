@@ -10,14 +10,19 @@ use std::process::{Child as Process, Command};
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::process::{Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal};
 
 use super::exit_status::Fate;
+use super::flood::Flood;
+use super::usage::{Usage, processor_time};
 use super::watch::{PRINTED_MAX, Watch};
 
-/// Capacity of a pipe, bytes.
+/// How much a child may print in the time of a flood.
+const PRINTED_IN_ALL: u64 = 64 << 20;
+/// How much a pipe holds.
 const PIPE_MAX: usize = 64 * 1024;
 
 /// A running child: its process number, its watch and its keeper thread.
@@ -33,7 +38,7 @@ pub(crate) struct Kept {
 pub(crate) fn keep(
     command: Command,
     output: OwnedFd,
-    ended: impl FnOnce(&Fate) + Send + 'static,
+    ended: impl FnOnce(&Fate, Usage) + Send + 'static,
 ) -> io::Result<Kept> {
     let watch = Arc::new(Watch::new()?);
     let (started, start) = channel();
@@ -46,10 +51,16 @@ pub(crate) fn keep(
             };
             // The caller must learn the process number before the child can end.
             drop(started);
-            let fate = Fate::of(watch_over(&shared, process, &handle, output));
-            shared.ended(fate);
+            let begun = Instant::now();
+            let (status, processor) = watch_over(&shared, process, &handle, output);
+            shared.ended(Fate::of(status));
             if let Some(fate) = shared.fate() {
-                ended(&fate);
+                let usage = Usage {
+                    whole: begun.elapsed(),
+                    processor,
+                    calls: shared.called(),
+                };
+                ended(&fate, usage);
             }
         })?;
     match start.recv() {
@@ -93,7 +104,8 @@ fn watch_over(
     mut process: Process,
     handle: &OwnedFd,
     output: OwnedFd,
-) -> std::process::ExitStatus {
+) -> (std::process::ExitStatus, Duration) {
+    let mut flood = Flood::new(PRINTED_IN_ALL);
     let mut output = Some(File::from(output));
     let mut left_to_read = PIPE_MAX / PRINTED_MAX;
     loop {
@@ -120,15 +132,28 @@ fn watch_over(
         if has_printed {
             let mut bytes = [0; PRINTED_MAX];
             match output.as_mut().map(|output| output.read(&mut bytes)) {
-                Some(Ok(count)) if count > 0 => watch.printed_more(&bytes[..count]),
+                Some(Ok(count)) if count > 0 => {
+                    watch.printed_more(&bytes[..count]);
+                    if flood.add(count as u64) {
+                        watch.condemn(Fate::Breach {
+                            what: format!(
+                                "it printed more than {} MiB within {} s",
+                                PRINTED_IN_ALL >> 20,
+                                Flood::WITHIN.as_secs()
+                            ),
+                        });
+                    }
+                }
                 _ => output = None,
             }
         }
         if has_ended && has_printed && left_to_read > 0 {
             left_to_read -= 1;
         } else if has_ended {
-            // Only this thread waits for the process.
-            return process.wait().unwrap_or_default();
+            // Until it is waited for it has a number, by which its time is found.
+            let processor = processor_time(process.id());
+            // The process is a child of this one that nobody else waits for.
+            return (process.wait().unwrap_or_default(), processor);
         }
     }
 }

@@ -7,6 +7,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use super::exit_status::Fate;
+use super::flood::Flood;
 use super::socket::{LinkError, Socket, send_now};
 use super::watch::Watch;
 use super::wire::variants;
@@ -91,8 +92,22 @@ pub(super) fn end() {
 /// Delay between retries of a child that ends.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// In the host: forwards log lines of the child to `log`, rate-limited, until the socket closes. A child that sends anything else is
-/// killed.
+/// Lines that a child may log in the time of a flood.
+const LINES_MAX: u64 = 1_000_000;
+
+/// Ends a child that logs without end.
+fn flooded(flood: &mut Flood, lines: u64, watch: &Watch) {
+    if flood.add(lines) {
+        watch.condemn(Fate::Breach {
+            what: format!(
+                "it logged more than {LINES_MAX} lines within {} s",
+                Flood::WITHIN.as_secs()
+            ),
+        });
+    }
+}
+
+/// In the host: hands what comes from the child to `log`, within its limit, until the child is gone. A child that sends anything else is ended.
 pub(super) fn listen(
     socket: Socket,
     log: Log,
@@ -100,6 +115,7 @@ pub(super) fn listen(
 ) -> std::io::Result<JoinHandle<()>> {
     let mut socket = socket;
     let log = Limited::new(log);
+    let mut flood = Flood::new(LINES_MAX);
     std::thread::Builder::new()
         .name("taceva-log".to_owned())
         .spawn(move || {
@@ -109,8 +125,14 @@ pub(super) fn listen(
                         level,
                         target,
                         message,
-                    }) => log.tell(level, &shown(&target), &shown(&message)),
-                    Ok(LogMessage::Lost { count }) => log.lose(count),
+                    }) => {
+                        log.tell(level, &shown(&target), &shown(&message));
+                        flooded(&mut flood, 1, &watch);
+                    }
+                    Ok(LogMessage::Lost { count }) => {
+                        log.lose(count);
+                        flooded(&mut flood, count, &watch);
+                    }
                     Err(LinkError::Closed) => return,
                     Err(LinkError::Breach(what) | LinkError::Unsendable(what)) => {
                         watch.condemn(Fate::Breach { what });

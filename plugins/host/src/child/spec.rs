@@ -9,11 +9,12 @@ use super::exit_status::Fate;
 use super::quarantine::Quarantine;
 use super::sandbox::Confinement;
 use super::timeouts::Patience;
+use super::usage::Usage;
 use crate::library::Log;
 use crate::manifest::Sha256Digest;
 
-/// Callback that receives the fate of a child.
-pub(super) type Ended = Box<dyn FnOnce(&Fate) + Send>;
+/// What is called with how a child ended.
+pub(super) type Ended = Box<dyn FnOnce(&Fate, Usage) + Send>;
 
 /// Specification of a child to start.
 pub struct ChildSpec {

@@ -21,6 +21,7 @@ use super::quarantine::{Quarantine, Quarantined};
 use super::sandbox::Isolation;
 use super::socket::{Caller, Socket};
 use super::spec::{ChildSpec, Ended};
+use super::usage::Usage;
 use super::wire::{Greeting, Hello, Order, OrderAnswer};
 use crate::manifest::Sha256Digest;
 use crate::python::{arguments as python_arguments, own};
@@ -217,15 +218,15 @@ fn when_ended(
     plugin: String,
     quarantine: Option<(Quarantine, Sha256Digest)>,
     on_end: Option<Ended>,
-) -> impl FnOnce(&Fate) + Send + 'static {
-    move |fate| {
+) -> impl FnOnce(&Fate, Usage) + Send + 'static {
+    move |fate, usage| {
         if let Some((quarantine, digest)) = quarantine.filter(|_| fate.is_its_own_fault()) {
             let entry = Quarantined::new(digest, &plugin, &fate.to_string());
             // The devices have already failed with a reason. An unwritten quarantine entry only allows another start.
             let _ = quarantine.put(&entry);
         }
         if let Some(on_end) = on_end {
-            on_end(fate);
+            on_end(fate, usage);
         }
     }
 }

@@ -35,10 +35,13 @@ struct State {
     is_ending: bool,
     fate: Option<Fate>,
     printed: VecDeque<u8>,
+    /// Time in which a call was waited for.
+    called: Duration,
 }
 
 #[derive(Debug)]
 struct Expiry {
+    begun: Instant,
     at: Instant,
     after: Duration,
     doing: String,
@@ -68,14 +71,28 @@ impl Watch {
             .checked_add(after)
             .unwrap_or(now + Duration::from_secs(3_153_600_000));
         let doing = doing.to_owned();
-        state.calls.insert(id, Expiry { at, after, doing });
+        let expiry = Expiry {
+            begun: now,
+            at,
+            after,
+            doing,
+        };
+        state.calls.insert(id, expiry);
         self.look_at(&mut state, at);
         CallId(id)
     }
 
     /// Records that a call was answered.
     pub(crate) fn end(&self, call: CallId) {
-        self.state().calls.remove(&call.0);
+        let mut state = self.state();
+        if let Some(call) = state.calls.remove(&call.0) {
+            state.called += call.begun.elapsed();
+        }
+    }
+
+    /// The time in which calls were waited for.
+    pub(super) fn called(&self) -> Duration {
+        self.state().called
     }
 
     /// Shortens the timeout of a call to `after`, if the call is pending and has more time left.

@@ -4,6 +4,7 @@
 
 use std::ffi::c_void;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use taceva_abi as abi;
 use taceva_abi::ext::{NUMBERED, NumberedCalls, TARE, TareCalls};
@@ -13,11 +14,13 @@ use taceva_core::{
 };
 
 use super::handle::{Handle, Opened, Owned, PluginDevice};
+use super::pace::Pace;
 use super::sensor::stamp;
 use crate::call::timeout;
 
 /// Force transducer of a plugin in this process.
 pub(crate) struct PluginForce {
+    pace: Pace,
     handle: Owned,
     calls: abi::ForceCalls,
     read: Read,
@@ -73,12 +76,14 @@ impl PluginDevice for PluginForce {
         } else {
             None
         };
+        let pace = Pace::new(facts.rate, handle.is_simulated());
         Ok(PluginForce {
             numbers,
             sequence: None,
             handle,
             calls,
             read,
+            pace,
             axes: facts.axes,
             tare,
         })
@@ -105,11 +110,14 @@ impl ForceTransducer for PluginForce {
         const DOING: &str = "read the force";
         let mut wrench = abi::Wrench::default();
         let mut when = abi::Stamp::default();
+        let asked = Instant::now();
         self.handle.call(DOING, |raw, error| {
             let (wrench, when) = (&raw mut wrench, &raw mut when);
             // SAFETY: [owner & started] by `&mut self`, with places for the reading and an error that outlive the call.
             unsafe { (self.read)(raw, wrench, when, timeout(deadline), error) }
         })?;
+        let kept = (self.pace).take(asked, Instant::now(), Duration::from_nanos(when.valid_ns));
+        kept.map_err(|why| self.handle.failed(ErrorKind::DeviceFault, DOING, why))?;
         let wrench = Wrench::from_si(wrench.force_n, wrench.torque_nm);
         check_wrench(&wrench).map_err(|error| {
             let why = error.to_string();

@@ -12,6 +12,7 @@ use std::sync::{Arc, PoisonError, RwLock};
 use taceva_abi as abi;
 use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind, Facts, Interrupt};
 
+use super::bench::PluginBench;
 use super::rig::RigHandle;
 use crate::call::{ArgList, Failure, Table, call, pending_call, table};
 use crate::library::Entry;
@@ -132,7 +133,12 @@ impl Handle {
         &self.driver
     }
 
-    /// Calls a function of the device. Fails after an earlier panic of the plugin, and records a new one.
+    /// True for a device of a simulated bench, which has a time of its own. Asked while the device is opened.
+    pub(crate) fn is_simulated(&self) -> bool {
+        PluginBench::of(&self._rig, "").is_some()
+    }
+
+    /// Makes a call on the device, unless the plugin has panicked in it before; a panic now is remembered.
     pub fn call(
         &self,
         doing: &'static str,

@@ -6,7 +6,7 @@
 )]
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use taceva_abi as abi;
 use taceva_abi::ext::{SENSOR_LIGHTING, SensorLightingCalls};
@@ -17,6 +17,7 @@ use taceva_core::{
 
 use super::handle::{Opened, Owned, PluginDevice};
 use super::lighting::LightingAbility;
+use super::pace::Pace;
 use crate::call::timeout;
 
 /// Sensor of a plugin in this process.
@@ -27,6 +28,7 @@ pub struct PluginSensor {
     info: FrameInfo,
     length: usize,
     lighting: Option<LightingAbility>,
+    pace: Pace,
 }
 
 type Capture = unsafe extern "C" fn(
@@ -91,7 +93,9 @@ impl PluginDevice for PluginSensor {
                 facts.scenes.clone(),
             ))
         };
+        let pace = Pace::new(facts.rate, handle.is_simulated());
         Ok(PluginSensor {
+            pace,
             handle,
             calls,
             capture,
@@ -127,8 +131,8 @@ impl PluginSensor {
         }))
     }
 
-    /// Captures the next frame into `buffer`, which has the length of a frame or is NULL.
-    fn take(&self, buffer: *mut u8, deadline: Deadline) -> Result<Taken, DriverError> {
+    /// Asks for the next frame, in `buffer` of the length of a frame unless it is NULL.
+    fn take(&mut self, buffer: *mut u8, deadline: Deadline) -> Result<Taken, DriverError> {
         let mut taken = Taken {
             frame: abi::Frame {
                 size: u32::try_from(size_of::<abi::Frame>()).expect("a small struct"),
@@ -151,10 +155,14 @@ impl PluginSensor {
                 private_data: std::ptr::null_mut(),
             },
         };
+        let asked = Instant::now();
         self.handle.call(CAPTURING, |raw, error| {
             // SAFETY: [owner & started] by `&mut self` of the caller, with a frame, its buffer and an error that outlive the call.
             unsafe { (self.capture)(raw, &raw mut taken.frame, timeout(deadline), error) }
         })?;
+        let stamped = Duration::from_nanos(taken.frame.stamp.valid_ns);
+        let kept = self.pace.take(asked, Instant::now(), stamped);
+        kept.map_err(|why| self.handle.failed(ErrorKind::DeviceFault, CAPTURING, why))?;
         Ok(taken)
     }
 

@@ -103,13 +103,13 @@ impl FromStr for Need {
                 })
             }
             Some(("device", _)) => Err(refused(
-                "expected a path below /dev without `..` and without a part that is `*` alone, such as `device:/dev/spidev0.*`",
+                "expected a path below /dev without `..` or a component that is `*` alone, such as `device:/dev/spidev0.*`",
             )),
             Some(("read", path)) if is_readable(path) => Ok(Need::Read {
                 path: path.to_owned(),
             }),
             Some(("read", _)) => Err(refused(
-                "expected an absolute path without `..` and without a part that is `*` alone, and not below /dev, /proc or /sys, such as `read:/run/scale`",
+                "expected an absolute path outside /dev, /proc and /sys, without `..` or a component that is `*` alone, such as `read:/run/scale`",
             )),
             Some(("listen", port)) => {
                 port_of(port)

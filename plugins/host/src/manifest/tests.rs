@@ -257,7 +257,11 @@ fn whatever_cannot_be_meant_is_refused_where_it_stands() {
         ),
         ("speed_max_mm_s = 20", "speed_max_mm_s = 0", "above 0"),
         ("\"Fx\", \"Fy\"", "\"Fx\", \"Fx\"", "at most once"),
-        ("Pz_max_mm = 3.0", "Pz_max_mm = 4.0", "3.5 mm deep"),
+        (
+            "Pz_max_mm = 3.0",
+            "Pz_max_mm = 4.0",
+            "depth of the footprint, 3.5 mm",
+        ),
         ("radius_mm = 17.0", "half_x_mm = 17.0", "a disc has"),
         ("opaque = false", "opaque = true", "the gel is opaque"),
         ("default = 0\n", "default = 10\n", "the default of"),

@@ -227,6 +227,11 @@ static taceva_status capture(void *handle, taceva_frame *frame, uint64_t timeout
     memset(line, 'x', sizeof line);
     for (int count = 0; count < 10000; count++) (void)!write(1, line, sizeof line);
   }
+  if (is("floods_output")) {
+    static char line[1 << 16];
+    memset(line, 'x', sizeof line);
+    for (;;) (void)!write(1, line, sizeof line);
+  }
   if (is("prints")) printf("{\"this\": \"is not a report\"}\n"), fflush(stdout);
   if (is("prints_escapes")) {
     fprintf(stderr, "\033]52;c;aGVsbG8=\007\033[2J\033[31m the end\n");

@@ -209,7 +209,8 @@ unsafe extern "C" fn move_guarded(
         };
         let (target, speed) = opened.asked(target)?;
         if !(guard_n > 0.0 && guard_n.is_finite()) {
-            let message = format!("a guard of {guard_n} N, expected a number above 0");
+            let message =
+                format!("the guard force is {guard_n} N, expected a finite number above 0");
             return Err(Failure::argument(message));
         }
         let guard = Guard::at(Newton(guard_n));

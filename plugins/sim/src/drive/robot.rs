@@ -207,7 +207,7 @@ impl GuardedMotion for SimulatedRobot {
     ) -> Result<GuardedStop, DriverError> {
         let force_n = guard.force.0;
         if !(force_n > 0.0 && force_n.is_finite()) {
-            let why = format!("a guard of {force_n} N, expected a number above 0");
+            let why = format!("the guard force is {force_n} N, expected a finite number above 0");
             let doing = "move the tip under guard";
             return Err(failed(ErrorKind::InvalidArgument, &KEY, doing, why));
         }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::Context as _;
 use taceva_core::shown;
@@ -93,11 +93,10 @@ fn write(path: &Path, text: &str) -> io::Result<()> {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let folder = taceva_files::parent_of(&path);
     fs::create_dir_all(folder)?;
-    let beside: PathBuf = folder.join(format!(".config.toml.{}.partial", std::process::id()));
-    taceva_files::replace(&path, &beside, |beside| {
-        fs::write(beside, text)?;
+    taceva_files::replace(&path, |staged| {
+        fs::write(staged, text)?;
         match fs::metadata(&path) {
-            Ok(metadata) => fs::set_permissions(beside, metadata.permissions()),
+            Ok(metadata) => fs::set_permissions(staged, metadata.permissions()),
             Err(_) => Ok(()),
         }
     })

@@ -8,23 +8,26 @@ use std::sync::Arc;
 use anyhow::{Context as _, bail};
 use taceva_conformance::{CheckRequest, Outcome};
 use taceva_core::shown;
+use taceva_files::{STAGED, Staged, TemporaryFolder};
 use taceva_host::{Place, Plugin, PluginHost, Plugins, SearchPath};
 
 use crate::args::PluginInstall;
 use crate::cmd::Context;
 use crate::{exit, output, report};
 
-/// The checks that a library must pass before it is installed: it loads, and matches its manifest.
+/// The folder in a temporary one that a packed plugin is unpacked to.
+const UNPACKED: &str = "unpacked";
+/// The checks that a library must pass before it is installed: it loads, and is what its manifest says.
 const CHECKS: &str = "library/";
 
 pub(super) fn run(args: &PluginInstall, context: &Context) -> anyhow::Result<u8> {
     let user = folder_of_user()?;
     let unpacked = match args.plugin.is_dir() {
         true => None,
-        false => Some(Unpacked::of(&args.plugin, &user)?),
+        false => Some(unpack(&args.plugin, &user)?),
     };
     let source = match &unpacked {
-        Some(unpacked) => &unpacked.folder,
+        Some(unpacked) => &unpacked.path().join(UNPACKED),
         None => &args.plugin,
     };
     let (host, plugin) = checked(source, context)?;
@@ -91,36 +94,23 @@ pub(super) fn checked(
     Ok((host, plugin))
 }
 
-/// A package unpacked beside the plugins of the user, under a name that is not searched; removed on drop.
-struct Unpacked {
-    folder: PathBuf,
-}
-
-impl Unpacked {
-    fn of(file: &Path, user: &Path) -> anyhow::Result<Unpacked> {
-        let named = || shown(file).to_string();
-        // Checked before opening, because opening a pipe would block.
-        if !fs::metadata(file).with_context(named)?.is_file() {
-            bail!(
-                "{}: expected a folder, or a file that `taceva plugin pack` wrote",
-                shown(file)
-            );
-        }
-        let archive = fs::File::open(file).with_context(named)?;
-        let folder = user.join(format!(".unpacked.{}", std::process::id()));
-        fs::create_dir_all(user).with_context(|| shown(user).to_string())?;
-        fs::create_dir(&folder).with_context(|| shown(&folder).to_string())?;
-        let unpacked = Unpacked { folder };
-        taceva_host::unpack(io::BufReader::new(archive), &unpacked.folder).with_context(named)?;
-        Ok(unpacked)
+/// What is in the file that `taceva plugin pack` wrote, unpacked beside the plugins of the user, where no search looks.
+fn unpack(file: &Path, user: &Path) -> anyhow::Result<TemporaryFolder> {
+    let named = || shown(file).to_string();
+    // Asked before opening: opening a pipe would wait for whoever writes into it.
+    if !fs::metadata(file).with_context(named)?.is_file() {
+        bail!(
+            "{}: expected a folder, or a file that `taceva plugin pack` wrote",
+            shown(file)
+        );
     }
-}
-
-impl Drop for Unpacked {
-    fn drop(&mut self) {
-        // Remains are harmless, because they are not searched.
-        drop(fs::remove_dir_all(&self.folder));
-    }
+    let archive = fs::File::open(file).with_context(named)?;
+    fs::create_dir_all(user).with_context(|| shown(user).to_string())?;
+    let folder = TemporaryFolder::create(user, STAGED).with_context(|| shown(user).to_string())?;
+    let content = folder.path().join(UNPACKED);
+    fs::create_dir(&content).with_context(|| shown(&content).to_string())?;
+    taceva_host::unpack(io::BufReader::new(archive), &content).with_context(named)?;
+    Ok(folder)
 }
 
 /// Loads the library in a confined process.
@@ -140,28 +130,10 @@ fn check(host: &PluginHost, plugin: &Plugin) -> anyhow::Result<()> {
 
 /// Copies the manifest, the library of this machine and the licences beside `target`, then exchanges the names.
 fn replace(plugin: &Plugin, target: &Path) -> io::Result<()> {
-    let above = taceva_files::parent_of(target);
-    fs::create_dir_all(above)?;
-    let name = target.file_name().unwrap_or_default().display();
-    let beside = |word: &str| above.join(format!(".{name}.{}.{word}", std::process::id()));
-    let (partial, former) = (beside("partial"), beside("former"));
-    let copied = copy(plugin, &partial).and_then(|()| {
-        let was_there = target.symlink_metadata().is_ok();
-        if was_there {
-            fs::rename(target, &former)?;
-        }
-        fs::rename(&partial, target).inspect_err(|_| {
-            if was_there {
-                // The first error is returned.
-                drop(fs::rename(&former, target));
-            }
-        })
-    });
-    // Remains of either are not needed.
-    drop(fs::remove_dir_all(&partial));
-    drop(fs::remove_dir_all(&former));
-    copied?;
-    taceva_files::sync_folder(above)
+    fs::create_dir_all(taceva_files::parent_of(target))?;
+    let staged = Staged::beside(target)?;
+    copy(plugin, staged.path())?;
+    staged.put_in_place()
 }
 
 fn copy(plugin: &Plugin, into: &Path) -> io::Result<()> {

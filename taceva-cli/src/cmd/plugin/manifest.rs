@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context as _, bail};
 use taceva_core::shown;
@@ -105,7 +105,5 @@ fn library(args: &PluginManifest, text: &str, manifest: &Path) -> anyhow::Result
 }
 
 fn write(path: &Path, text: &str) -> io::Result<()> {
-    let folder = taceva_files::parent_of(path);
-    let beside: PathBuf = folder.join(format!(".plugin.toml.{}.partial", std::process::id()));
-    taceva_files::replace(path, &beside, |beside| fs::write(beside, text))
+    taceva_files::replace(path, |staged| fs::write(staged, text))
 }

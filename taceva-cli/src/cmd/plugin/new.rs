@@ -6,6 +6,7 @@ use std::path::Path;
 use taceva_core::shown;
 
 use anyhow::{Context as _, bail};
+use taceva_files::Staged;
 use taceva_template::{File, Sources};
 
 use crate::args::{Language, PluginHeaders, PluginNew};
@@ -60,19 +61,10 @@ fn write_folder(folder: &Path, above: &str, files: &[File]) -> anyhow::Result<()
     if folder.symlink_metadata().is_ok() {
         bail!("{} exists already", shown(folder));
     }
-    let name = folder.file_name().with_context(|| {
-        format!(
-            "{}: expected a path that ends in a folder name",
-            shown(folder)
-        )
-    })?;
-    let partial = format!(".{}.{}.partial", name.display(), std::process::id());
-    let beside = folder.with_file_name(partial);
-    let written = write_files(&beside, above, files).and_then(|()| fs::rename(&beside, folder));
-    if written.is_err() {
-        // The first error is reported.
-        drop(fs::remove_dir_all(&beside));
-    }
+    let written = Staged::beside(folder).and_then(|staged| {
+        write_files(staged.path(), above, files)?;
+        staged.put_in_place()
+    });
     written.with_context(|| format!("cannot write {}", shown(folder)))
 }
 

@@ -17,14 +17,9 @@ pub(super) fn run(args: &PluginPack, context: &Context) -> anyhow::Result<u8> {
     let named = || PathBuf::from(format!("{}-{}.tar", plugin.id(), plugin.manifest.version));
     let path = args.out.clone().unwrap_or_else(named);
     output::check_free(&path, args.force)?;
-    let name = path
-        .file_name()
-        .with_context(|| format!("{}: expected the name of a file", shown(&path)))?;
-    let partial = format!(".{}.{}.partial", name.display(), std::process::id());
-    let beside = path.with_file_name(partial);
     let mut names = Vec::new();
-    taceva_files::replace(&path, &beside, |beside: &Path| -> Result<(), Failed> {
-        let mut file = fs::File::create_new(beside)?;
+    taceva_files::replace(&path, |staged: &Path| -> Result<(), Failed> {
+        let mut file = fs::File::create_new(staged)?;
         names = pack(&plugin, &mut file)?;
         Ok(())
     })

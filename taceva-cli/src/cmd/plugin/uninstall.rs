@@ -6,6 +6,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, bail};
 use taceva_core::shown;
+use taceva_files::{STAGED, TemporaryFolder};
 use taceva_host::{PluginConfig, user_config_file};
 
 use super::install;
@@ -44,12 +45,7 @@ pub(super) fn run(args: &PluginUninstall) -> anyhow::Result<u8> {
 /// Removes a plugin atomically for other processes: renames it first to a name that is not searched.
 fn remove(target: &Path) -> io::Result<()> {
     let above = taceva_files::parent_of(target);
-    let name = target.file_name().unwrap_or_default().display();
-    let former = above.join(format!(".{name}.{}.former", std::process::id()));
-    fs::rename(target, &former)?;
-    taceva_files::sync_folder(above)?;
-    match former.symlink_metadata()?.is_dir() {
-        true => fs::remove_dir_all(&former),
-        false => fs::remove_file(&former),
-    }
+    let removed = TemporaryFolder::create(above, STAGED)?;
+    fs::rename(target, removed.path().join("removed"))?;
+    taceva_files::sync_folder(above)
 }

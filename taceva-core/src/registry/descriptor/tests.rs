@@ -34,7 +34,7 @@ fn facts_that_contradict_each_other_are_refused_when_built() {
         .with_depth_max(Millimetre(4.0));
     assert_eq!(
         sensor(deep).expect_err("deep"),
-        "the driver `test/device` contradicts itself: the depth limit is 4 mm, but the footprint is 3.5 mm deep"
+        "the driver `test/device` contradicts itself: the depth limit of 4 mm exceeds the depth of the footprint, 3.5 mm"
     );
     let recorded = check(DriverSource::Recorded, Facts::Robot(RobotFacts::default()));
     assert!(recorded.expect_err("a film").contains("a recorded robot"));

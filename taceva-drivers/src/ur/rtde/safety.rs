@@ -85,7 +85,9 @@ impl fmt::Display for ArmFault {
             ArmFault::ProtectiveStop => {
                 f.write_str("a protective stop: a collision was detected, or a limit was exceeded")
             }
-            ArmFault::SafeguardStop => f.write_str("a safeguard stop: a person is near the arm"),
+            ArmFault::SafeguardStop => f.write_str(
+                "a safeguard stop: the safeguard input is open; clear the area, check its door or light curtain, then reset the safeguard",
+            ),
             ArmFault::Violation => f.write_str("a safety limit was violated"),
             ArmFault::Fault => f.write_str("its safety system reports a fault"),
             ArmFault::NotRunning { mode } => {

@@ -23,7 +23,7 @@ pub struct NetworkEnsemble {
 
 const MEMBERS: SettingInfo = SettingInfo {
     key: "members",
-    accepts: "a number from 2 to 16",
+    accepts: "a whole number from 2 to 16",
     default: "2",
     about: "number of networks, with consecutive seeds from seed on; fitting and predicting take that many times longer",
 };

@@ -36,13 +36,13 @@ enum Kind {
 
 const EPOCHS: SettingInfo = SettingInfo {
     key: "epochs",
-    accepts: "a number from 1 to 100000",
+    accepts: "a whole number from 1 to 100000",
     default: "200 for cnn, 60 for the residual ones",
     about: "number of times the network is trained on each sample",
 };
 const BATCH: SettingInfo = SettingInfo {
     key: "batch",
-    accepts: "a number from 2 to 4096",
+    accepts: "a whole number from 2 to 4096",
     default: "32",
     about: "number of samples per training step",
 };

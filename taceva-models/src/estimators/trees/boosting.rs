@@ -45,13 +45,13 @@ struct Growing {
 
 const MOST: SettingInfo = SettingInfo {
     key: "most",
-    accepts: "a number from 1 to 10000",
+    accepts: "a whole number from 1 to 10000",
     default: "300",
     about: "greatest number of trees of a channel to try, if their number is chosen",
 };
 const TREES: SettingInfo = SettingInfo {
     key: "trees",
-    accepts: "a number from 1 to 10000",
+    accepts: "a whole number from 1 to 10000",
     default: "chosen for each channel",
     about: "number of trees of each channel",
 };
@@ -69,13 +69,13 @@ const SHARE: SettingInfo = SettingInfo {
 };
 const DEPTH: SettingInfo = SettingInfo {
     key: "depth",
-    accepts: "a number from 1 to 30",
+    accepts: "a whole number from 1 to 30",
     default: "5",
     about: "the greatest depth: comparisons on the way to a leaf",
 };
 const LEAF: SettingInfo = SettingInfo {
     key: "leaf",
-    accepts: "a number from 1 to 10000",
+    accepts: "a whole number from 1 to 10000",
     default: "5",
     about: "the least number of samples of a leaf",
 };

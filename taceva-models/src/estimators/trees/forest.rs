@@ -38,7 +38,7 @@ pub struct RandomForest {
 
 const TREES: SettingInfo = SettingInfo {
     key: "trees",
-    accepts: "a number from 1 to 10000",
+    accepts: "a whole number from 1 to 10000",
     default: "100",
     about: "number of trees of each channel",
 };
@@ -50,13 +50,13 @@ const SHARE: SettingInfo = SettingInfo {
 };
 const DEPTH: SettingInfo = SettingInfo {
     key: "depth",
-    accepts: "a number from 1 to 60",
+    accepts: "a whole number from 1 to 60",
     default: "30",
     about: "the greatest depth: comparisons on the way to a leaf",
 };
 const LEAF: SettingInfo = SettingInfo {
     key: "leaf",
-    accepts: "a number from 1 to 10000",
+    accepts: "a whole number from 1 to 10000",
     default: "2",
     about: "the least number of samples of a leaf",
 };

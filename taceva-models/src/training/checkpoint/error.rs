@@ -43,15 +43,15 @@ pub enum CheckpointError {
         /// Fault.
         problem: String,
     },
-    /// The file belongs to another training.
+    /// The file belongs to another training run.
     #[error(
-        "checkpoint {} belongs to another training, with other {what}; remove it to start again",
+        "checkpoint {} belongs to another training run, with other {what}; remove it to start again",
         taceva_core::shown(path)
     )]
     Foreign {
         /// Path of the file.
         path: PathBuf,
-        /// Difference.
+        /// Difference between the training runs, such as `settings`.
         what: &'static str,
     },
 }

@@ -1,11 +1,11 @@
-//! Identity of a training.
+//! Identity of a training run.
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use taceva_network::GpuKind;
 use taceva_network::{Architecture, Isa, Labels, Recipe, Samples, Summary};
 
-/// Identity of a training: everything that its result depends on.
+/// Identity of a training run: everything that its result depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Identity {
     architecture: Architecture,

@@ -34,8 +34,8 @@ pub(crate) fn blosc(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     if bytes > most || packed_bytes != packed.len() {
         return Err(damaged(
             4,
-            format!("{bytes} bytes from {packed_bytes} bytes of Blosc"),
-            &format!("at most {most} in {}", packed.len()),
+            format!("a Blosc chunk of {packed_bytes} bytes that unpacks to {bytes} bytes"),
+            &format!("{} bytes that unpack to at most {most}", packed.len()),
         ));
     }
     if flags & IS_STORED != 0 {

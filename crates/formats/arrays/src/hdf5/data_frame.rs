@@ -220,7 +220,10 @@ impl DataFrames {
         let [(_, info)] = arrays.as_slice() else {
             let reason = pickle.refused().first().map(|(_, reason)| reason.again());
             return Err(reason.unwrap_or_else(|| {
-                Problem::unsupported("a block of objects other than texts", REMEDY)
+                Problem::unsupported(
+                    "a block of the data frame holds objects that are not texts",
+                    REMEDY,
+                )
             }));
         };
         let values = pickle.read(0, 0..info.rows())?.values;
@@ -230,13 +233,16 @@ impl DataFrames {
                 Some(texts) => Ok(ArrayValues::Text(texts.to_vec())),
                 None => Err(Problem::damaged(
                     0,
-                    format!("{} texts in a block of the data frame", texts.len()),
+                    format!("a block of the data frame with {} texts", texts.len()),
                     format!("at least {}", rows.end),
                 )),
             },
             other => Err(Problem::unsupported(
-                format!("a block of {} objects other than texts", other.len()),
-                "make them texts, `df.astype(str)`, and write it again",
+                format!(
+                    "a block of the data frame holds {} objects that are not texts",
+                    other.len()
+                ),
+                "convert them to texts by `df.astype(str)`, and write the file again",
             )),
         }
     }

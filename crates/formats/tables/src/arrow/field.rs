@@ -67,7 +67,7 @@ const REMEDY: &str = "write Parquet: `ds.to_parquet(\"table.parquet\")` of datas
 pub(super) fn schema(header: Table<'_>) -> Result<Schema, String> {
     if header.short(0).is_some_and(|order| order != 0) {
         return Err(format!(
-            "numbers in big-endian order are not read: {REMEDY}"
+            "numbers in big-endian order are not supported: {REMEDY}"
         ));
     }
     let mut made = Made {
@@ -154,7 +154,7 @@ impl Made {
                 Ok((Flat::Leaf(FieldKind::Fixed(bytes, number)), 2))
             }
             _ => Err(format!(
-                "the column `{name}` has numbers of {bytes} bytes, which are not read: {REMEDY}"
+                "the column `{name}` has numbers of {bytes} bytes, which are not supported: {REMEDY}"
             )),
         };
         let bytes = |is_text, offset| Flat::Leaf(FieldKind::Bytes { is_text, offset });
@@ -216,7 +216,7 @@ impl Made {
                     _ => "a type newer than this program",
                 };
                 return Err(format!(
-                    "the column `{name}` holds {kind}, which is not read: {REMEDY}"
+                    "the column `{name}` holds {kind}, which is not supported: {REMEDY}"
                 ));
             }
         })

@@ -239,7 +239,7 @@ impl<'t> Reader<'t> {
 
     fn short(&self, begin: u64, count: u64, there: u64) -> TableError {
         self.damaged(format!(
-            "{count} bytes from byte {begin} of a buffer of {there} bytes"
+            "expected {count} bytes from byte {begin} of a buffer, but it has {there} bytes"
         ))
     }
 
@@ -252,7 +252,10 @@ impl<'t> Reader<'t> {
 /// Unpacks a compressed buffer: its length, −1 for no compression, then its bytes.
 fn unpacked(codec: codec::Codec, packed: &[u8]) -> Result<Vec<u8>, String> {
     let Some((length, rest)) = packed.split_first_chunk() else {
-        return Err(format!("a compressed buffer of {} bytes", packed.len()));
+        return Err(format!(
+            "a compressed buffer has {} bytes, expected at least 8",
+            packed.len()
+        ));
     };
     match i64::from_le_bytes(*length) {
         -1 => Ok(rest.to_vec()),

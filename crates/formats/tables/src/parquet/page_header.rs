@@ -215,7 +215,8 @@ impl<R: BufRead> Thrift<'_, R> {
 
     fn small(&mut self) -> Result<i32, String> {
         let number = self.int()?;
-        i32::try_from(number).map_err(|_| format!("{number} in a page header, which takes 32 bits"))
+        i32::try_from(number)
+            .map_err(|_| format!("a page header states {number}, expected a number of 32 bits"))
     }
 
     /// A zigzag number, with its sign in the lowest bit.
@@ -237,7 +238,7 @@ impl<R: BufRead> Thrift<'_, R> {
                 return Ok(number);
             }
         }
-        Err("a number of more than 64 bits in a page header".to_owned())
+        Err("a page header has a number of more than 64 bits".to_owned())
     }
 
     fn byte(&mut self) -> Result<u8, String> {
@@ -274,7 +275,11 @@ impl Form {
             9 | 10 => Form::List,
             11 => Form::Map,
             12 => Form::Struct,
-            other => return Err(format!("a field of type {other} in a page header")),
+            other => {
+                return Err(format!(
+                    "a page header has a field of type {other}, expected 1 to 12"
+                ));
+            }
         })
     }
 }

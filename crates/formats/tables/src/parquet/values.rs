@@ -33,7 +33,9 @@ impl ValueSize {
         let bits = u64::from(values).checked_mul(self.0);
         match bits.is_some_and(|bits| bits <= (bytes as u64).saturating_mul(8)) {
             true => Ok(()),
-            false => Err(format!("{values} values in a page of {bytes} bytes")),
+            false => Err(format!(
+                "a page of {bytes} bytes cannot hold {values} values"
+            )),
         }
     }
 }
@@ -72,7 +74,7 @@ mod tests {
         assert_eq!(ValueSize(32).check_plain(3, 12), Ok(()));
         assert_eq!(
             ValueSize(32).check_plain(3, 11),
-            Err("3 values in a page of 11 bytes".to_owned())
+            Err("a page of 11 bytes cannot hold 3 values".to_owned())
         );
         assert_eq!(ValueSize(1).check_plain(16, 2), Ok(()));
         assert!(ValueSize(0).check_dictionary(u32::MAX, 100).is_err());

@@ -63,7 +63,7 @@ pub(super) fn not_started(
     }
 }
 
-/// Limits the memory of the program, where the system allows that from outside.
+/// Limits the address space of the child process. Does nothing except on Linux.
 pub(super) fn bound_memory(running: &mut Running) {
     #[cfg(target_os = "linux")]
     {

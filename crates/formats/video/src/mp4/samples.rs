@@ -67,7 +67,7 @@ fn read_sizes(source: &Source, tables: &BoxAt) -> Result<Vec<u32>, VideoError> {
         let count = fields.u32(source)?;
         if u64::from(count) * u64::from(each) > source.length() {
             let problem = format!(
-                "{count} frames of {each} bytes, the file has {} in all",
+                "{count} frames of {each} bytes do not fit the file of {} bytes",
                 source.length()
             );
             return Err(source.damaged(at, problem));
@@ -94,7 +94,10 @@ fn read_small_sizes(source: &Source, found: &BoxAt) -> Result<Vec<u32>, VideoErr
         return Err(too_many(source, count));
     }
     if !matches!(bits, 4 | 8 | 16) || count * u64::from(bits) > fields.left() as u64 * 8 {
-        let problem = format!("{count} sizes of {bits} bits in {} bytes", fields.left());
+        let problem = format!(
+            "the table states {count} sizes of {bits} bits, expected sizes of 4, 8 or 16 bits that fit {} bytes",
+            fields.left()
+        );
         return Err(source.damaged(at, problem));
     }
     let mut sizes = Vec::new();

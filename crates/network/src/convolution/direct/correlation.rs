@@ -21,11 +21,11 @@ pub(crate) struct Tap {
 
 /// Memory layout of the outputs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Lie {
+pub(crate) enum OutputLayout {
     /// Pictures of `image` values each. The buffer begins `skipped` values into the first one.
     Pictures { image: usize, skipped: usize },
-    /// Pixels of the range back to back, `channels` values each.
-    Apart { channels: usize },
+    /// Only the pixels of `range`, contiguous, `channels` values each.
+    Packed { channels: usize },
 }
 
 /// output[pixel, channel] = finish(start + Σ over taps, run: input · weights).
@@ -44,7 +44,7 @@ pub(crate) struct Correlation<'a> {
     pub(crate) weights: &'a [f32],
     pub(crate) rows: usize,
     pub(crate) output: &'a mut [f32],
-    pub(crate) lie: Lie,
+    pub(crate) layout: OutputLayout,
     pub(crate) start: Start<'a>,
     pub(crate) finish: Finish<'a>,
 }
@@ -184,12 +184,12 @@ impl Correlation<'_> {
     fn place(&self, position: usize) -> (usize, usize) {
         let image = position / self.pixels.len();
         let (input, output) = self.pixels.at(position % self.pixels.len());
-        let output = match self.lie {
-            Lie::Pictures {
+        let output = match self.layout {
+            OutputLayout::Pictures {
                 image: length,
                 skipped,
             } => image * length + output - skipped,
-            Lie::Apart { channels } => (position - self.range.start) * channels,
+            OutputLayout::Packed { channels } => (position - self.range.start) * channels,
         };
         (image * self.input_image + input, output)
     }

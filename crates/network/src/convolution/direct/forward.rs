@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::border::{Reach, is_left_out, reaches};
-use super::correlation::{Correlation, Lie, Tap, are_weights_many};
+use super::correlation::{Correlation, OutputLayout, Tap, are_weights_many};
 use super::single_picture::Divided;
 use crate::convolution::division::{Division, Outputs};
 use crate::convolution::ending::Epilogue;
@@ -144,7 +144,7 @@ impl Forward {
                         weights: source.weights,
                         rows: self.rows,
                         output: &mut *output,
-                        lie: Lie::Pictures {
+                        layout: OutputLayout::Pictures {
                             image: output_image,
                             skipped: 0,
                         },

@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::border;
-use super::correlation::{Correlation, Lie, Tap, are_weights_many};
+use super::correlation::{Correlation, OutputLayout, Tap, are_weights_many};
 use super::forward::images_at_once;
 use crate::convolution::ending::{Finish, Onto};
 use crate::convolution::{Convolution, offset};
@@ -77,7 +77,7 @@ impl InputGradient {
                     weights: exchanged,
                     rows,
                     output: &mut *into,
-                    lie: Lie::Pictures {
+                    layout: OutputLayout::Pictures {
                         image: to_image,
                         skipped: 0,
                     },

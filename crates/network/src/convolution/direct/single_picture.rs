@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::correlation::{Correlation, Lie};
+use super::correlation::{Correlation, OutputLayout};
 use super::forward::{Class, ROWS};
 use crate::convolution::TileRooms;
 use crate::convolution::division::Division;
@@ -74,8 +74,8 @@ impl<'a> Divided<'a> {
         team::divide(stretches, |(range, skipped, output)| {
             let ending = ending(skipped..skipped + output.len());
             let image = length;
-            let lie = Lie::Pictures { image, skipped };
-            self.part(machine, (range, self.weights), (output, lie), ending);
+            let layout = OutputLayout::Pictures { image, skipped };
+            self.part(machine, (range, self.weights), (output, layout), ending);
         });
     }
 
@@ -94,12 +94,12 @@ impl<'a> Divided<'a> {
             let apart = room.chunks_mut(picture.pixels() * channels);
             let parts = apart.zip(weights).enumerate().collect();
             team::divide(parts, |(part, (output, weights))| {
-                let lie = Lie::Apart {
+                let layout = OutputLayout::Packed {
                     channels: output.len() / picture.pixels(),
                 };
                 let ending = (start.from(part * channels), Finish::Keep);
                 let range = 0..self.class.pixels.len();
-                self.part(machine, (range, weights), (output, lie), ending);
+                self.part(machine, (range, weights), (output, layout), ending);
             });
             machine.run(Gathering {
                 parts: room,
@@ -114,7 +114,7 @@ impl<'a> Divided<'a> {
         self,
         machine: Machine,
         (range, weights): (Range<usize>, &[f32]),
-        (output, lie): (&mut [f32], Lie),
+        (output, layout): (&mut [f32], OutputLayout),
         (start, finish): (Start<'_>, Finish<'_>),
     ) {
         machine.run(Correlation {
@@ -128,7 +128,7 @@ impl<'a> Divided<'a> {
             weights,
             rows: self.rows,
             output,
-            lie,
+            layout,
             start,
             finish,
         });

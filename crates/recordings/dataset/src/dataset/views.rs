@@ -146,7 +146,7 @@ impl Dataset {
         Frame::new(info, bytes).map_err(|error| damaged(error.to_string()))
     }
 
-    /// All pictures of all views, and those without contact.
+    /// Entries of all pictures of all views, including the reference pictures without contact.
     pub(super) fn entries_of_views(&self) -> Vec<FrameEntry> {
         let frames = self.table.views().iter();
         let frames = frames.flat_map(|view| view.frames().iter().flatten().cloned());

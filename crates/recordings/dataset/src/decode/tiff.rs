@@ -39,7 +39,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         ColorType::RGBA(16) => (PixelFormat::Rgb16, 4),
         other => {
             return Err(format!(
-                "TIFF with pixels of type {other:?} is not read: expected 8 or 16 bits, gray or RGB; convert it, or write it as PNG"
+                "unsupported TIFF pixel type {other:?}: expected 8 or 16 bits, gray or RGB; convert it, or write it as PNG"
             ));
         }
     };
@@ -56,13 +56,13 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         DecodingResult::U16(numbers) => numbers.into_iter().flat_map(u16::to_le_bytes).collect(),
         _ => {
             return Err(
-                "TIFF with signed or floating-point numbers is not read: expected unsigned ones of 8 or 16 bits".to_owned(),
+                "TIFF with signed or floating-point numbers is not supported: expected unsigned ones of 8 or 16 bits".to_owned(),
             );
         }
     };
     if pixels.len() != length {
         return Err(format!(
-            "TIFF with {} bytes of pixels for {width}×{height}: separate planes of colours are not read",
+            "TIFF with {} bytes of pixels for {width}×{height}: separate planes of colours are not supported",
             pixels.len()
         ));
     }
@@ -81,7 +81,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
 fn text(error: TiffError) -> String {
     match error {
         TiffError::UnsupportedError(what) => format!(
-            "TIFF is not read: {what}; write it uncompressed, with LZW, Deflate or PackBits, or as PNG"
+            "unsupported TIFF: {what}; write it uncompressed, with LZW, Deflate or PackBits, or as PNG"
         ),
         other => other.to_string(),
     }

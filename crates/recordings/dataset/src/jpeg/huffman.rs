@@ -35,7 +35,7 @@ impl Huffman {
             let place = length as usize;
             table.offset[place] = first as i64 - i64::from(code);
             for _ in 0..count {
-                let symbol = symbols.get(first).ok_or("a Huffman table that is cut")?;
+                let symbol = symbols.get(first).ok_or("a Huffman table is truncated")?;
                 if length <= QUICK {
                     let shift = QUICK - length;
                     let from = (code << shift) as usize;

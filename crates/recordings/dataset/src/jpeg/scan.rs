@@ -33,7 +33,7 @@ const GREATEST: i64 = 2_048;
 
 impl Scan {
     pub(super) fn parse(body: &[u8], frame: &mut Frame) -> Result<Scan, String> {
-        let cut = || "a scan header that is cut".to_owned();
+        let cut = || "a scan header is truncated".to_owned();
         let [count, rest @ ..] = body else {
             return Err(cut());
         };

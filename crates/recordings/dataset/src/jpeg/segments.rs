@@ -36,7 +36,7 @@ impl<'a> Reader<'a> {
                     let body = self.body()?;
                     self.tables.restart_interval = match body {
                         [_, _] => big_endian(body),
-                        _ => return Err("a restart interval that is cut".to_owned()),
+                        _ => return Err("the restart interval is truncated".to_owned()),
                     };
                 }
                 kind @ 0xC0..=0xC2 => {
@@ -47,7 +47,7 @@ impl<'a> Reader<'a> {
                     self.frame = Some(Frame::parse(body, kind == 0xC2)?);
                 }
                 0xC3 | 0xC5..=0xC7 | 0xC9..=0xCB | 0xCD..=0xCF => {
-                    return Err("lossless and arithmetic coding are not read".to_owned());
+                    return Err("lossless and arithmetic coding are not supported".to_owned());
                 }
                 0xDA => self.scan()?,
                 0xD0..=0xD7 => return Err("a restart marker outside of a scan".to_owned()),
@@ -76,7 +76,7 @@ impl<'a> Reader<'a> {
     /// The content of a segment after its length.
     fn body(&mut self) -> Result<&'a [u8], String> {
         let rest = self.bytes.get(self.position..).unwrap_or_default();
-        let cut = || format!("the segment at byte {} is cut", self.position);
+        let cut = || format!("JPEG segment at byte {} is truncated", self.position);
         let length = big_endian(rest.get(..2).ok_or_else(cut)?);
         let body = rest.get(2..length).ok_or_else(cut)?;
         self.position += length;
@@ -86,7 +86,7 @@ impl<'a> Reader<'a> {
     fn huffman_tables(&mut self) -> Result<(), String> {
         let mut body = self.body()?;
         while let [place, rest @ ..] = body {
-            let cut = "a Huffman table that is cut";
+            let cut = "a Huffman table is truncated";
             let (counts, rest) = rest.split_first_chunk::<16>().ok_or(cut)?;
             let total = counts.iter().map(|count| usize::from(*count)).sum();
             let symbols = rest.get(..total).ok_or(cut)?;
@@ -102,7 +102,7 @@ impl<'a> Reader<'a> {
     fn quantisers(&mut self) -> Result<(), String> {
         let mut body = self.body()?;
         while let [place, rest @ ..] = body {
-            let cut = "a quantisation table that is cut";
+            let cut = "a quantisation table is truncated";
             let width = if place >> 4 == 0 { 1 } else { 2 };
             let table = rest.get(..64 * width).ok_or(cut)?;
             let slot = self.tables.quantisers.get_mut(usize::from(place & 15));

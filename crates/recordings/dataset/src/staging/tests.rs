@@ -1,4 +1,5 @@
 use super::*;
+use crate::layout;
 
 #[test]
 fn nothing_is_left_of_a_folder_that_is_not_put_in_place() {
@@ -19,47 +20,43 @@ fn a_second_writer_is_refused_and_a_leftover_is_cleared() {
         matches!(second, Err(DatasetError::Busy { .. })),
         "{second:?}"
     );
-    let path = first.path().to_owned();
     drop(first);
-    fs::create_dir(&path).expect("a leftover");
-    fs::write(path.join(layout::SAMPLES), "x").expect("written");
+    let dead = folder.path().join(".taceva-staged-a1b2c3");
+    fs::create_dir_all(dead.join("set")).expect("a leftover");
+    fs::write(dead.join("set").join(layout::SAMPLES), "x").expect("written");
+    fs::write(dead.join(".taceva-temporary"), "").expect("written");
     let third = StagedFolder::create(&target, Place::Free).expect("cleared");
     third.put_in_place(&[]).expect("in place");
     assert_eq!(fs::read_dir(&target).expect("there").count(), 0);
-}
-
-#[test]
-fn a_strangers_folder_in_the_way_is_named_and_left_alone() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let theirs = folder.path().join(".set.partial");
-    fs::create_dir(&theirs).expect("made");
-    fs::write(theirs.join("thesis.tex"), "x").expect("written");
-    let refused = StagedFolder::create(&folder.path().join("set"), Place::Free);
-    let message = refused.expect_err("in the way").to_string();
-    assert!(message.contains("holds `thesis.tex`"), "{message}");
-    assert!(theirs.join("thesis.tex").exists());
+    assert_eq!(names(folder.path()), ["set"]);
 }
 
 /// K3.
 #[cfg(unix)]
 #[test]
-fn a_link_at_the_hidden_name_of_a_dataset_is_refused_and_what_it_leads_to_stays() {
-    for name in [".set.partial", ".set.replaced"] {
-        let folder = tempfile::tempdir().expect("a folder");
-        let theirs = tempfile::tempdir().expect("a folder");
-        let theirs = dataset(theirs.path(), "theirs");
-        std::os::unix::fs::symlink(&theirs, folder.path().join(name)).expect("linked");
-        let target = folder.path().join("set");
-        let created = StagedFolder::create(&target, Place::Free).map(drop);
-        assert_eq!(created.is_err(), name == ".set.partial");
-        if let Err(error) = created {
-            assert!(error.to_string().contains("a link"), "{error}");
+fn links_and_folders_of_strangers_at_hidden_names_stay_as_they_are() {
+    for name in [".set.partial", ".set.replaced", ".taceva-staged-a1b2c3"] {
+        for is_link in [true, false] {
+            let folder = tempfile::tempdir().expect("a folder");
+            let elsewhere = tempfile::tempdir().expect("a folder");
+            let theirs = dataset(elsewhere.path(), "theirs");
+            fs::write(theirs.join("thesis.tex"), "x").expect("written");
+            let hidden = folder.path().join(name);
+            match is_link {
+                true => std::os::unix::fs::symlink(&theirs, &hidden).expect("linked"),
+                false => fs::rename(&theirs, &hidden).expect("moved"),
+            }
+            let target = folder.path().join("set");
+            let staged = StagedFolder::create(&target, Place::Free).expect("created");
+            staged.put_in_place(&[]).expect("in place");
+            fs::remove_dir(&target).expect("empty");
+            let target = dataset(folder.path(), "old");
+            successor(&target).put_in_place(&[]).expect("in place");
+            let header = fs::read_to_string(hidden.join(layout::HEADER));
+            assert_eq!(header.expect("there"), "theirs", "{name}");
+            assert!(hidden.join("thesis.tex").exists());
+            assert_eq!(names(folder.path()), [name, "set"]);
         }
-        assert!(!target.exists());
-        dataset(folder.path(), "old");
-        replacement::settle(&target).expect("settled");
-        let header = fs::read_to_string(theirs.join(layout::HEADER));
-        assert_eq!(header.expect("there"), "theirs", "{name}");
     }
 }
 
@@ -87,65 +84,19 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn a_dataset_is_replaced_with_and_without_an_exchange_of_names() {
-    for can_exchange in [true, false] {
-        let folder = tempfile::tempdir().expect("a folder");
-        let target = dataset(folder.path(), "old");
-        let exchange = |one: &Path, other: &Path| match can_exchange {
-            true => replacement::exchange(one, other),
-            false => Ok(false),
-        };
-        let placed = successor(&target).put_in_place_by(&[], exchange);
-        placed.expect("in place");
-        let header = fs::read_to_string(target.join(layout::HEADER)).expect("there");
-        assert_eq!(
-            (header.as_str(), names(folder.path())),
-            ("new", vec!["set".to_owned()])
-        );
-    }
-}
-
-#[test]
-fn what_stops_between_two_renames_is_put_back_by_whoever_looks_for_it() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let target = dataset(folder.path(), "old");
-    let staged = successor(&target);
-    // As a kill between the two leaves it, but for the lock.
-    replacement::move_aside(&target, &target).expect("set aside");
-    let waiting = std::thread::spawn({
-        let target = target.clone();
-        move || replacement::settle(&target).map(|()| target.exists())
-    });
-    std::thread::sleep(std::time::Duration::from_millis(50));
-    assert!(!target.exists(), "somebody is still at work");
-    std::mem::forget(staged);
-    // The lock ends with the process; here it is the only handle that is forgotten, so a second folder stands for it.
-    fs::rename(
-        folder.path().join(".set.partial"),
-        folder.path().join("gone"),
-    )
-    .expect("moved");
-    assert!(waiting.join().expect("no panic").expect("settled"));
-    assert_eq!(
-        fs::read_to_string(target.join(layout::HEADER)).expect("back"),
-        "old"
-    );
-}
-
-#[test]
 fn a_dataset_that_is_read_is_set_aside_and_cleared_once_it_is_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let target = dataset(folder.path(), "old");
     let reader = crate::folder_handle::HeldFolder::open(&target).expect("held");
     successor(&target).put_in_place(&[]).expect("in place");
     assert_eq!(reader.read(layout::HEADER, 9).expect("still there"), b"old");
-    assert_eq!(names(folder.path()), [".set.replaced", "set"]);
+    assert_eq!(names(folder.path()).len(), 2);
     successor(&target)
         .put_in_place(&[])
         .expect("in place again");
     assert_eq!(reader.read(layout::HEADER, 9).expect("still there"), b"old");
     drop(reader);
-    replacement::settle(&target).expect("cleared");
+    taceva_files::clear_leftovers(folder.path());
     assert_eq!(names(folder.path()), ["set"]);
 }
 

@@ -107,7 +107,7 @@ pub struct Row {
     pub unit_id: Option<String>,
     /// The lighting scene or the like.
     pub scene: Option<String>,
-    /// The depth level within the point.
+    /// Index of the depth step at this contact point.
     pub depth_step: Option<u32>,
     /// The number of the repeat.
     pub repeat: Option<u32>,

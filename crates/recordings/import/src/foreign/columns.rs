@@ -122,7 +122,39 @@ pub(crate) enum PictureKind {
 pub(crate) struct ColumnTable {
     path: PathBuf,
     source: Box<dyn ColumnSource>,
-    read: Mutex<BTreeMap<String, Arc<Vec<String>>>>,
+    read: Mutex<ReadColumns>,
+    /// The most bytes that its cells may take: a small file may be made to fill a memory.
+    most_bytes: usize,
+}
+
+/// Columns that were read so far.
+#[derive(Debug, Default)]
+struct ReadColumns {
+    by_name: BTreeMap<String, Arc<Vec<String>>>,
+    bytes: usize,
+}
+
+/// Bytes of cells that a small file may become, and above that so many times what it has.
+const CELL_BYTES: u64 = 128 << 20;
+const CELL_RATIO: u64 = 64;
+
+/// Bytes that the cells of the file at `path` may take; of a folder any number.
+fn most_bytes(path: &Path) -> usize {
+    let file = std::fs::metadata(path)
+        .ok()
+        .filter(std::fs::Metadata::is_file);
+    let bytes = file.map(|file| file.len().saturating_mul(CELL_RATIO).max(CELL_BYTES));
+    bytes
+        .and_then(|bytes| usize::try_from(bytes).ok())
+        .unwrap_or(usize::MAX)
+}
+
+/// Memory of the cells of a column.
+fn bytes_of(column: &[String]) -> usize {
+    column
+        .iter()
+        .map(|cell| size_of::<String>() + cell.capacity())
+        .sum()
 }
 
 impl ColumnTable {
@@ -136,6 +168,7 @@ impl ColumnTable {
             source: Box::new(source.map_err(|problem| wrong(path, problem))?),
             path: path.to_owned(),
             read: Mutex::default(),
+            most_bytes: most_bytes(path),
         })
     }
 
@@ -158,7 +191,8 @@ impl ColumnTable {
     pub(super) fn cell(&self, row: usize, name: &str) -> Result<String, DatasetError> {
         let known = |row: usize| {
             let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-            read.get(name).map(|column| column[row].clone())
+            let column = read.by_name.get(name);
+            column.map(|column| column[row].clone())
         };
         if let Some(cell) = known(row) {
             return Ok(cell);
@@ -177,7 +211,7 @@ impl ColumnTable {
         names.sort_unstable();
         names.dedup();
         let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        names.retain(|name| !read.contains_key(*name));
+        names.retain(|name| !read.by_name.contains_key(*name));
         if names.is_empty() {
             return Ok(());
         }
@@ -198,7 +232,15 @@ impl ColumnTable {
                 );
                 return Err(wrong(&self.path, problem));
             }
-            read.insert(name.to_owned(), Arc::new(column));
+            read.bytes = read.bytes.saturating_add(bytes_of(&column));
+            if read.bytes > self.most_bytes {
+                let problem = format!(
+                    "the cells of its columns take more than {} bytes, far more than the file: write it with less compression, or name fewer columns",
+                    self.most_bytes
+                );
+                return Err(wrong(&self.path, problem));
+            }
+            read.by_name.insert(name.to_owned(), Arc::new(column));
         }
         Ok(())
     }

@@ -53,7 +53,7 @@ impl DepthPixels {
                     Some(distance) => format!(
                         "{distance:.3} mm (code {code}) is outside of `range = [{black}, {full}]`"
                     ),
-                    None => format!("code {code} of a depth map, the last is 4095"),
+                    None => format!("depth code {code} exceeds 4095"),
                 }
             })
         };

@@ -10,11 +10,12 @@ use taceva_core::{FrameInfo, Progress};
 
 use super::plan::ImportPlan;
 use super::summary::ImportSummary;
+use crate::source_sums::list_of;
 pub(super) use frames::{CopiedFrames, copy_frames};
 use taceva_dataset::internal::{
-    Beside, layout, staging::Place, staging::StagedFolder, write_table_and_header,
+    Beside, layout, staging::Place, staging::StagedFolder, write_durable, write_table_and_header,
 };
-use taceva_dataset::{DatasetError, Digest, ViewInfo};
+use taceva_dataset::{DatasetError, Digest, SourcesInfo, ViewInfo};
 
 /// Result of an import.
 ///
@@ -104,6 +105,8 @@ impl ImportPlan {
             signals.write(&path, progress)
         });
         let info = frames.as_ref().map(|frames| frames.info);
+        let sources = list_of(&self.folder, jobs, progress)?;
+        write_durable(&staged.path().join(layout::SOURCES), sources.as_bytes())?;
         let header = write_table_and_header(
             &staged.path().join(layout::SAMPLES),
             &staged.path().join(layout::HEADER),
@@ -117,6 +120,7 @@ impl ImportPlan {
                 warnings: self.summary.warnings_in_words(),
                 signals: signals.transpose()?,
                 views,
+                sources: Some(SourcesInfo::of(&sources)),
                 ..Beside::default()
             },
         )?;

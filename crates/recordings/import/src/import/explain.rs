@@ -162,11 +162,12 @@ impl fmt::Display for Conversion {
 }
 
 impl fmt::Display for ZeroSummary {
-    /// `zero     Fz less -0.0210 to 1.5020: mean of the first 10 rows of each table, 2 of them`
+    /// `zero     Fz less -0.0210 to 1.5020 (mean of the first 10 rows of each table; 2 blocks)`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let plural = if self.blocks == 1 { "" } else { "s" };
         write!(
             f,
-            "zero     {} less {:.4} to {:.4}: {}, {} of them",
+            "zero     {} less {:.4} to {:.4} ({}; {} block{plural})",
             self.channel,
             self.least,
             self.greatest,

@@ -13,12 +13,15 @@ use super::copy::{CopiedFrames, ImportReport, copy_frames};
 use super::frame_plan::PlannedFrames;
 use super::plan::ImportPlan;
 use super::signals::PlannedSignals;
+use crate::source_sums::list_of;
 use duplicates::refuse_twice;
 use taceva_dataset::internal::{
     Beside, Difference, Misread, RowNames, SignalsWriter, differences_of_added, layout, limits,
-    read_capped, staging::Place, staging::StagedFolder, write_table_and_header,
+    read_capped, staging::Place, staging::StagedFolder, write_durable, write_table_and_header,
 };
-use taceva_dataset::{Dataset, DatasetError, Digest, Extension, Header, SignalsInfo, Table};
+use taceva_dataset::{
+    Dataset, DatasetError, Digest, Extension, Header, SignalsInfo, SourcesInfo, Table,
+};
 
 /// Date and source of added rows, as recorded in the header of the dataset.
 ///
@@ -109,8 +112,15 @@ impl ImportPlan {
         let signals = signals.map(|new| write_signals(&before, new, &staged, progress));
         let signals = signals.transpose()?;
         refuse_twice(&before, &table, signals.as_ref(), staged.path())?;
-        let header = write_header(&staged, &before, &table, frames, signals, &self, added)?;
-        // The predecessor is no longer read here, so it is removed instead of set aside.
+        let sources = self.sources(&before, added, jobs, progress)?;
+        write_durable(&staged.path().join(layout::SOURCES), sources.as_bytes())?;
+        let written = Written {
+            frames,
+            signals,
+            sources: SourcesInfo::of(&sources),
+        };
+        let header = write_header(&staged, &before, &table, written, &self, added)?;
+        // Nobody reads the predecessor on our behalf any more: it is removed with its names, and not set aside.
         drop(before);
         staged.put_in_place(&folders.into_iter().collect::<Vec<_>>())?;
         Ok(ImportReport {
@@ -122,7 +132,22 @@ impl ImportPlan {
         })
     }
 
-    /// Rejects rows whose header would contradict that of `before`. `frames` are those of the new rows, if known.
+    /// The list of files of the dataset, and behind it that of the folder whose rows are added.
+    fn sources(
+        &self,
+        before: &Dataset,
+        added: &Addition,
+        jobs: NonZeroUsize,
+        progress: &dyn Progress,
+    ) -> Result<String, DatasetError> {
+        let mut list = before.source_sums()?.unwrap_or_default();
+        let from = added.from.replace(char::is_control, " ");
+        list += &format!("# {} {from}\n", added.date);
+        list += &list_of(&self.folder, jobs, progress)?;
+        Ok(list)
+    }
+
+    /// Refuses rows whose header would contradict that of `before`; `frames` are those of the rows, where they are known.
     fn check_alike(
         &self,
         before: &Dataset,
@@ -331,15 +356,26 @@ fn write_signals(
     writer.finish()
 }
 
+/// Files of the successor that are written before its header.
+struct Written {
+    frames: CopiedFrames,
+    signals: Option<SignalsInfo>,
+    sources: SourcesInfo,
+}
+
 fn write_header(
     staged: &StagedFolder,
     before: &Dataset,
     table: &Table,
-    frames: CopiedFrames,
-    signals: Option<SignalsInfo>,
+    written: Written,
     plan: &ImportPlan,
     added: &Addition,
 ) -> Result<Header, DatasetError> {
+    let Written {
+        frames,
+        signals,
+        sources,
+    } = written;
     let header = before.header();
     let all = header.frames.clone().map(|mut all| {
         all.count += frames.frames.map_or(0, |new| new.count);
@@ -386,6 +422,7 @@ fn write_header(
             mapping: header.mapping().and(&plan.mapping),
             left_out: header.left_out.clone().and(plan.summary.left_out()),
             warnings,
+            sources: Some(sources),
             history: header.seal.history.clone(),
             ..Beside::default()
         },

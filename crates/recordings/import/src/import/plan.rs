@@ -53,6 +53,8 @@ pub struct ImportPlan {
     pub(super) mapping: Mapping,
     /// True if samples are named by row number, because the map names no column for it.
     pub(super) is_numbered: bool,
+    /// The folder, which knows what was read in it.
+    pub(super) folder: SourceFolder,
 }
 
 impl ImportPlan {

@@ -72,14 +72,14 @@ fn an_export_that_is_stopped_or_has_no_free_place_leaves_nothing_new() {
 fn what_a_kill_left_is_cleared_by_the_next_export_and_what_a_stranger_left_is_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let dataset = skin(folder.path());
-    let left = folder.path().join(".skin.csv.partial");
-    fs::create_dir_all(left.join("frames/0000")).expect("made");
-    fs::write(left.join("labels.csv"), "half").expect("written");
+    let left = folder.path().join(".taceva-staged-a1b2c3");
+    fs::create_dir_all(left.join("skin.csv/frames")).expect("made");
+    fs::write(left.join("skin.csv/labels.csv"), "half").expect("written");
     let target = folder.path().join("skin.csv");
-    let in_the_way = export(&dataset, (ExportForm::Csv, &target), &SilentProgress);
-    let message = in_the_way.expect_err("a stranger's").to_string();
-    assert!(message.contains("holds `labels.csv`"), "{message}");
-    fs::write(left.join(".taceva-export"), "").expect("written");
+    exported(&dataset, ExportForm::Csv);
+    assert!(left.join("skin.csv/labels.csv").exists(), "a stranger's");
+    fs::remove_dir_all(&target).expect("removed");
+    fs::write(left.join(".taceva-temporary"), "").expect("written");
     exported(&dataset, ExportForm::Csv);
     assert_eq!(names(folder.path()), ["skin", "skin.csv"]);
     assert_eq!(names(&target), ["labels.csv", "map.toml"]);

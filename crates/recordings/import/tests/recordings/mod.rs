@@ -5,6 +5,7 @@ mod damaged;
 mod depth_maps;
 mod drafts;
 mod expected;
+mod flips;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

@@ -218,8 +218,10 @@ fn a_cancelled_import_leaves_nothing() {
 #[test]
 fn the_leftover_of_a_killed_import_is_cleared() {
     let lab = Lab::new();
-    fs::create_dir_all(lab.path(".set.partial/frames")).expect("created");
-    lab.write(".set.partial/frames/junk", b"x");
+    let left = lab.path(".taceva-staged-a1b2c3");
+    fs::create_dir_all(left.join("set/frames")).expect("created");
+    fs::write(left.join("set/frames/junk"), b"x").expect("written");
+    fs::write(left.join(".taceva-temporary"), b"").expect("written");
     lab.import().expect("imported");
-    assert!(!lab.path(".set.partial").exists());
+    assert!(!left.exists());
 }

@@ -191,7 +191,14 @@ fn tables_and_json_lines_with_a_column_of_frames_have_one_frame_in_all_files() {
 fn columns_that_name_a_frame_in_other_words_have_one_frame_too() {
     let map =
         format!("table = \"ft.csv\"\n[columns]\nFz = {{ from = \"fz\", unit = \"N\" }}\n{NO_TIME}");
-    for column in ["reference_frame", "child_frame", "Coordinate_Frame"] {
+    for column in [
+        "reference_frame",
+        "child_frame",
+        "Coordinate_Frame",
+        "wrench_frame",
+        "ft.force_frame",
+        "fz_frame",
+    ] {
         let table = format!("fz,{column}\n1,tool0\n2,tool0\n3,base\n");
         let folder = lab(&[("ft.csv", &table)]);
         refused(
@@ -210,6 +217,7 @@ fn counters_names_of_pictures_and_frames_of_other_columns_are_no_coordinate_fram
         "fz,frame_id\n1,0\n2,1\n3,2\n".to_owned(),
         format!("fz,frame_id\n{pictures}"),
         "fz,camera.frame_id\n1,left\n2,right\n3,left\n".to_owned(),
+        "fz,camera_frame\n1,left\n2,right\n3,left\n".to_owned(),
     ] {
         let folder = lab(&[("ft.csv", &table)]);
         let plan = planned_with(folder.path(), &map);

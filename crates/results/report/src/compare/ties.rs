@@ -93,7 +93,7 @@ mod tests {
     use super::*;
     use taceva_results::Samples;
 
-    /// A study whose success rate is `share`, `exact` without any error, with samples if there are any.
+    /// A study whose success rate is `share`, with exact predictions for the share `exact`, and with samples if there are any.
     fn study(name: &str, [share, exact]: [f64; 2], samples: &str) -> Study {
         let text = format!(
             r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "{name}"}}, "metrics": {{"sr": {{"line":
@@ -143,7 +143,7 @@ mod tests {
             study("a", [1.0, 0.5], pressed),
             study("b", [1.0, 0.25], pressed),
         ];
-        let expected = "sr line: tie: a and b both predict the spacing of gratings down to 0.25 mm to within 0.05 mm; without any error a 50 % and b 25 %";
+        let expected = "sr line: tie: a and b both predict the spacing of gratings down to 0.25 mm to within 0.05 mm; exact predictions: a 50 %, b 25 %";
         assert_eq!(ties(&all), [expected]);
     }
 
@@ -153,7 +153,7 @@ mod tests {
         let mut all = [of(0.5), of(0.75), study("worse", [0.2, 0.2], "")];
         "a".clone_into(&mut all[0].sensor);
         "b".clone_into(&mut all[1].sensor);
-        let expected = "sr line: tie: a and b both predict the spacing of 90 % of the gratings to within 0.05 mm; without any error a 50 % and b 75 %; neither is shown to be better than worse";
+        let expected = "sr line: tie: a and b both predict the spacing of 90 % of the gratings to within 0.05 mm; exact predictions: a 50 %, b 75 %; neither is shown to be better than worse";
         assert_eq!(ties(&all), [expected]);
     }
 

@@ -375,7 +375,7 @@ impl Keys {
             };
         }
         Err(E::custom(
-            "expected a value, a map, a curve, a matrix or a reason; found no such key",
+            "the score has none of the keys `value`, `x`, `x_mm`, `rows`, `undefined` and `not_applicable`",
         ))
     }
 }

@@ -86,13 +86,13 @@ pub enum RigProblem {
         /// Longest allowed gap, in ms.
         allowed_ms: f64,
     },
-    /// The noise exceeds the stated one.
+    /// The measured noise is more than twice the noise that the driver states.
     Noise {
         /// `force` or `robot`.
         device: &'static str,
         /// Measured noise, in N or mm.
         measured: f64,
-        /// Stated noise, in the same unit.
+        /// Noise that the driver states, in the same unit.
         stated: f64,
     },
     /// The robot stops too late.

@@ -12,7 +12,7 @@ use taceva_dataset::Dataset;
 use taceva_models::{Extractor, FeatureSpec};
 
 use super::value::Kept;
-use super::{ABANDONED, Cache, CachedStage, Key, remove};
+use super::{Cache, CachedStage, Key};
 use crate::claim::{Claim, Watch};
 use crate::error::EvaluateError;
 
@@ -70,6 +70,7 @@ impl Cache {
         if bytes > ONE_MAX || !self.is_on_disk {
             return make();
         }
+        self.clear();
         let key = features_key(dataset, extractor, rows);
         if let Some(found) = self.take_value(&key) {
             let entry = File::open(self.entry(&key));
@@ -90,7 +91,6 @@ impl Cache {
         if let Some(folder) = self.entry(&key).parent() {
             // Entries that cannot be dropped now are dropped with the next one.
             drop(trim(folder, ALL_MAX));
-            drop(self.sweep());
         }
         Ok(made)
     }
@@ -113,18 +113,6 @@ impl Cache {
                 std::thread::sleep(LOOK_EVERY);
             }
         }
-    }
-
-    /// Removes partial entries of runs that stopped long ago.
-    fn sweep(&self) -> io::Result<()> {
-        for entry in fs::read_dir(self.partial())? {
-            let entry = entry?;
-            let age = entry.metadata()?.modified()?.elapsed();
-            if age.is_ok_and(|age| age > ABANDONED) {
-                remove(&entry.path())?;
-            }
-        }
-        Ok(())
     }
 }
 
@@ -267,23 +255,6 @@ mod tests {
         for length in (0..kept.len()).filter(|length| *length != 12) {
             assert_eq!(found(&kept[..length]), None, "{length} bytes");
         }
-    }
-
-    #[test]
-    fn what_a_stopped_run_left_half_written_is_swept_away_a_day_later() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let cache = Cache::new(folder.path().to_owned(), String::new());
-        fs::create_dir_all(cache.partial()).expect("created");
-        let left = |name: &str, hours: u64| {
-            let path = cache.partial().join(name);
-            let file = File::create(&path).expect("created");
-            let age = Duration::from_secs(hours * 60 * 60);
-            file.set_modified(SystemTime::now() - age).expect("dated");
-            path
-        };
-        let (fresh, old) = (left("1-1", 1), left("2-1", 25));
-        cache.sweep().expect("swept");
-        assert!(fresh.exists() && !old.exists());
     }
 
     #[test]

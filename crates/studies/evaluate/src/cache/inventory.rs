@@ -5,6 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use taceva_files::{STAGED, TemporaryFolder};
+
 use super::key::CachedStage;
 use super::{ABANDONED, LAYOUT, PARTIAL, remove};
 
@@ -106,11 +108,9 @@ fn gather(
     Ok(())
 }
 
-/// True if the name has the form of a partial entry: process number and counter.
+/// Whether a run writes under that name.
 fn is_partial(name: &str) -> bool {
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    name.split_once('-')
-        .is_some_and(|(process, counter)| is_number(process) && is_number(counter))
+    name.starts_with(STAGED)
 }
 
 #[derive(Default)]
@@ -198,15 +198,11 @@ pub fn remove_entry(folder: &Path, entry: &CacheEntry) -> io::Result<()> {
     }
     let partial = folder.join(LAYOUT).join(PARTIAL);
     fs::create_dir_all(&partial)?;
-    // Later runs remove names of this form if this call is interrupted.
-    let beside = (0..u32::MAX)
-        .map(|number| partial.join(format!("{}-{number}", std::process::id())))
-        .find(|beside| fs::symlink_metadata(beside).is_err())
-        .ok_or_else(|| io::Error::other("no name is free"))?;
-    match fs::rename(&entry.path, &beside) {
-        // Another process was faster.
+    let folder = TemporaryFolder::create(&partial, STAGED)?;
+    match fs::rename(&entry.path, folder.path().join("entry")) {
+        // Somebody was faster.
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-        moved => moved.and_then(|()| remove(&beside)),
+        moved => moved,
     }
 }
 
@@ -298,7 +294,7 @@ mod tests {
         let (folder, _) = cache(&[]);
         let partial = folder.path().join(LAYOUT).join(PARTIAL);
         fs::create_dir_all(&partial).expect("made");
-        for (name, hours) in [("1-1", 1), ("2-1", 25)] {
+        for (name, hours) in [(".taceva-staged-a1b2c3", 1), (".taceva-staged-d4e5f6", 25)] {
             let file = File::create(partial.join(name)).expect("made");
             file.set_modified(SystemTime::now() - HOUR * hours)
                 .expect("dated");
@@ -310,6 +306,9 @@ mod tests {
             older_than: Some(Duration::ZERO),
             ..Pruning::default()
         };
-        assert_eq!(names(&pruned(&entries, &all, SystemTime::now())), ["2-1"]);
+        assert_eq!(
+            names(&pruned(&entries, &all, SystemTime::now())),
+            [".taceva-staged-d4e5f6"]
+        );
     }
 }

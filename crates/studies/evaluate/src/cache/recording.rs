@@ -9,7 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use taceva_dataset::{Dataset, Digest};
-use taceva_files::sync_folder;
+use taceva_files::{STAGED, TemporaryFolder, parent_of, sync_folder};
 
 use super::tree::link;
 use super::{Cache, Key, remove};
@@ -20,7 +20,8 @@ const PLACES: usize = 8;
 impl Cache {
     /// Links the recording noted under `key` to `place`, which must not exist; `None` if no folder still holds it unchanged.
     pub(super) fn take_recording(&self, key: &Key, place: &Path) -> Option<Dataset> {
-        let beside = beside(place)?;
+        let folder = TemporaryFolder::create(parent_of(place), STAGED).ok()?;
+        let beside = folder.path().join("recording");
         for Held {
             header,
             folder: held,
@@ -53,8 +54,6 @@ impl Cache {
                 },
             }
         }
-        // A remaining name that begins with a dot is never read.
-        drop(remove(&beside));
         None
     }
 
@@ -125,9 +124,4 @@ fn moved(beside: &Path, place: &Path) -> Option<Dataset> {
     fs::rename(beside, place).ok()?;
     place.parent().map(sync_folder)?.ok()?;
     Dataset::open(place).ok()
-}
-
-fn beside(place: &Path) -> Option<PathBuf> {
-    let name = place.file_name()?.to_string_lossy();
-    Some(place.with_file_name(format!(".{name}.partial")))
 }

@@ -1,4 +1,4 @@
-//! Rows in the order that makes them neighbours.
+//! Order of rows in which neighbours may resemble each other.
 
 use taceva_dataset::Dataset;
 
@@ -8,10 +8,10 @@ use crate::recordings;
 
 /// Resemblance below which samples are far enough apart.
 const APART: f64 = 0.2;
-/// Divisor of the number of samples that gives the largest distance searched.
+/// The largest lag tried is the number of samples divided by this.
 const FARTHEST: usize = 10;
 
-/// Rows in the order that makes them neighbours, in segments; rows of different segments are no neighbours.
+/// Rows by time, or in table order if times are missing. Rows of different segments are not neighbours.
 #[derive(Debug)]
 pub(super) struct Sequence {
     pub(super) segments: Vec<Vec<usize>>,

@@ -9,7 +9,7 @@ use super::tip::{Step, Tip};
 
 /// Height above the first contact from which the tip counts as in the air, in mm.
 const AIR_MM: f64 = 0.5;
-/// Tries to find force and pose healthy after a fault, before the tip moves again.
+/// Maximum recovery attempts after a fault; each checks force and pose, then retreats.
 const RECOVERY_TRIES: u32 = 10;
 const RECOVERY_REST: Duration = Duration::from_millis(20);
 

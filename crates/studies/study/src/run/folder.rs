@@ -2,16 +2,15 @@
 
 mod state;
 
-use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use taceva_files::{parent_of, sync_folder};
+use taceva_files::{Staged, clear_leftovers, sync_folder};
 use taceva_models::Checkpoints;
 
 use taceva_acquire::PlannedScene;
-use taceva_evaluate::{PLANS, RECORDINGS, remove};
+use taceva_evaluate::{PLANS, RECORDINGS};
 
 use super::layout::{FIGURES, REPORTS, SCENE, STAGES};
 use crate::error::StudyError;
@@ -56,7 +55,7 @@ impl RunFolder {
         match existing {
             Existing::Resume if folder.is_begun(scene)? => {
                 for written in ["", REPORTS, FIGURES, RECORDINGS] {
-                    remove_partial(&path.join(written)).map_err(failed)?;
+                    clear_leftovers(&path.join(written));
                 }
                 return Ok(folder);
             }
@@ -174,45 +173,22 @@ fn is_empty(path: &Path) -> io::Result<bool> {
 
 /// Creates the folder of a run under a temporary name and renames it, so that it is absent or complete.
 fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
-    let name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
-    let mut hidden = OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{}.partial", std::process::id()));
-    let beside = path.with_file_name(hidden);
+    let staged = Staged::beside(path)?;
     for inner in [RECORDINGS, REPORTS, FIGURES] {
-        fs::create_dir_all(beside.join(inner))?;
+        fs::create_dir_all(staged.path().join(inner))?;
     }
     for (name, text) in [(SCENE, scene), (PLANS, plans)] {
-        let mut file = File::create(beside.join(name))?;
+        let mut file = File::create(staged.path().join(name))?;
         file.write_all(text.as_bytes())?;
         file.sync_all()?;
     }
-    // A name that survives a power cut must not refer to an empty folder.
-    sync_folder(&beside)?;
+    // A name that outlives a power cut must not stand for a folder without names.
+    sync_folder(staged.path())?;
     if path.exists() {
         // Fails unless the folder is empty, and then so does the rename.
         fs::remove_dir(path)?;
     }
-    let moved = fs::rename(&beside, path);
-    if moved.is_err() {
-        // The error of the rename is returned.
-        drop(fs::remove_dir_all(&beside));
-        return moved;
-    }
-    sync_folder(parent_of(path))
-}
-
-/// Removes partial files and recordings left by an interruption.
-fn remove_partial(folder: &Path) -> io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        if name.starts_with('.') && name.ends_with(".partial") {
-            remove(&entry.path())?;
-        }
-    }
-    Ok(())
+    staged.put_in_place()
 }
 
 #[cfg(test)]
@@ -293,17 +269,21 @@ mod tests {
         let run = folder.path().join("run");
         let scene = scene(folder.path(), 1);
         let opened = RunFolder::open(&run, &scene, Existing::Refuse).expect("made");
-        let halves = [
-            run.join(".results.json.7.partial"),
-            opened.reports().join(".1-gel.json.7.partial"),
-            opened.figures().join(".labels.svg.7.partial"),
-            run.join("recordings/.1-gel.partial"),
-        ];
-        for half in &halves {
-            fs::write(half, "half").expect("written");
+        let inner = [
+            &run,
+            &opened.reports(),
+            &opened.figures(),
+            &run.join("recordings"),
+        ]
+        .map(|folder| folder.join(".taceva-staged-a1b2c3"));
+        let halves = &inner;
+        for half in halves {
+            fs::create_dir(half).expect("made");
+            fs::write(half.join(".taceva-temporary"), "").expect("written");
+            fs::write(half.join("half"), "half").expect("written");
         }
         RunFolder::open(&run, &scene, Existing::Resume).expect("goes on");
-        for half in &halves {
+        for half in halves {
             assert!(!half.exists(), "{half:?}");
         }
     }

@@ -104,8 +104,8 @@ pub(super) fn open(file: &SweepFile, all: &[Named]) -> Result<Vec<Recording>, Sw
         let alike = recordings.iter().find(|other| other.digest == digest);
         if let Some(other) = alike {
             let problem = format!(
-                "`{}` and `{}` are the same recording, with equal headers; name it once, or give the copy of another unit its own serial \
-                 number",
+                "`{}` and `{}` are the same recording: their headers are equal; name it once, or, for two sensor units, give each its own \
+                 serial number",
                 shown(&other.name),
                 shown(&one.name)
             );

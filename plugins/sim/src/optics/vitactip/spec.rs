@@ -70,7 +70,7 @@ impl VitactipSpec {
         }
     }
 
-    /// Side of the square frame, in radii of the rim: the dome takes 46 of 48 parts of it.
+    /// Side of the square frame, in radii of the rim. The diameter of the rim is 46/48 of the side.
     pub(in crate::optics) fn frame_side(&self) -> f64 {
         2.0 * 48.0 / 46.0
     }

@@ -76,6 +76,7 @@ impl Reading<'_> {
             mapping: mapping(self.map, self.folder)?,
             table: self.table,
             frames,
+            folder: self.folder.clone(),
         })
     }
 

@@ -14,15 +14,18 @@ use crate::import::map::{FrameNames, ImportMap};
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// Endings of columns that name a coordinate frame: `header.frame_id`, `/header/frame_id`, `wrench_reference_frame`.
-const ENDINGS: [&str; 5] = [
+/// Ends of the name of a column that names a coordinate frame: `header.frame_id`, `/header/frame_id`, `wrench_reference_frame`.
+const ENDINGS: [&str; 6] = [
     "frame_id",
     "child_frame",
     "coordinate_frame",
     "parent_frame",
     "reference_frame",
+    "_frame",
 ];
-/// Least number of rows from which a column of distinct texts is taken for picture names.
+/// Quantities whose columns need not begin as that of their frame does: `wrench_frame` beside `Fx`.
+const QUANTITIES: [&str; 6] = ["force", "ft", "pose", "position", "torque", "wrench"];
+/// Rows from which on a column with another text in each of them names pictures.
 const NAMES_OF_PICTURES: usize = 8;
 /// Number of frames listed in a message.
 const LISTED: usize = 8;
@@ -135,7 +138,15 @@ fn prefix(column: &str) -> &str {
     prefix
 }
 
-/// Normalised name for comparison: ROS 1 writes `/tool0` for `tool0`.
+/// True if the last word before `_frame` is a quantity that is given in a frame.
+fn is_quantity(prefix: &str) -> bool {
+    let word = prefix.rsplit(['.', '/', '_']).next().unwrap_or(prefix);
+    QUANTITIES
+        .iter()
+        .any(|known| word.eq_ignore_ascii_case(known))
+}
+
+/// A name as frames are compared: ROS 1 writes `/tool0` for `tool0`.
 fn comparable(cell: &str) -> &str {
     let cell = cell.trim();
     cell.strip_prefix('/').unwrap_or(cell)
@@ -193,10 +204,10 @@ fn naming(table: &ForeignTable, labels: &[&str]) -> Result<Vec<String>, DatasetE
     }
     for column in columns(table) {
         let prefix = prefix(&column);
-        if !labels
+        let is_beside = labels
             .iter()
-            .any(|label| base_of(label).starts_with(prefix))
-        {
+            .any(|label| base_of(label).starts_with(prefix));
+        if !is_beside && !is_quantity(prefix) {
             continue;
         }
         let mut names = BTreeSet::new();

@@ -174,8 +174,11 @@ fn a_fifth_stream_is_503_and_the_button_is_answered_beside_it() {
 }
 
 #[test]
+#[expect(clippy::print_stderr, reason = "the times are the result")]
 fn sixty_four_slow_connections_never_keep_the_stop_button_from_answering() {
     const PRESSES: u32 = 100;
+    /// A person who presses it does not wait longer.
+    const IN_TIME: Duration = Duration::from_millis(100);
     let opened = Opened::new();
     let slow = |number: usize| {
         let mut stream = opened.connected();
@@ -185,10 +188,20 @@ fn sixty_four_slow_connections_never_keep_the_stop_button_from_answering() {
         stream
     };
     let mut beside: Vec<TcpStream> = (0..64).map(slow).collect();
+    let mut took = Vec::new();
     for press in 0..PRESSES {
+        let pressed = Instant::now();
         let answer = opened.asked("POST /stop", &opened.own(), "");
+        took.push(pressed.elapsed());
         assert_eq!(status(&answer), "204", "press {press}");
     }
+    took.sort();
+    let in_time = took.iter().filter(|took| **took <= IN_TIME).count();
+    eprintln!(
+        "/stop beside 64 slow connections: {in_time} of {PRESSES} within {IN_TIME:?}, the middle {:?}, the slowest {:?}",
+        took[took.len() / 2],
+        took[took.len() - 1]
+    );
     assert_eq!(opened.stops.load(Ordering::SeqCst), PRESSES);
     // The oldest one was closed for a newer one, without a word.
     let mut answer = Vec::new();

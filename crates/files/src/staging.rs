@@ -1,0 +1,271 @@
+//! New versions of files and folders: written in a marked folder beside their place, then put there at once.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, SystemTime};
+
+use crate::durable::{parent_of, sync_folder};
+use crate::temporary_folder::{FORMER, TemporaryFolder, clear, folders, is_living};
+
+/// The beginning of the name of every folder in which something is staged.
+pub const STAGED: &str = ".taceva-staged-";
+/// Times that a living process between two renames is waited for, and the pause after each.
+const WAITS: u32 = 2_000;
+const PAUSE: Duration = Duration::from_millis(1);
+/// Time after which a change of a folder is seen by its time.
+const CLOCK: Duration = Duration::from_secs(2);
+/// Times that a place is asked for which another process stages too, and the unit of the pauses between.
+const CLAIMS: u32 = 6;
+const CLAIM_PAUSE: Duration = Duration::from_millis(3);
+
+/// A new version of what is at a place, written beside it and removed unless it is put there.
+///
+/// The folder around it has a random name, a marker and a lock. What a killed process leaves is cleared by the next that stages anything in the
+/// same parent folder.
+///
+/// ```
+/// use std::fs;
+/// use taceva_files::Staged;
+///
+/// let parent = tempfile::tempdir()?;
+/// let target = parent.path().join("plugin");
+/// let staged = Staged::beside(&target)?;
+/// fs::create_dir(staged.path())?;
+/// fs::write(staged.path().join("plugin.toml"), "id = 1")?;
+/// staged.put_in_place()?;
+/// assert!(target.join("plugin.toml").exists());
+/// assert_eq!(fs::read_dir(parent.path())?.count(), 1);
+/// # Ok::<(), std::io::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Staged {
+    target: PathBuf,
+    path: PathBuf,
+    folder: TemporaryFolder,
+}
+
+impl Staged {
+    /// Makes room beside `target`; nothing is at [`path`](Staged::path) yet. Clears what killed processes left in the same parent folder.
+    ///
+    /// # Errors
+    /// [`io::Error`] of the file system, or `InvalidInput` if `target` names nothing.
+    pub fn beside(target: &Path) -> io::Result<Staged> {
+        let staged = Staged::make(target)?;
+        clear(parent_of(target), STAGED);
+        Ok(staged)
+    }
+
+    /// As [`beside`](Staged::beside), for one process at a time: `None` while another stages the same target.
+    ///
+    /// # Errors
+    /// As [`beside`](Staged::beside).
+    pub fn alone(target: &Path) -> io::Result<Option<Staged>> {
+        for attempt in 1..=CLAIMS {
+            let staged = Staged::beside(target)?;
+            // Made known before it is looked for others: of two, one at least sees the other.
+            fs::create_dir(&staged.path)?;
+            if !staged.has_rival() {
+                return Ok(Some(staged));
+            }
+            drop(staged);
+            let turn = std::process::id() % 7 + 1;
+            std::thread::sleep(CLAIM_PAUSE * attempt * turn);
+        }
+        Ok(None)
+    }
+
+    fn make(target: &Path) -> io::Result<Staged> {
+        let name = target.file_name().ok_or_else(|| {
+            io::Error::new(io::ErrorKind::InvalidInput, "names no file and no folder")
+        })?;
+        let folder = TemporaryFolder::make(parent_of(target), STAGED)?;
+        Ok(Staged {
+            target: target.to_owned(),
+            path: folder.path().join(name),
+            folder,
+        })
+    }
+
+    /// True if another living process stages the same target.
+    fn has_rival(&self) -> bool {
+        let name = self.path.file_name().unwrap_or_default();
+        folders(parent_of(&self.target), STAGED).any(|other| {
+            other != self.folder.path()
+                && fs::symlink_metadata(other.join(name)).is_ok()
+                && is_living(&other)
+        })
+    }
+
+    /// The place to write to meanwhile.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Puts what was written at the target, in one step where the file system can exchange names. What stood there is removed once nobody reads it.
+    ///
+    /// The names inside of a staged folder are durable already; that of the target is when this returns.
+    ///
+    /// # Errors
+    /// [`io::Error`] of the file system; the target is what it was then.
+    pub fn put_in_place(self) -> io::Result<()> {
+        self.put_in_place_by(exchange)
+    }
+
+    /// As [`put_in_place`](Staged::put_in_place), by a given exchange of names, which returns false where it cannot.
+    ///
+    /// # Errors
+    /// As [`put_in_place`](Staged::put_in_place).
+    #[doc(hidden)]
+    pub fn put_in_place_by(
+        self,
+        exchange: impl Fn(&Path, &Path) -> io::Result<bool>,
+    ) -> io::Result<()> {
+        let (path, target) = (&self.path, &self.target);
+        let mut former = std::ffi::OsString::from(FORMER);
+        former.push(path.file_name().unwrap_or_default());
+        let former = self.folder.path().join(former);
+        let old = if fs::symlink_metadata(target).is_err() {
+            fs::rename(path, target)?;
+            None
+        } else if exchange(path, target)? {
+            Some(path)
+        } else {
+            fs::rename(target, &former)?;
+            if let Err(error) = fs::rename(path, target) {
+                // Should this fail as well, `settle` puts it back.
+                drop(fs::rename(&former, target));
+                return Err(error);
+            }
+            Some(&former)
+        };
+        if let Err(error) = sync_folder(parent_of(target)) {
+            // Nobody knows whether the name would survive: an error promises that the target is what it was.
+            drop(match old {
+                None => fs::rename(target, path),
+                Some(old) if old == path => exchange(path, target).map(drop),
+                Some(old) => fs::rename(target, path).and_then(|()| fs::rename(old, target)),
+            });
+            return Err(error);
+        }
+        Ok(())
+    }
+}
+
+/// Replaces the file at `path` by what `write` writes to the path that it is given, in a marked folder beside it.
+///
+/// A reader of `path` sees the old file or the new one, at any moment. When this returns, the new file is durable. The first call for a parent
+/// folder clears what killed processes left there.
+///
+/// # Errors
+/// Those of `write`, and of the file system; `path` is what it was then.
+pub fn replace<E: From<io::Error>>(
+    path: &Path,
+    write: impl FnOnce(&Path) -> Result<(), E>,
+) -> Result<(), E> {
+    let staged = Staged::make(path)?;
+    clear_once(parent_of(path));
+    write(&staged.path)?;
+    fs::File::open(&staged.path)?.sync_all()?;
+    fs::rename(&staged.path, path)?;
+    Ok(sync_folder(parent_of(path))?)
+}
+
+/// Puts back what a killed process took from `target` between two renames, and clears its leftovers; waits for a living one.
+///
+/// # Errors
+/// [`io::Error`] if what stood at `target` is there and cannot be put back.
+pub fn settle(target: &Path) -> io::Result<()> {
+    let parent = parent_of(target);
+    for _ in 0..WAITS {
+        if fs::symlink_metadata(target).is_ok() {
+            clear_changed(parent);
+            return Ok(());
+        }
+        let Some(former) = former_of(target) else {
+            return Ok(());
+        };
+        if former.parent().is_some_and(is_living) {
+            std::thread::sleep(PAUSE);
+            continue;
+        }
+        match fs::rename(&former, target) {
+            Ok(()) => sync_folder(parent)?,
+            // Somebody else was faster.
+            Err(_) if fs::symlink_metadata(target).is_ok() => {}
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}
+
+/// Removes what killed processes left in `parent` of what they staged there.
+pub fn clear_leftovers(parent: &Path) {
+    clear(parent, STAGED);
+}
+
+/// As [`clear_leftovers`], once a process and folder: a folder of many files is not listed for each of them.
+fn clear_once(parent: &Path) {
+    static CLEARED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let mut cleared = CLEARED.lock().unwrap_or_else(PoisonError::into_inner);
+    if cleared.insert(parent.to_owned()) {
+        drop(cleared);
+        clear_leftovers(parent);
+    }
+}
+
+/// As [`clear_leftovers`], unless the names in the folder are those that this process found clean.
+fn clear_changed(parent: &Path) {
+    static CLEAN: Mutex<BTreeMap<PathBuf, SystemTime>> = Mutex::new(BTreeMap::new());
+    let lock = || CLEAN.lock().unwrap_or_else(PoisonError::into_inner);
+    let changed = fs::metadata(parent).and_then(|parent| parent.modified());
+    let Ok(changed) = changed else {
+        return;
+    };
+    if lock().get(parent) == Some(&changed) {
+        return;
+    }
+    clear_leftovers(parent);
+    // A later change would have the same time while the clock of the file system stands.
+    let is_past = changed.elapsed().is_ok_and(|age| age > CLOCK);
+    if is_past && folders(parent, STAGED).next().is_none() {
+        lock().insert(parent.to_owned(), changed);
+    }
+}
+
+/// What stood at `target` before the first of two renames.
+fn former_of(target: &Path) -> Option<PathBuf> {
+    let mut name = std::ffi::OsString::from(FORMER);
+    name.push(target.file_name()?);
+    let mut all = folders(parent_of(target), STAGED).map(|folder| folder.join(&name));
+    all.find(|former| fs::symlink_metadata(former).is_ok_and(|found| !found.is_symlink()))
+}
+
+/// Exchanges two names at once; `false` where the file system cannot.
+///
+/// # Errors
+/// [`io::Error`] of the file system.
+#[doc(hidden)]
+pub fn exchange(one: &Path, other: &Path) -> io::Result<bool> {
+    #[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
+    {
+        use rustix::fs::{CWD, RenameFlags, renameat_with};
+        use rustix::io::Errno;
+        match renameat_with(CWD, one, CWD, other, RenameFlags::EXCHANGE) {
+            Ok(()) => Ok(true),
+            Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => Ok(false),
+            Err(error) => Err(error.into()),
+        }
+    }
+    #[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
+    {
+        let _ = (one, other);
+        Ok(false)
+    }
+}
+
+#[cfg(test)]
+mod tests;

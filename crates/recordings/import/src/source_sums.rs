@@ -1,0 +1,344 @@
+//! Digests of the files of a lab's folder, as `sha256sum` writes them, and what differs from them.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use taceva_core::Progress;
+use taceva_dataset::internal::{layout, limits, open_regular, ordered_map, shown};
+use taceva_dataset::{Dataset, DatasetError, Digest, Place};
+
+use crate::source_folder::{SourceFolder, files_below};
+
+/// Differences that a message names.
+const NAMED: usize = 8;
+
+/// Digests of files by their names within a folder: of one folder, or of each from which rows came.
+///
+/// ```
+/// use taceva_import::SourceSums;
+///
+/// let lab = tempfile::tempdir()?;
+/// std::fs::write(lab.path().join("labels.csv"), "Fz\n1\n")?;
+/// let list = lab.path().join("SHA256SUMS");
+/// std::fs::write(&list, format!("{}  labels.csv\n", "0".repeat(64)))?;
+/// let sums = SourceSums::read(&list)?;
+/// let jobs = std::num::NonZeroUsize::MIN;
+/// let differences = sums.differences_of_all(lab.path(), jobs, &taceva_core::SilentProgress)?;
+/// assert!(differences[0].to_string().starts_with("labels.csv has changed"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourceSums {
+    /// The file that they were read from.
+    list: PathBuf,
+    folders: Vec<BTreeMap<String, Digest>>,
+}
+
+/// A file that is not as its digest says.
+///
+/// ```
+/// use taceva_import::SourceDifference;
+///
+/// let absent = SourceDifference::Absent { name: "labels.csv".to_owned() };
+/// assert_eq!(absent.to_string(), "labels.csv is absent");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum SourceDifference {
+    /// Its bytes have another digest.
+    Changed {
+        /// Name within the folder.
+        name: String,
+        /// Digest that the list has.
+        expected: Digest,
+        /// Digest of its bytes.
+        found: Digest,
+    },
+    /// The list names it and the folder does not hold it.
+    Absent {
+        /// Name within the folder.
+        name: String,
+    },
+    /// The folder holds it and the list does not name it.
+    Unnamed {
+        /// Name within the folder.
+        name: String,
+    },
+}
+
+impl fmt::Display for SourceDifference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SourceDifference::Changed {
+                name,
+                expected,
+                found,
+            } => write!(
+                f,
+                "{} has changed: expected {expected}, found {found}",
+                shown(name)
+            ),
+            SourceDifference::Absent { name } => write!(f, "{} is absent", shown(name)),
+            SourceDifference::Unnamed { name } => {
+                write!(f, "{} is not named in the list", shown(name))
+            }
+        }
+    }
+}
+
+impl SourceSums {
+    /// Reads a list as `sha256sum` writes it.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] naming the line that is none; [`DatasetError::Io`].
+    pub fn read(list: &Path) -> Result<SourceSums, DatasetError> {
+        let bytes = taceva_dataset::internal::read_capped(list, limits::SOURCES_BYTES)?;
+        let text = taceva_dataset::internal::utf8(list, bytes)?;
+        SourceSums::parse(list, &text)
+    }
+
+    /// The digests that the dataset keeps of the files that it was imported from; `None` if it keeps none.
+    ///
+    /// # Errors
+    /// Those of [`Dataset::source_sums`].
+    pub fn of_dataset(dataset: &Dataset) -> Result<Option<SourceSums>, DatasetError> {
+        let list = dataset.path().join(layout::SOURCES);
+        let text = dataset.source_sums()?;
+        text.map(|text| SourceSums::parse(&list, &text)).transpose()
+    }
+
+    fn parse(list: &Path, text: &str) -> Result<SourceSums, DatasetError> {
+        let mut folders = vec![BTreeMap::new()];
+        for (number, line) in text.lines().enumerate() {
+            if line.starts_with('#') {
+                folders.push(BTreeMap::new());
+                continue;
+            }
+            let (name, digest) = entry(line).ok_or_else(|| DatasetError::Table {
+                place: Place::file(list),
+                problem: format!(
+                    "line {}: `{}` is no line of sha256sum; expected 64 hexadecimal digits, two spaces and a name: write the list with `sha256sum FILES > SHA256SUMS`",
+                    number + 1,
+                    shown(line)
+                ),
+            })?;
+            let folder = folders.last_mut().expect("one from the beginning");
+            folder.insert(name, digest);
+        }
+        folders.retain(|folder| !folder.is_empty());
+        Ok(SourceSums {
+            list: list.to_owned(),
+            folders,
+        })
+    }
+
+    /// Differences of the named files in `folder`. Of a dataset to which rows were added, those of the folder that `folder` is most like.
+    ///
+    /// # Errors
+    /// [`DatasetError::Io`] if a file cannot be read; [`DatasetError::Cancelled`].
+    pub fn differences(
+        &self,
+        folder: &Path,
+        jobs: NonZeroUsize,
+        progress: &dyn Progress,
+    ) -> Result<Vec<SourceDifference>, DatasetError> {
+        let names = self.folders.iter().flat_map(BTreeMap::keys);
+        let names: Vec<&String> = names.collect();
+        let paths: Vec<PathBuf> = names.iter().map(|name| folder.join(name)).collect();
+        let found = digests(&paths, jobs, progress)?;
+        let found: BTreeMap<&String, Option<Digest>> = names.into_iter().zip(found).collect();
+        let of_each = self.folders.iter().map(|expected| {
+            let differing = expected.iter().filter_map(|(name, expected)| {
+                let name = name.clone();
+                match found.get(&name).copied().flatten() {
+                    None => Some(SourceDifference::Absent { name }),
+                    Some(found) if found != *expected => Some(SourceDifference::Changed {
+                        name,
+                        expected: *expected,
+                        found,
+                    }),
+                    Some(_) => None,
+                }
+            });
+            differing.collect::<Vec<_>>()
+        });
+        Ok(of_each.min_by_key(Vec::len).unwrap_or_default())
+    }
+
+    /// As [`differences`](SourceSums::differences), and every file below `folder` that the list does not name: but for the list itself and datasets that were made there.
+    ///
+    /// # Errors
+    /// As [`differences`](SourceSums::differences).
+    pub fn differences_of_all(
+        &self,
+        folder: &Path,
+        jobs: NonZeroUsize,
+        progress: &dyn Progress,
+    ) -> Result<Vec<SourceDifference>, DatasetError> {
+        let mut differences = self.differences(folder, jobs, progress)?;
+        let own = self.list.canonicalize().ok();
+        for path in files_below(folder) {
+            let name = inside(folder, &path);
+            let is_named = self.folders.iter().any(|named| named.contains_key(&name));
+            if !is_named && path.canonicalize().ok() != own {
+                differences.push(SourceDifference::Unnamed { name });
+            }
+        }
+        differences.sort();
+        Ok(differences)
+    }
+
+    /// Refuses `folder` unless it is as the list says, file by file.
+    ///
+    /// # Errors
+    /// [`DatasetError::Request`] naming the files that differ; those of [`differences_of_all`](SourceSums::differences_of_all).
+    pub fn verify(
+        &self,
+        folder: &Path,
+        jobs: NonZeroUsize,
+        progress: &dyn Progress,
+    ) -> Result<(), DatasetError> {
+        let differences = self.differences_of_all(folder, jobs, progress)?;
+        if differences.is_empty() {
+            return Ok(());
+        }
+        let mut named: Vec<String> = differences
+            .iter()
+            .take(NAMED)
+            .map(ToString::to_string)
+            .collect();
+        if differences.len() > NAMED {
+            named.push(format!("and {} more", differences.len() - NAMED));
+        }
+        Err(DatasetError::Request {
+            path: folder.to_owned(),
+            problem: format!(
+                "not as {} says: {}; copy the recording again, or write the list anew once it is right",
+                shown(&self.list.to_string_lossy()),
+                named.join("; ")
+            ),
+        })
+    }
+
+    /// Number of files that are named.
+    pub fn files(&self) -> usize {
+        self.folders.iter().map(BTreeMap::len).sum()
+    }
+}
+
+/// The list of the files that were read in `folder`; what cannot be named in a line is left out.
+pub(crate) fn list_of(
+    folder: &SourceFolder,
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<String, DatasetError> {
+    let mut paths: Vec<PathBuf> = folder.files_read();
+    paths.retain(|path| path.to_str().is_some());
+    let found = digests(&paths, jobs, progress)?;
+    let lines = paths.iter().zip(found).filter_map(|(path, digest)| {
+        let digest = digest?.to_string();
+        let digits = digest.strip_prefix("sha256:")?;
+        let name = folder.inside(path, "");
+        let escaped = name.replace('\\', "\\\\").replace('\n', "\\n");
+        let mark = if escaped == name { "" } else { "\\" };
+        Some(format!("{mark}{digits}  {escaped}\n"))
+    });
+    Ok(lines.collect())
+}
+
+/// The name and the digest on a line.
+fn entry(line: &str) -> Option<(String, Digest)> {
+    let (line, is_escaped) = match line.strip_prefix('\\') {
+        Some(line) => (line, true),
+        None => (line, false),
+    };
+    let (digits, name) = line.split_at_checked(64)?;
+    let name = name
+        .strip_prefix("  ")
+        .or_else(|| name.strip_prefix(" *"))?;
+    let name = match is_escaped {
+        true => name.replace("\\n", "\n").replace("\\\\", "\\"),
+        false => name.to_owned(),
+    };
+    let name = name.strip_prefix("./").unwrap_or(&name).to_owned();
+    let digest = format!("sha256:{}", digits.to_ascii_lowercase());
+    Some((name, digest.parse().ok()?))
+}
+
+/// The digest of each file, or none of what is no file.
+fn digests(
+    paths: &[PathBuf],
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<Vec<Option<Digest>>, DatasetError> {
+    let mut digests = Vec::with_capacity(paths.len());
+    let digest = |item: usize| -> Result<Option<Digest>, DatasetError> {
+        let path = &paths[item];
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let (mut file, _) = open_regular(path, u64::MAX)?;
+        let digest = Digest::of_reader(&mut file);
+        digest.map(Some).map_err(DatasetError::io("read", path))
+    };
+    ordered_map(paths.len(), jobs, digest, |_, digest| {
+        if progress.is_cancelled() {
+            return Err(DatasetError::Cancelled);
+        }
+        digests.push(digest?);
+        Ok(())
+    })?;
+    Ok(digests)
+}
+
+fn inside(folder: &Path, path: &Path) -> String {
+    let inside = path.strip_prefix(folder).unwrap_or(path);
+    inside.to_string_lossy().replace('\\', "/")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use taceva_core::SilentProgress;
+
+    use super::*;
+
+    #[test]
+    fn changed_absent_and_unnamed_files_are_named_and_the_list_itself_is_not() {
+        let lab = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, text: &str| {
+            fs::write(lab.path().join(name), text).expect("written");
+        };
+        fs::create_dir(lab.path().join("frames")).expect("made");
+        write("labels.csv", "Fz\n");
+        write("frames/0.png", "picture");
+        let line = |name: &str, text: &str| {
+            let digest = Digest::of(text.as_bytes()).to_string();
+            format!("{}  {name}\n", &digest[7..])
+        };
+        let whole = line("labels.csv", "Fz\n") + &line("./frames/0.png", "picture");
+        write("SHA256SUMS", &whole);
+        let verify = || {
+            let sums = SourceSums::read(&lab.path().join("SHA256SUMS"))?;
+            sums.verify(lab.path(), NonZeroUsize::MIN, &SilentProgress)
+        };
+        verify().expect("as the list says");
+        write("notes.txt", "mine");
+        write("labels.csv", "Fx\n");
+        fs::remove_file(lab.path().join("frames/0.png")).expect("removed");
+        let refused = verify().expect_err("three differ").to_string();
+        for part in [
+            "labels.csv has changed: expected sha256:",
+            "frames/0.png is absent",
+            "notes.txt is not named in the list",
+        ] {
+            assert!(refused.contains(part), "{part}: {refused}");
+        }
+        write("SHA256SUMS", "labels.csv\n");
+        let refused = verify().expect_err("no list").to_string();
+        assert!(refused.contains("line 1"), "{refused}");
+    }
+}

@@ -1,0 +1,275 @@
+//! Links at every name that a command makes and that could be foretold: what they lead to keeps its bytes and its names.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use taceva_needs::{Need, skip};
+use taceva_tests::{Form, Lab, scratch, taceva};
+
+/// Calls that make a name.
+const MAKING: &str =
+    "trace=open,openat,creat,mkdir,mkdirat,rename,renameat,renameat2,link,linkat,symlink,symlinkat";
+
+/// Commands, each in a folder `work` of which only they make names. Inputs stand in `given` beside it.
+const COMMANDS: [(&str, &str); 7] = [
+    (
+        "import",
+        "import ../given/lab --map ../given/map.toml --out set",
+    ),
+    (
+        "import of an archive",
+        "import ../given/lab.tar --map ../given/map.toml --out set",
+    ),
+    (
+        "extend",
+        "import ../given/other --map ../given/map.toml --extend data",
+    ),
+    ("export", "export data --out exported --format csv"),
+    ("draft", "import ../given/lab.tar --draft --out draft.toml"),
+    (
+        "evaluate",
+        "evaluate data --model ridge --format json --out scores.json",
+    ),
+    (
+        "predict",
+        "predict data --with ../given/model --out predictions.csv",
+    ),
+];
+
+struct Bench {
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new() -> Bench {
+        let bench = Bench { folder: scratch() };
+        let given = bench.path("given");
+        std::fs::create_dir(&given).expect("room");
+        for (name, first) in [("lab", 0), ("other", 500)] {
+            let lab = Lab::drawn_from(Form::Png, first, 12);
+            copied(lab.path(), &given.join(name));
+            std::fs::copy(lab.map(), given.join("map.toml")).expect("copied");
+        }
+        let file = std::fs::File::create(given.join("lab.tar")).expect("room");
+        let mut tar = tar::Builder::new(file);
+        tar.append_dir_all("lab", given.join("lab"))
+            .expect("packed");
+        tar.finish().expect("written");
+        bench.anew();
+        bench.ok("import ../given/lab --map ../given/map.toml --out ../given/data");
+        bench.ok("fit ../given/data --model ridge --out ../given/model");
+        std::fs::write(given.join("which.toml"), SWEEP).expect("room");
+        bench
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// The folder `work` as it is before each command.
+    fn anew(&self) {
+        let work = self.path("work");
+        if work.exists() {
+            std::fs::remove_dir_all(&work).expect("removed");
+        }
+        for name in ["work", "work/tmp"] {
+            std::fs::create_dir(self.path(name)).expect("room");
+        }
+        let data = self.path("given/data");
+        if data.exists() {
+            copied(&data, &work.join("data"));
+            let sweep = self.path("given/which.toml");
+            if sweep.exists() {
+                std::fs::copy(sweep, work.join("which.toml")).expect("copied");
+            }
+        }
+    }
+
+    fn settings(&self, command: &mut Command) {
+        let work = self.path("work");
+        command
+            .current_dir(&work)
+            .env("HOME", &work)
+            .env("TMPDIR", work.join("tmp"))
+            .env("XDG_CACHE_HOME", work.join("cache"))
+            .env("XDG_DATA_HOME", work.join("share"))
+            .env("XDG_CONFIG_HOME", work.join("config"))
+            .env_remove("TACEVA_PLUGIN_PATH")
+            .stdin(Stdio::null());
+    }
+
+    fn run(&self, words: &str) -> Output {
+        let mut command = Command::new(taceva());
+        command.args(words.split_whitespace()).arg("-q");
+        self.settings(&mut command);
+        command.output().expect("built")
+    }
+
+    fn ok(&self, words: &str) {
+        let output = self.run(words);
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{words}: {complaint}");
+    }
+
+    /// The names below `work` that the command makes, or why they cannot be seen.
+    fn made(&self, words: &str) -> Result<BTreeSet<PathBuf>, String> {
+        self.anew();
+        let log = self.path("trace");
+        let mut command = Command::new("strace");
+        command.args([
+            "-f",
+            "-qq",
+            "-s",
+            "4096",
+            "-e",
+            "signal=none",
+            "-e",
+            MAKING,
+            "-o",
+        ]);
+        command.arg(&log).arg(taceva());
+        command.args(words.split_whitespace()).arg("-q");
+        self.settings(&mut command);
+        let output = command.output().map_err(|error| error.to_string())?;
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        if complaint.starts_with("strace:") {
+            return Err(complaint.into_owned());
+        }
+        assert!(output.status.success(), "{words}: {complaint}");
+        let work = self.path("work");
+        let log = std::fs::read_to_string(log).expect("a trace");
+        let names = log.lines().filter_map(name_made);
+        Ok(names
+            .map(|name| work.join(name))
+            .filter(|path| path.starts_with(&work))
+            .collect())
+    }
+}
+
+const SWEEP: &str =
+    "sweep_version = 1\ndatasets = [\"data\"]\nmodels = [\"ridge\"]\nmetrics = [\"accuracy\"]\n";
+
+/// The name that a line of a trace makes.
+fn name_made(line: &str) -> Option<String> {
+    let (call, result) = line.rsplit_once(" = ")?;
+    if result.starts_with('-') {
+        return None;
+    }
+    let is_open = call.contains(" open") || call.contains(" creat(");
+    if is_open && !call.contains("O_CREAT") && !call.contains(" creat(") {
+        return None;
+    }
+    let quoted: Vec<&str> = call.split('"').skip(1).step_by(2).collect();
+    quoted.last().map(|name| (*name).to_owned())
+}
+
+/// A copy of a folder and all in it.
+fn copied(from: &Path, to: &Path) {
+    std::fs::create_dir(to).expect("room");
+    for entry in from.read_dir().expect("there").flatten() {
+        let target = to.join(entry.file_name());
+        match entry.path().is_dir() {
+            true => copied(&entry.path(), &target),
+            false => drop(std::fs::copy(entry.path(), target).expect("copied")),
+        }
+    }
+}
+
+/// A folder of somebody else, which looks like a dataset and holds more.
+fn theirs(folder: &Path) {
+    if folder.exists() {
+        std::fs::remove_dir_all(folder).expect("removed");
+    }
+    std::fs::create_dir(folder).expect("room");
+    for name in ["dataset.toml", "thesis.tex", ".taceva-temporary"] {
+        std::fs::write(folder.join(name), "theirs").expect("room");
+    }
+}
+
+fn content(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut content: Vec<_> = folder
+        .read_dir()
+        .expect("there")
+        .flatten()
+        .map(|entry| {
+            let bytes = std::fs::read(entry.path()).unwrap_or_default();
+            (entry.file_name().to_string_lossy().into_owned(), bytes)
+        })
+        .collect();
+    content.sort();
+    content
+}
+
+/// Where a link that leads elsewhere is the wish of whoever made it: new files are kept there, and what was there stays.
+fn is_kept_elsewhere(path: &Path, work: &Path) -> bool {
+    ["cache", "share", "which.sweep"]
+        .iter()
+        .any(|name| path.starts_with(work.join(name)))
+}
+
+/// K3.
+#[cfg(unix)]
+#[test]
+#[expect(clippy::print_stderr, reason = "the counts are the result")]
+fn what_links_at_foretold_names_lead_to_keeps_its_bytes() {
+    let bench = Bench::new();
+    let mut commands: Vec<(&str, String)> = COMMANDS
+        .iter()
+        .map(|(name, words)| (*name, (*words).to_owned()))
+        .collect();
+    commands.push(("sweep", "sweep which.toml".to_owned()));
+    #[cfg(target_os = "linux")]
+    {
+        crate::kill_commands::packed_plugin(&bench.path("given"));
+        commands.push((
+            "plugin install",
+            "plugin install ../given/sim.tar".to_owned(),
+        ));
+    }
+    for (name, words) in commands {
+        let (first, second) = match (bench.made(&words), bench.made(&words)) {
+            (Ok(first), Ok(second)) => (first, second),
+            (Err(why), _) | (_, Err(why)) => return skip(Need::Strace, why),
+        };
+        let foretold: Vec<&PathBuf> = first.intersection(&second).collect();
+        bench.anew();
+        let work = bench.path("work");
+        let elsewhere = bench.path("theirs");
+        let mut tried = 0;
+        for path in &foretold {
+            for leads_to in [elsewhere.clone(), elsewhere.join("thesis.tex")] {
+                bench.anew();
+                theirs(&elsewhere);
+                let before = content(&elsewhere);
+                // In a folder that is made by the command nobody can put a link beforehand, unless he makes it.
+                let parent = path.parent().expect("below a folder");
+                std::fs::create_dir_all(parent).expect("room");
+                if std::fs::symlink_metadata(path).is_ok() {
+                    continue;
+                }
+                std::os::unix::fs::symlink(&leads_to, path).expect("linked");
+                let output = bench.run(&words);
+                tried += 1;
+                let mut after = content(&elsewhere);
+                if is_kept_elsewhere(path, &work) {
+                    after.retain(|(name, _)| before.iter().any(|(old, _)| old == name));
+                }
+                assert_eq!(
+                    before,
+                    after,
+                    "{name}: {} led to {}: {}",
+                    path.display(),
+                    leads_to.display(),
+                    String::from_utf8_lossy(&output.stderr)
+                );
+            }
+        }
+        eprintln!(
+            "{name}: {} names made, {} of them foretold, {tried} links, 0 bytes changed",
+            first.len(),
+            foretold.len()
+        );
+        assert!(tried > 0, "{name}: nothing was foretold");
+    }
+}
