@@ -4,6 +4,7 @@ mod bench;
 mod cache;
 mod dataset;
 mod examples;
+mod figure;
 mod init;
 mod live;
 mod model;
@@ -21,6 +22,7 @@ use clap::{Args, CommandFactory as _, Parser, Subcommand};
 pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::dataset::{Check, Export, Import, Reseal};
+pub(crate) use self::figure::FigureArgs;
 pub(crate) use self::init::{Init, InitSubject, InitTarget};
 pub(crate) use self::live::{Capture, LiveArgs, Preview};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
@@ -30,12 +32,14 @@ pub(crate) use self::plugin::{
     PluginUninstall,
 };
 pub(crate) use self::results::{
-    Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,
+    Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare, Like,
+    ReportArgs,
 };
 pub(crate) use self::rig::{RigCheckArgs, RigCommand, RigSubject, RigTapArgs, RigTeachArgs};
 pub(crate) use self::shared::{
     CacheArgs, ExplainArgs, Format, ListFormat, ModelArgs, OptionalModelArgs, Output, PageArgs,
-    PartArg, PartArgs, ScoringArgs, SeedArgs, SettingArgs, SplitArgs, SplitOutArgs, ViewArgs,
+    PartArg, PartArgs, ScoringArgs, SeedArgs, SettingArgs, SplitArgs, SplitOutArgs, TableArgs,
+    TableScores, ViewArgs,
 };
 pub(crate) use self::study::{PlanArgs, Run, SceneArgs};
 pub(crate) use self::sweep::{
@@ -116,6 +120,8 @@ pub(crate) enum Command {
     Merge(Merge),
     /// Accept a deliberate edit of a sealed file, and record it with its reason in the file's history
     Reseal(Reseal),
+    /// Write the page, the figures and the tables of finished results again; nothing is acquired, fitted or scored
+    Report(ReportArgs),
     /// Compare sensors or models: which is better, by how much, and with what confidence
     Compare(Compare),
     /// Find sensors for a task, with the numbers behind the ranking

@@ -29,6 +29,7 @@ pub(crate) mod plugin;
 mod plugins;
 pub(crate) mod predict;
 pub(crate) mod preview;
+pub(crate) mod report;
 pub(crate) mod reseal;
 mod results;
 pub(crate) mod rig;
@@ -43,7 +44,10 @@ use taceva_dataset::Dataset;
 use taceva_evaluate::{DataPart, EvaluateError, FitRequest};
 use taceva_models::{Model, ModelSettings, Models};
 
-use crate::args::{Output, PartArg, START, ScoringArgs, SettingArgs, SplitArgs, ViewArgs};
+use crate::args::{
+    Format, Output, PartArg, START, ScoringArgs, SettingArgs, SplitArgs, TableArgs, TableScores,
+    ViewArgs,
+};
 use crate::{exit, output};
 
 pub(crate) use crate::context::Context;
@@ -128,7 +132,23 @@ fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
     for path in files {
         output::check_free(path, output.force)?;
     }
+    if scoring.figure.is_set() && scoring.figures.is_none() {
+        return Err(Usage::error(
+            "--figure-width, --figure-font and --figure-size are of figure files: add --figures FOLDER",
+        ));
+    }
     Ok(())
+}
+
+/// The scores in a table of `format`; JSON holds every number.
+pub(crate) fn table_scores(args: &TableArgs, format: Format) -> anyhow::Result<TableScores> {
+    match (args.scores, format) {
+        (Some(_), Format::Json) => Err(Usage::error(
+            "--table and --format json: JSON is no table and holds every number; use --format text, csv, md or tex, or leave --table out",
+        )),
+        (Some(scores), _) => Ok(scores),
+        (None, format) => Ok(TableScores::usual(format)),
+    }
 }
 
 /// The fit that the arguments describe.

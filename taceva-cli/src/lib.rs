@@ -94,6 +94,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Score(args) => cmd::score::run(args, context),
         Command::Merge(args) => cmd::merge::run(args, context),
         Command::Reseal(args) => cmd::reseal::run(args, context),
+        Command::Report(args) => cmd::report::run(args, context),
         Command::Compare(args) => cmd::compare::run(args, context),
         Command::Choose(args) => cmd::choose::run(args),
         Command::Accept(args) => cmd::accept::run(args, context),

@@ -23,18 +23,23 @@ pub(crate) mod triple;
 use std::io::{self, Write};
 
 use taceva_check::CheckReport;
-use taceva_report::Layout;
+use taceva_report::{Layout, ScoreTable, Study, escape_markdown};
 use taceva_results::{EvaluationReport, RunReport};
 use taceva_study::bench::KernelBench;
 
-use crate::args::Format;
+use crate::args::{Format, TableScores};
 
 /// Writes an evaluation in the requested format.
 pub(crate) fn evaluation(
     report: &EvaluationReport,
     format: Format,
+    table: TableScores,
     out: &mut dyn Write,
 ) -> io::Result<()> {
+    if table == TableScores::Main && format != Format::Json {
+        let study = Study::from(report.clone());
+        return main_scores(&ScoreTable::of(&[study]), format, out);
+    }
     match format {
         Format::Text => text::write(report, out),
         Format::Json => json::write_sealed(report, out),
@@ -47,14 +52,46 @@ pub(crate) fn evaluation(
     }
 }
 
+/// Writes the main scores in the form asked for, which is no JSON: where one table has no room, several follow each other.
+pub(crate) fn main_scores(
+    scores: &ScoreTable,
+    format: Format,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    if format == Format::Csv {
+        return out.write_all(scores.main().every_number().csv().as_bytes());
+    }
+    let tables = scores.for_column(&scores.caption());
+    for (number, table) in tables.iter().enumerate() {
+        if number > 0 {
+            writeln!(out)?;
+        }
+        let text = match format {
+            Format::Tex => table.latex(Layout::Column),
+            Format::Md => {
+                let caption = escape_markdown(&table.caption);
+                format!("{caption}\n\n{}", table.markdown())
+            }
+            _ => table.text(),
+        };
+        out.write_all(text.as_bytes())?;
+    }
+    Ok(())
+}
+
 /// Writes the evaluations of the studies of a scene: as text side by side if there are several, else in sequence.
 pub(crate) fn profiles(
     reports: &[EvaluationReport],
     format: Format,
+    table: TableScores,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     if format == Format::Json {
         return json::write_sealed(&RunReport::new(reports), out);
+    }
+    if table == TableScores::Main {
+        let studies: Vec<Study> = reports.iter().cloned().map(Study::from).collect();
+        return main_scores(&ScoreTable::of(&studies), format, out);
     }
     if format == Format::Text && reports.len() > 1 {
         return profile::write(reports, out);
@@ -63,7 +100,7 @@ pub(crate) fn profiles(
         if number > 0 {
             writeln!(out)?;
         }
-        evaluation(report, format, out)?;
+        evaluation(report, format, table, out)?;
     }
     Ok(())
 }

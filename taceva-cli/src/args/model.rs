@@ -8,7 +8,7 @@ use taceva_models::Checkpoints;
 
 use super::{
     CacheArgs, ModelArgs, OptionalModelArgs, Output, PartArgs, ScoringArgs, SplitArgs,
-    SplitOutArgs, ViewArgs,
+    SplitOutArgs, TableArgs, ViewArgs,
 };
 
 /// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every half a minute, and when the training is
@@ -64,6 +64,8 @@ pub(crate) struct Evaluate {
     pub(crate) part: PartArgs,
     #[command(flatten)]
     pub(crate) scoring: ScoringArgs,
+    #[command(flatten)]
+    pub(crate) table: TableArgs,
     #[command(flatten)]
     pub(crate) output: Output,
 }
@@ -128,6 +130,8 @@ pub(crate) struct Score {
     #[command(flatten)]
     pub(crate) scoring: ScoringArgs,
     #[command(flatten)]
+    pub(crate) table: TableArgs,
+    #[command(flatten)]
     pub(crate) output: Output,
 }
 
@@ -140,6 +144,8 @@ pub(crate) struct Merge {
     /// Write the merged state, which can be merged again
     #[arg(long, value_name = "STATE")]
     pub(crate) state_out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) table: TableArgs,
     #[command(flatten)]
     pub(crate) output: Output,
 }

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgGroup, Args, Subcommand};
+use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 
-use super::{Output, PageArgs, SeedArgs};
+use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 
 /// Results are JSON files of `evaluate` and `score`, folders of runs (or their results.json), or names of the catalogue. If two of them
 /// predict the same samples, mean absolute errors are compared sample by sample. The samples are read from `<name>.samples.csv` beside
@@ -27,9 +27,44 @@ pub(crate) struct Compare {
     #[arg(long)]
     pub(crate) all: bool,
     #[command(flatten)]
+    pub(crate) table: TableArgs,
+    #[command(flatten)]
     pub(crate) page: PageArgs,
     #[command(flatten)]
     pub(crate) output: Output,
+}
+
+/// Results are the folder of a run, or the JSON of `run`, `evaluate` or `score`. Written are `report.html`, every figure as SVG and PDF in
+/// `figures/`, and the tables `scores.csv`, `scores.md`, `scores.tex` and `scores-main.tex`. Figures of samples need the samples beside the
+/// results: `reports/` of a run, or `<name>.samples.csv` beside `<name>.json`.
+#[derive(Debug, Args)]
+pub(crate) struct ReportArgs {
+    /// The results
+    #[arg(value_name = "RESULT")]
+    pub(crate) result: PathBuf,
+    /// The folder to write into [default: the folder of the results]
+    #[arg(long = "out", value_name = "FOLDER")]
+    pub(crate) folder: Option<PathBuf>,
+    /// Also write the tables of a published study in its own form, with its printed numbers and ours over them, into `like-STUDY/`
+    #[arg(long, value_enum, value_name = "STUDY")]
+    pub(crate) like: Option<Like>,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
+    #[command(flatten)]
+    pub(crate) table: TableArgs,
+    /// The format of the results on standard output
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+    /// Replace reports that exist already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// A published study in whose form results can be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Like {
+    /// Cong et al., TacEva, 2026: tables I to V
+    Taceva,
 }
 
 /// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft ones rank.

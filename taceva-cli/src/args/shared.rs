@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::FigureArgs;
+
 /// The names of models, for the two options that take one.
 const MODEL_HELP: &str = "\
 The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, gaussian-process, knn, lda, random-forest, \
@@ -123,6 +125,8 @@ pub(crate) struct ScoringArgs {
     /// Write every figure into this folder, as SVG and PDF
     #[arg(long, value_name = "FOLDER")]
     pub(crate) figures: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
     /// Write truth and prediction of every sample as CSV, for `taceva compare`
     #[arg(long, value_name = "SAMPLES.csv")]
     pub(crate) samples_out: Option<PathBuf>,
@@ -172,6 +176,33 @@ pub(crate) enum Format {
     Md,
     /// A LaTeX table (booktabs)
     Tex,
+}
+
+/// The scores in the table of a result.
+#[derive(Debug, Args)]
+pub(crate) struct TableArgs {
+    /// The scores in the table: main (MAE, R² and sMAPE, in LaTeX as wide as a column of a paper) or all [default: main with --format tex, else all]
+    #[arg(id = "table", long, value_enum, value_name = "SCORES")]
+    pub(crate) scores: Option<TableScores>,
+}
+
+/// The scores that a table holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TableScores {
+    /// MAE, R² and sMAPE
+    Main,
+    /// Every score and variant
+    All,
+}
+
+impl TableScores {
+    /// The scores of a table for which nobody asked: a paper has room for the main ones.
+    pub(crate) fn usual(format: Format) -> TableScores {
+        match format {
+            Format::Tex => TableScores::Main,
+            _ => TableScores::All,
+        }
+    }
 }
 
 /// The format of a list or a plan.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CacheArgs, Format, ListFormat, Output};
+use super::{CacheArgs, FigureArgs, Format, ListFormat, Output, TableArgs};
 
 /// A scene, and its overrides.
 #[derive(Debug, Args)]
@@ -59,6 +59,10 @@ pub(crate) struct Run {
     pub(crate) port: u16,
     #[command(flatten)]
     pub(crate) cache: CacheArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
+    #[command(flatten)]
+    pub(crate) table: TableArgs,
     /// The format of the reports on standard output
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,

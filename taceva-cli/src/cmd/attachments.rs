@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use taceva_report::FigureStyle;
 use taceva_results::EvaluationReport;
 
 use super::Context;
@@ -13,6 +14,7 @@ use crate::report::page::Page;
 pub(super) struct Attachments<'a> {
     page: Option<&'a Path>,
     figures: Option<&'a Path>,
+    style: FigureStyle,
     samples: Option<&'a Path>,
 }
 
@@ -21,6 +23,7 @@ impl<'a> Attachments<'a> {
         Attachments {
             page: args.page.path.as_deref(),
             figures: args.figures.as_deref(),
+            style: args.figure.style(),
             samples: args.samples_out.as_deref(),
         }
     }
@@ -37,7 +40,7 @@ impl<'a> Attachments<'a> {
                 output::write(Some(path), |out| page.write(out))?;
             }
             if let Some(folder) = self.figures {
-                page.write_figures(folder, context)?;
+                page.write_figures(folder, &self.style, context)?;
             }
         }
         if let (Some(path), Some(samples)) = (self.samples, &report.samples) {

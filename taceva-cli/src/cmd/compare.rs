@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
 
-use taceva_report::{CompareRequest, OVERVIEW_WIDTH, compare};
+use taceva_report::{CompareRequest, OVERVIEW_WIDTH, ScoreTable, compare};
 
 use super::{Context, Usage, results};
-use crate::args::{Compare, Format};
-use crate::{exit, output};
+use crate::args::{Compare, Format, TableScores};
+use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
+    let table = super::table_scores(&args.table, args.output.format)?;
     for path in args.output.path.iter().chain(&args.page.path) {
         output::check_free(path, args.output.force)?;
     }
@@ -33,7 +34,12 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     let comparison = compare(&studies, &request);
     // Only a terminal has too little width for whole lines.
     let is_seen = args.output.path.is_none() && std::io::stdout().is_terminal();
-    if args.output.format == Format::Text {
+    if table == TableScores::Main {
+        let scores = ScoreTable::compared(&studies, &request);
+        output::write_as(args.output.format, args.output.path.as_deref(), |out| {
+            report::main_scores(&scores, args.output.format, out)
+        })?;
+    } else if args.output.format == Format::Text {
         let text = match args.all {
             true => comparison.text(),
             false => comparison.overview(is_seen.then_some(OVERVIEW_WIDTH)),

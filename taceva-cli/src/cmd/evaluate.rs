@@ -10,6 +10,7 @@ use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     let scoring = &args.scoring;
+    let table = super::table_scores(&args.table, args.output.format)?;
     super::check_free(scoring, &args.output)?;
     if let Some(path) = &args.split_out.path {
         output::check_free(path, args.output.force)?;
@@ -71,7 +72,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     }
     cache::note(cache.as_ref(), context);
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
-        report::evaluation(&evaluated.report, args.output.format, out)
+        report::evaluation(&evaluated.report, args.output.format, table, out)
     })?;
     if let Some(path) = &scoring.state_out {
         output::write(Some(path), |out| evaluated.state.write(out))?;

@@ -8,13 +8,14 @@ use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_report::{Layout, Study, Table, catalogue, escape_terminal};
+use taceva_results::EvaluationReport;
 
 use super::Usage;
 use crate::args::{Format, Output};
 use crate::output;
 
 /// The file of all results in the folder of a run.
-const RESULTS: &str = "results.json";
+pub(super) const RESULTS: &str = "results.json";
 
 /// Results with the samples behind them.
 #[derive(Default)]
@@ -75,6 +76,41 @@ fn find(path: &Path) -> anyhow::Result<Found> {
             missing: Vec::new(),
         });
     }
+    let file = file_of(path)?;
+    let text =
+        fs::read_to_string(&file).with_context(|| format!("cannot read {}", shown(&file)))?;
+    let studies = Study::read(&text).with_context(|| shown(&file).to_string())?;
+    samples::beside(&file, studies)
+}
+
+/// Evaluation reports with the samples behind them.
+pub(super) struct Reports {
+    pub(super) reports: Vec<EvaluationReport>,
+    /// A remark for each report whose samples were not found.
+    pub(super) missing: Vec<String>,
+}
+
+/// The reports of the folder of a run or of a file, with their samples and recordings where they are beside them.
+pub(super) fn reports(path: &Path) -> anyhow::Result<Reports> {
+    let file = file_of(path)?;
+    let text =
+        fs::read_to_string(&file).with_context(|| format!("cannot read {}", shown(&file)))?;
+    let mut reports = taceva_results::read(&text).with_context(|| shown(&file).to_string())?;
+    let studies = reports.iter().cloned().map(Study::from).collect();
+    let found = samples::beside(&file, studies)?;
+    for ((report, study), number) in reports.iter_mut().zip(found.studies).zip(1_u32..) {
+        let recordings = samples::recordings_of_run(&file, number)?;
+        let samples = study.samples;
+        report.samples = samples.map(|samples| samples.with_recordings(recordings));
+    }
+    Ok(Reports {
+        reports,
+        missing: found.missing,
+    })
+}
+
+/// The file of results that `path` names: of the folder of a run, or itself.
+fn file_of(path: &Path) -> anyhow::Result<PathBuf> {
     let file = match path.is_dir() {
         true => path.join(RESULTS),
         false => path.to_owned(),
@@ -85,10 +121,7 @@ fn find(path: &Path) -> anyhow::Result<Found> {
             shown(path)
         )));
     }
-    let text =
-        fs::read_to_string(&file).with_context(|| format!("cannot read {}", shown(&file)))?;
-    let studies = Study::read(&text).with_context(|| shown(&file).to_string())?;
-    samples::beside(&file, studies)
+    Ok(file)
 }
 
 /// Writes a table to the path and in the format of `to`; `json` makes JSON.

@@ -15,17 +15,16 @@ use taceva_study::{Existing, RunFolder, RunSetup, check_models, run_scene};
 
 use super::attended::Attended;
 use super::{Context, Usage, cache, scene};
-use crate::args::{Format, Run};
+use crate::args::{Format, Run, TableScores};
 use crate::{exit, output, progress, report};
 
 /// The parent folder of numbered runs.
 const RUNS: &str = "runs";
-/// The page that shows a run.
-const PAGE: &str = "report.html";
-/// The file with every number of a run.
+/// Every number of a run.
 const RESULTS: &str = "results.json";
 
 pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
+    let table = super::table_scores(&args.table, args.format)?;
     let (drivers, models) = context.equipment(Path::new(&args.scene.scene))?;
     let planned = scene::to_run(args, &drivers)?;
     check_models(&planned, &models)?;
@@ -97,18 +96,18 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         .iter_mut()
         .try_for_each(super::attachments::note_samples)?;
     write_files(&planned, &folder, &reports, &formats)?;
-    let page = folder.path().join(PAGE);
     let drawn = report::page::Page::of(&planned.scene.name, &reports)?;
-    output::write(Some(&page), |out| drawn.write(out))?;
-    drawn.write_figures(&folder.figures(), context)?;
-    drawn.write_scores(folder.path())?;
+    let page = drawn.write_files(folder.path(), &args.figure.style(), context)?;
+    if planned.scene.report.like.is_some() {
+        drawn.write_like_taceva(folder.path(), &args.figure.style(), context)?;
+    }
     let results = folder.path().join(RESULTS);
     output::write_as(Format::Json, Some(&results), |out| {
-        report::profiles(&reports, Format::Json, out)
+        report::profiles(&reports, Format::Json, TableScores::All, out)
     })?;
     folder.close(&planned)?;
     output::write_as(args.format, None, |out| {
-        report::profiles(&reports, args.format, out)
+        report::profiles(&reports, args.format, table, out)
     })?;
     context.say(format_args!("reports are in {}", shown(&folder.reports())));
     context.say(format_args!("look at    {}", shown(&page)));
@@ -193,7 +192,7 @@ fn write_files(
         for (format, extension) in formats {
             let path: PathBuf = folder.report(number, &study.plan.name, extension);
             output::write_as(*format, Some(&path), |out| {
-                report::evaluation(written, *format, out)
+                report::evaluation(written, *format, TableScores::usual(*format), out)
             })?;
         }
         if let Some(samples) = &written.samples {

@@ -10,6 +10,7 @@ use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     let asked = &args.scoring;
+    let table = super::table_scores(&args.table, args.output.format)?;
     super::check_free(asked, &args.output)?;
     let request = ScoreRequest {
         truth: args.truth.clone(),
@@ -49,7 +50,7 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         super::attachments::note_samples(&mut scored.report)?;
     }
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
-        report::evaluation(&scored.report, args.output.format, out)
+        report::evaluation(&scored.report, args.output.format, table, out)
     })?;
     attachments.write(&scored.report, context)?;
     if let Some(path) = &asked.state_out {

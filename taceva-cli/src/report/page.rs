@@ -3,19 +3,31 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
-use taceva_report::{Layout, Picture, Report, ScoreTable, Study, Triple, figures, picks};
+use taceva_report::{
+    Figure, FigureStyle, Layout, Picture, Report, ScoreTable, Study, Triple, figures_for,
+    paper_form, picks, study_figures, undrawn,
+};
 use taceva_results::EvaluationReport;
 
+use crate::args::Format;
 use crate::context::Context;
 use crate::output;
 
 use super::thumbnail::{MEDIA_TYPE, thumbnail};
 use super::triple::triple;
+
+/// The page among the files of a report.
+pub(crate) const PAGE: &str = "report.html";
+/// The folder of figures among the files of a report.
+const FIGURES: &str = "figures";
+
+/// The folder of tables in the form of the TacEva study.
+const LIKE_TACEVA: &str = "like-taceva";
 
 /// The contents of a page.
 pub(crate) struct Page {
@@ -77,25 +89,67 @@ impl Page {
         Ok(())
     }
 
-    /// Writes every figure into `folder`, as standalone SVG and as PDF, and reports characters that no font has.
-    pub(crate) fn write_figures(&self, folder: &Path, context: &Context) -> anyhow::Result<()> {
-        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", shown(folder)))?;
-        let mut without_glyph = BTreeSet::new();
-        for figure in figures(&self.studies) {
-            let path = folder.join(format!("{}.svg", figure.id));
-            output::write(Some(&path), |out| out.write_all(figure.svg().as_bytes()))?;
-            let path = path.with_extension("pdf");
-            output::write(Some(&path), |out| out.write_all(&figure.pdf()))?;
-            without_glyph.extend(figure.letters_without_glyph());
-        }
-        if !without_glyph.is_empty() {
-            let letters = without_glyph.into_iter();
-            let letters = letters.map(|letter| format!("{letter} (U+{:04X})", u32::from(letter)));
+    /// Writes the page, every figure and every table into `folder`; returns the path of the page.
+    pub(crate) fn write_files(
+        &self,
+        folder: &Path,
+        style: &FigureStyle,
+        context: &Context,
+    ) -> anyhow::Result<PathBuf> {
+        let page = folder.join(PAGE);
+        output::write(Some(&page), |out| self.write(out))?;
+        self.write_figures(&folder.join(FIGURES), style, context)?;
+        self.write_scores(folder)?;
+        Ok(page)
+    }
+
+    /// Writes every figure into `folder`, as standalone SVG and as PDF, and reports figures without values and letters that no font has.
+    pub(crate) fn write_figures(
+        &self,
+        folder: &Path,
+        style: &FigureStyle,
+        context: &Context,
+    ) -> anyhow::Result<()> {
+        let figures = figures_for(&self.studies, style);
+        write_figures(&figures, folder, context)?;
+        let undrawn = undrawn(&self.studies, &figures);
+        if !undrawn.is_empty() {
+            let names: Vec<&str> = undrawn.iter().map(|(name, _)| name.as_str()).collect();
+            let names = names.join(", ");
             context.say(format_args!(
-                "the fonts of PDF figures lack {}: each is drawn as a box with its code point; the SVG figures show the letters",
-                letters.collect::<Vec<_>>().join(", ")
+                "figures without data are not written: {names} (-v says why)"
             ));
         }
+        for (name, reason) in undrawn {
+            context.say_more(format_args!("figure {name} is not drawn: {reason}"));
+        }
+        Ok(())
+    }
+
+    /// Writes the tables of the TacEva study with its printed numbers beside ours, and its figures, into a folder in `folder`.
+    pub(crate) fn write_like_taceva(
+        &self,
+        folder: &Path,
+        style: &FigureStyle,
+        context: &Context,
+    ) -> anyhow::Result<()> {
+        let form = paper_form(&self.studies);
+        let figures = study_figures(&self.studies, style);
+        for (name, reason) in form.absent.iter().chain(&figures.absent) {
+            context.say(format_args!("{name} of the study is absent: {reason}"));
+        }
+        let folder = folder.join(LIKE_TACEVA);
+        fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", shown(&folder)))?;
+        for (name, text) in [("tables.tex", form.latex()), ("tables.md", form.markdown())] {
+            output::write(Some(&folder.join(name)), |out| {
+                out.write_all(text.as_bytes())
+            })?;
+        }
+        write_figures(&figures.drawn, &folder, context)?;
+        context.say(format_args!(
+            "tables and figures of the study are in {}",
+            shown(&folder)
+        ));
         Ok(())
     }
 
@@ -109,24 +163,25 @@ impl Page {
             _ => " Nothing here was measured where samples are simulated.",
         };
         let caption = format!("{}: scores with 95 % intervals.{note}", self.title);
-        let main_caption = format!("{}: main scores.{note}", self.title);
+        let mut main = Vec::new();
+        super::main_scores(&table, Format::Tex, &mut main)?;
         for (name, text) in [
-            ("scores.csv", table.every_number().csv()),
+            ("scores.csv", table.every_number().csv().into_bytes()),
             (
                 "scores.md",
-                format!("{caption}\n\n{}", headlines.for_pages().markdown()),
+                format!("{caption}\n\n{}", headlines.for_pages().markdown()).into_bytes(),
             ),
             (
                 "scores.tex",
-                headlines.for_papers(&caption).latex(Layout::Float),
+                headlines
+                    .for_papers(&caption)
+                    .latex(Layout::Float)
+                    .into_bytes(),
             ),
-            (
-                "scores-main.tex",
-                table.for_column(&main_caption).latex(Layout::Column),
-            ),
+            ("scores-main.tex", main),
         ] {
             let path = folder.join(name);
-            output::write(Some(&path), |out| out.write_all(text.as_bytes()))?;
+            output::write(Some(&path), |out| out.write_all(&text))?;
         }
         Ok(())
     }
@@ -140,6 +195,32 @@ impl Page {
         };
         out.write_all(taceva_report::report(&report).as_bytes())
     }
+}
+
+/// Writes `figures` into `folder`, each as standalone SVG and as PDF, and reports letters that no font has.
+pub(crate) fn write_figures(
+    figures: &[Figure],
+    folder: &Path,
+    context: &Context,
+) -> anyhow::Result<()> {
+    fs::create_dir_all(folder).with_context(|| format!("cannot make {}", shown(folder)))?;
+    let mut without_glyph = BTreeSet::new();
+    for figure in figures {
+        let path = folder.join(format!("{}.svg", figure.id));
+        output::write(Some(&path), |out| out.write_all(figure.svg().as_bytes()))?;
+        let path = path.with_extension("pdf");
+        output::write(Some(&path), |out| out.write_all(&figure.pdf()))?;
+        without_glyph.extend(figure.letters_without_glyph());
+    }
+    if !without_glyph.is_empty() {
+        let letters = without_glyph.into_iter();
+        let letters = letters.map(|letter| format!("{letter} (U+{:04X})", u32::from(letter)));
+        context.say(format_args!(
+                "the fonts of PDF figures lack {}: each is drawn as a box with its code point; the SVG figures show the letters",
+                letters.collect::<Vec<_>>().join(", ")
+            ));
+    }
+    Ok(())
 }
 
 /// A finished evaluation parsed from its JSON, with its samples.

@@ -54,8 +54,16 @@ fn markdown(text: &str, whence: &str) -> usize {
 /// The same of a table in LaTeX: each row that names something, but what only describes, has a sign.
 fn latex(text: &str, whence: &str) -> usize {
     let rows = text.lines().skip_while(|line| !line.contains("midrule"));
+    // Where a metric stands on a line of its own, the rows below it name channels.
+    let headings = rows.clone().filter(|line| line.contains("\\multicolumn"));
+    let headings: Vec<&str> = headings.collect();
     let names = rows.filter_map(|line| line.split_once(" & "));
     let names = names.map(|(name, _)| name.trim());
+    let names: Vec<&str> = match headings.is_empty() {
+        true => names.collect(),
+        false => headings,
+    };
+    let names = names.into_iter();
     let mut found = 0;
     let describes = |name: &str| {
         let id = name.replace("\\_", "_");
@@ -199,7 +207,8 @@ fn what_a_run_writes_names_no_metric_without_its_direction() {
     ];
     for (file, count) in kinds {
         let text = fs::read_to_string(bench.path(&format!("run/{file}"))).expect("there");
-        assert!(count(&text, file) > 5, "{file}");
+        let least = if file == "scores-main.tex" { 1 } else { 5 };
+        assert!(count(&text, file) > least, "{file}");
     }
 }
 

@@ -5,6 +5,7 @@ mod compared;
 mod documents;
 #[path = "../../../crates/results/report/tests/report/paper.rs"]
 mod latex;
+mod written_again;
 
 use std::fs;
 
@@ -110,7 +111,7 @@ fn tables_for_papers_compile() {
     let bench = Bench::new();
     bench.record("data", 40);
     for words in [
-        "evaluate data --model ridge --split random --part all --format tex",
+        "evaluate data --model ridge --split random --part all --format tex --table all",
         "check data --format tex",
         "bench kernels --rows 600 --rounds 1 --format tex",
         "choose --need shear,fast --format tex",

@@ -14,6 +14,13 @@ pub(crate) fn obeyed_replaced(text: &str) -> String {
     text.replace(is_replaced, "\u{fffd}")
 }
 
+/// The command that sets a letter which the fonts of pdflatex lack: the letter where the font of LuaLaTeX or XeLaTeX has it, else its code
+/// point. A table that uses it defines it.
+pub(crate) const LETTER: &str = "\\tacevaletter";
+/// The definition of [`LETTER`].
+pub(crate) const LETTER_DEFINITION: &str = "% letters beyond Latin: LuaLaTeX or XeLaTeX with a font that has them; elsewhere their code points\n\
+\\providecommand{\\tacevaletter}[2]{\\ifdefined\\Umathchar\\iffontchar\\font\"#1 #2\\else U+#1\\fi\\else U+#1\\fi}\n";
+
 /// Escaped text for LaTeX.
 pub fn latex(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
@@ -49,10 +56,21 @@ pub fn latex(text: &str) -> String {
             'ε' => escaped.push_str("$\\varepsilon$"),
             '\n' | '\r' | '\t' => escaped.push(' '),
             _ if is_obeyed(character) => {}
-            _ => escaped.push(character),
+            _ if is_set_everywhere(character) => escaped.push(character),
+            _ => {
+                let point = u32::from(character);
+                escaped.push_str(&format!("{LETTER}{{{point:04X}}}{{{character}}}"));
+            }
         }
     }
     escaped
+}
+
+/// True for letters that every engine sets with its default fonts: ASCII, and letters with accents of Latin 1 and Latin A.
+pub(crate) fn is_set_everywhere(letter: char) -> bool {
+    const ABSENT: &str = "«»ÐÞðþĄąĐđĘęĦħĮįĸĿŀŉŊŋŦŧŲųſ";
+    let is_latin = matches!(letter, ' '..='~' | '\u{a1}'..='\u{17f}') || "‘’“”—•".contains(letter);
+    is_latin && !ABSENT.contains(letter)
 }
 
 /// Escaped text for a cell of a Markdown table: one line without markup.
@@ -87,6 +105,15 @@ mod tests {
         assert_eq!(
             latex("a_b 5 % {x} \\ ~ ^ $ & #"),
             "a\\_b 5 \\% \\{x\\} \\textbackslash{} \\textasciitilde{} \\textasciicircum{} \\$ \\& \\#"
+        );
+    }
+
+    #[test]
+    fn letters_that_pdflatex_lacks_are_set_by_a_command_and_accents_as_they_are() {
+        assert_eq!(latex("é ő"), "é ő");
+        assert_eq!(
+            latex("名đ"),
+            "\\tacevaletter{540D}{名}\\tacevaletter{0111}{đ}"
         );
     }
 

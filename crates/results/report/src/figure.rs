@@ -7,6 +7,7 @@ mod palette;
 mod panel;
 mod pdf;
 mod scale;
+mod style;
 mod svg;
 mod words;
 
@@ -19,6 +20,7 @@ pub use palette::{DARK, LIGHT, SERIES};
 pub(crate) use palette::{diverging, sequential};
 pub(crate) use panel::{Area, Axes, Panel};
 pub(crate) use scale::{Scale, extent};
+pub use style::FigureStyle;
 pub use svg::STYLE;
 pub(crate) use words::{axis_label, directed, middle_cut, short};
 
@@ -58,6 +60,21 @@ impl Figure {
     /// Letters of its labels without a glyph in the built-in fonts, in order of code points.
     pub fn letters_without_glyph(&self) -> BTreeSet<char> {
         pdf::letters_without_glyph(self)
+    }
+
+    /// True if it shows a value or a remark; axes and names alone do not count.
+    pub(crate) fn has_values(&self) -> bool {
+        let is_coloured = |ink: &Ink| matches!(ink, Ink::Series(_) | Ink::Rgb(_));
+        let mut marks = self.canvas.marks.iter();
+        self.canvas.is_remarked
+            || marks.any(|mark| match mark {
+                canvas::Mark::Path { stroke, .. } => is_coloured(&stroke.ink),
+                canvas::Mark::Area { ink, .. } | canvas::Mark::Points { ink, .. } => {
+                    is_coloured(ink)
+                }
+                canvas::Mark::Box { ink, .. } => is_coloured(ink),
+                canvas::Mark::Label(_) => false,
+            })
     }
 
     /// Number of marks: lines, areas, boxes, groups of points and labels.

@@ -8,6 +8,7 @@ mod levels;
 mod lighting;
 mod loops;
 mod models;
+mod of_study;
 mod overlay;
 mod predicted;
 mod race;
@@ -17,36 +18,47 @@ mod resolution;
 mod sensitivity;
 mod spatial;
 mod thin;
+mod undrawn;
 
 pub use models::model_bench;
+pub use of_study::{StudyFigures, study_figures};
 pub use race::{Race, RacePoint, race};
+pub use undrawn::undrawn;
 
-use crate::figure::Figure;
+use crate::figure::{Figure, FigureStyle};
 use crate::results::Study;
 
 /// All figures with data in `studies`, in report order.
 ///
 /// Figures of samples require the samples.
 pub fn figures(studies: &[Study]) -> Vec<Figure> {
+    figures_for(studies, &FigureStyle::default())
+}
+
+/// The same figures in a style for print. A figure without any value is left out; [`undrawn`] says why.
+pub fn figures_for(studies: &[Study], style: &FigureStyle) -> Vec<Figure> {
+    let room = style.room();
     let all = [
-        vec![histograms::draw(studies)],
-        predicted::draw(studies),
-        vec![sensitivity::draw(studies)],
-        spatial::draw(studies),
+        vec![histograms::draw(studies, room)],
+        predicted::draw(studies, room),
+        vec![sensitivity::draw(studies, room)],
+        spatial::draw(studies, room),
         vec![
-            resolution::draw(studies),
-            lighting::draw(studies),
-            repeats::curves(studies),
-            repeats::volumes(studies),
-            loops::draw(studies),
-            gaps::draw(studies),
-            levels::bias(studies),
-            levels::tolerance(studies),
-            crosstalk::draw(studies),
+            resolution::draw(studies, room),
+            lighting::draw(studies, room),
+            repeats::curves(studies, room),
+            repeats::volumes(studies, room),
+            loops::draw(studies, room),
+            gaps::draw(studies, room),
+            levels::bias(studies, room),
+            levels::tolerance(studies, room),
+            crosstalk::draw(studies, room),
         ],
         radar::draw(studies),
     ];
-    all.into_iter().flatten().flatten().collect()
+    let drawn = all.into_iter().flatten().flatten();
+    let drawn = drawn.filter(Figure::has_values);
+    drawn.map(|figure| style.apply(figure)).collect()
 }
 
 /// The six channels, in report order.

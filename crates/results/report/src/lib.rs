@@ -13,6 +13,7 @@ mod light;
 mod markup;
 mod names;
 mod number;
+mod paper;
 mod results;
 mod scores;
 mod short_digests;
@@ -34,11 +35,14 @@ pub use compare::{
     OVERVIEW_WIDTH, compare, ties,
 };
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
-pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
-pub use figures::{Race, RacePoint, figures, model_bench, race};
+pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
+pub use figures::{
+    Race, RacePoint, StudyFigures, figures, figures_for, model_bench, race, study_figures, undrawn,
+};
 pub use html::{Pick, Picture, Report, Triple, picks, report};
 pub use names::names;
 pub use number::{FormattedValue, spaced, with_interval};
+pub use paper::{PaperForm, paper_form};
 pub use results::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, Made, ModelBench, ModelRow, Study,
 };

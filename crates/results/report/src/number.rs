@@ -85,6 +85,35 @@ impl FormattedValue {
         }
     }
 
+    /// Prints a number as [`FormattedValue::number`] does, with no more decimals than its first `digits` digits need.
+    pub(crate) fn short(number: f64, ends: Option<[f64; 2]>, digits: usize) -> FormattedValue {
+        let full = FormattedValue::number(number, ends);
+        let all = ends.into_iter().flatten().chain([number]);
+        let greatest = all.map(f64::abs).fold(0.0, f64::max);
+        let scale = if number.abs() < ROUNDING {
+            greatest
+        } else {
+            number.abs()
+        };
+        let places = digits
+            .try_into()
+            .map_or(1.0, |digits| 10_f64.powi(digits) / 10.0);
+        let most = (0..15).find(|&decimals| scale * 10_f64.powi(decimals) >= places * (1.0 - 1e-9));
+        let most = most.map_or(15, i32_to_usize);
+        let has = full
+            .value
+            .split_once('.')
+            .map_or(0, |(_, decimals)| decimals.len());
+        if has <= most || full.value.contains('e') {
+            return full;
+        }
+        FormattedValue {
+            value: fixed(number, most),
+            interval: ends.map(|ends| ends.map(|end| fixed(end, most))),
+            reason: None,
+        }
+    }
+
     /// Value, unit and interval in one phrase, `0.55 mm (0.34 … 0.76)`, or the reason that the value is absent.
     pub fn phrase(&self, unit: &str) -> String {
         match (&self.interval, &self.reason) {
@@ -221,6 +250,27 @@ mod tests {
             [20.0, 1.0, 0.5, 0.1, 0.0004, 0.0].map(decimals),
             [0, 0, 1, 1, 4, 15]
         );
+    }
+
+    #[test]
+    fn a_short_number_has_no_more_digits_than_asked_for() {
+        let short = |number, ends, digits| FormattedValue::short(number, ends, digits).phrase("");
+        assert_eq!(
+            short(0.036_12, Some([0.0354, 0.0371]), 3),
+            "0.0361 (0.0354 … 0.0371)"
+        );
+        assert_eq!(
+            short(0.036_12, Some([0.0354, 0.0371]), 2),
+            "0.036 (0.035 … 0.037)"
+        );
+        assert_eq!(
+            short(1069.3, Some([1069.1, 1069.5]), 3),
+            "1069 (1069 … 1070)"
+        );
+        // An interval that is wide asks for fewer digits than there is room for.
+        assert_eq!(short(0.5, Some([-9.0, 10.0]), 3), "0.5 (-9.0 … 10.0)");
+        assert_eq!(short(0.0, Some([-0.5, 0.5]), 2), "0.00 (-0.50 … 0.50)");
+        assert_eq!(short(2.34e-7, None, 3), "2.340e-7");
     }
 
     #[test]

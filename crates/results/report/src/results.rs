@@ -57,6 +57,10 @@ pub struct Made {
     pub truth: Option<String>,
     /// The part that was scored, if the model was fitted on it or its settings were chosen on it.
     pub seen_part: Option<String>,
+    /// The part that was scored: `test`, `all`; `None` where there is no split.
+    pub part: Option<String>,
+    /// The number of recordings that were taken as one; 0 where there is one.
+    pub recordings: usize,
 }
 
 impl From<EvaluationReport> for Study {
@@ -70,6 +74,8 @@ impl From<EvaluationReport> for Study {
             samples: samples.map(|(part, count)| (part, count as u64)).collect(),
             truth: report.provenance.tables.get("truth").cloned(),
             seen_part,
+            part: report.provenance.part.clone(),
+            recordings: report.provenance.recordings.len(),
             ..match report.provenance.model {
                 Some(model) => Made {
                     model: Some(model.name),

@@ -1,5 +1,7 @@
 //! Scores of studies side by side, one row per score and one column per study, with forms for papers and programs.
 
+mod caption;
+mod column;
 mod forms;
 mod main;
 mod notation;
@@ -25,6 +27,7 @@ pub struct ScoreTable {
     pub answers: Vec<Answer>,
     /// Sentence on channels whose labels differ in spread; `None` if there are none.
     pub(crate) spread: Option<String>,
+    about: Vec<caption::About>,
 }
 
 /// One score of all studies.
@@ -70,10 +73,17 @@ pub struct ScoreCell {
 impl ScoreTable {
     /// Table of all scores and all variants with a single number.
     pub fn of(studies: &[Study]) -> ScoreTable {
+        ScoreTable::compared(studies, &CompareRequest::default())
+    }
+
+    /// The scores of the metrics that `request` names, of all where it names none, compared as it says.
+    pub fn compared(studies: &[Study], request: &CompareRequest) -> ScoreTable {
         let mut rows: Vec<ScoreRow> = Vec::new();
         for (at, study) in studies.iter().enumerate() {
             for score in &study.scores {
-                for line in lines(score) {
+                let is_wanted =
+                    request.metrics.is_empty() || request.metrics.contains(&score.metric);
+                for line in lines(score).into_iter().filter(|_| is_wanted) {
                     line.enter(at, studies.len(), &mut rows);
                 }
             }
@@ -85,7 +95,7 @@ impl ScoreTable {
         };
         // Unknown metrics come last, in order of appearance.
         rows.sort_by_key(order);
-        let answers = compare(studies, &CompareRequest::default()).answers;
+        let answers = compare(studies, request).answers;
         if studies.len() > 1 {
             mark_best(&mut rows, &answers);
         }
@@ -93,6 +103,7 @@ impl ScoreTable {
             names: crate::names::names(studies),
             sources: studies.iter().map(|study| study.source.clone()).collect(),
             spread: spread(studies, &rows),
+            about: studies.iter().map(caption::About::of).collect(),
             rows,
             answers,
         }
@@ -119,6 +130,7 @@ impl ScoreTable {
             rows: self.rows.iter().filter(is_kept).cloned().collect(),
             answers: self.answers.clone(),
             spread: self.spread.clone(),
+            about: self.about.clone(),
         }
     }
 }

@@ -7,12 +7,14 @@ mod html;
 mod json;
 mod latex;
 mod markdown;
+mod room;
 mod text;
 mod words;
 
 pub use cell::{Cell, Estimate};
 pub use column::{Align, Column, Direction};
 pub use latex::{Layout, number as latex_number, symbol as latex_symbol};
+pub(crate) use room::{COLUMN_PT, GAP_PT, letters_pt, stacked};
 pub use words::Words;
 
 use taceva_metrics::Better;
@@ -50,6 +52,8 @@ pub struct Row {
     pub better: Option<Better>,
     /// True if LaTeX separates this row from the previous one.
     pub begins_group: bool,
+    /// A line that LaTeX alone sets above this row, such as the metric of the rows that follow.
+    pub heading: Option<Words>,
 }
 
 impl Row {
@@ -90,7 +94,7 @@ impl Table {
         self.rows.push(Row {
             cells: cells.into_iter().map(Into::into).collect(),
             better,
-            begins_group: false,
+            ..Row::default()
         });
     }
 

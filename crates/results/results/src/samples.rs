@@ -97,6 +97,12 @@ impl Samples {
         }
     }
 
+    /// The same samples, of the recordings in these folders.
+    #[must_use]
+    pub fn with_recordings(self, recordings: Vec<PathBuf>) -> Samples {
+        Samples { recordings, ..self }
+    }
+
     /// Adds a column of words, or of covariates as text.
     pub fn push_words(&mut self, name: &str, words: Vec<Option<String>>) {
         self.columns

@@ -12,6 +12,8 @@ use super::{Found, RESULTS};
 
 /// The extension of a table of samples, instead of `json`.
 const SAMPLES: &str = "samples.csv";
+/// The folder of recordings of a run, whose names begin with the number of the study.
+const RECORDINGS: &str = "recordings";
 /// The folder of reports of a run, whose names begin with the number of the study.
 const REPORTS: &str = "reports";
 
@@ -72,6 +74,28 @@ fn of_evaluation(own: &Path, study: &Study, is_alone: bool) -> anyhow::Result<Op
 fn digest(study: &Study) -> Option<&str> {
     let mut provenance = study.provenance.iter();
     provenance.find_map(|(name, text)| (name == "samples_table").then_some(text.as_str()))
+}
+
+/// The recording of study `number` of a run, counted from 1, where the folder of the run holds it.
+pub(super) fn recordings_of_run(file: &Path, number: u32) -> anyhow::Result<Vec<PathBuf>> {
+    let recordings = file.with_file_name(RECORDINGS);
+    let is_run = file.file_name().is_some_and(|name| name == RESULTS);
+    if !is_run || !recordings.is_dir() {
+        return Ok(Vec::new());
+    }
+    let start = format!("{number}-");
+    let entries =
+        fs::read_dir(&recordings).with_context(|| format!("cannot read {}", shown(&recordings)))?;
+    let mut found = Vec::new();
+    for entry in entries {
+        let entry = entry?;
+        if entry.file_name().to_string_lossy().starts_with(&start) {
+            found.push(entry.path());
+        }
+    }
+    found.sort_unstable();
+    found.truncate(1);
+    Ok(found)
 }
 
 /// The table of study `number` of a run, counted from 1; the first by name if there are several.

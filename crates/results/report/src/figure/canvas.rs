@@ -127,12 +127,22 @@ pub(crate) enum Mark {
     Label(Label),
 }
 
+/// The size of one figure in print, and its font.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Print {
+    pub(crate) width_pt: Option<f64>,
+    pub(crate) font: Option<String>,
+}
+
 /// Marks in drawing order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Canvas {
     pub(crate) width: f64,
     pub(crate) height: f64,
     pub(crate) marks: Vec<Mark>,
+    pub(crate) print: Print,
+    /// True if a remark on it says why a value is not drawn.
+    pub(crate) is_remarked: bool,
 }
 
 impl Canvas {
@@ -141,6 +151,8 @@ impl Canvas {
             width,
             height,
             marks: Vec::new(),
+            print: Print::default(),
+            is_remarked: false,
         }
     }
 

@@ -3,10 +3,16 @@
 use super::canvas::Canvas;
 use super::panel::Area;
 
+/// The width of the narrowest panel, in units of the canvas: its labels have room.
+const NARROWEST: f64 = 96.0;
+/// Height over width of the flattest panel that was made narrower.
+const FLATTEST: f64 = 0.62;
+
 /// Equal panels in rows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     first: Area,
+    count: usize,
     columns: usize,
     rows: usize,
     gaps: [f64; 2],
@@ -19,21 +25,49 @@ impl Grid {
         let columns = count.min(most).max(1);
         Grid {
             first,
+            count,
             columns,
             rows: count.div_ceil(columns).max(1),
             gaps,
         }
     }
 
+    /// The same panels on a canvas as wide as `room`, with `right` behind the last of a row: fewer a row where they would be too narrow, and
+    /// narrower or wider ones with the proportions that they had.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "a handful of rows and columns")]
+    pub(crate) fn within(self, room: Option<f64>, right: f64) -> Grid {
+        let Some(room) = room else { return self };
+        let width = |columns: usize| {
+            let gaps = (columns - 1) as f64 * self.gaps[0];
+            (room - self.first.left - right - gaps) / columns as f64
+        };
+        let mut columns = (1..=self.columns).rev();
+        let columns = columns.find(|columns| width(*columns) >= NARROWEST);
+        let columns = columns.unwrap_or(1);
+        let width = width(columns).max(NARROWEST);
+        let ratio = (self.first.height / self.first.width).max(FLATTEST);
+        Grid {
+            first: Area {
+                width,
+                height: width * ratio,
+                ..self.first
+            },
+            columns,
+            rows: self.count.div_ceil(columns).max(1),
+            ..self
+        }
+    }
+
     /// Grid of `count` square maps, two per row, each with room for a colour scale, and its canvas.
-    pub(crate) fn of_maps(count: usize) -> (Grid, Canvas) {
+    pub(crate) fn of_maps(count: usize, room: Option<f64>) -> (Grid, Canvas) {
         let first = Area {
             left: 58.0,
             top: 34.0,
             width: 280.0,
             height: 280.0,
         };
-        let grid = Grid::new(count, 2, first, [142.0, 82.0]);
+        let grid = Grid::new(count, 2, first, [142.0, 82.0]).within(room, 78.0);
         (grid, grid.canvas([78.0, 42.0]))
     }
 
@@ -59,6 +93,21 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn panels_within_a_column_fill_it_and_stand_in_fewer_rows_of_more() {
+        let first = Area {
+            left: 58.0,
+            top: 34.0,
+            width: 216.0,
+            height: 196.0,
+        };
+        let grid = Grid::new(6, 3, first, [66.0, 78.0]).within(Some(343.0), 16.0);
+        assert_eq!((grid.columns, grid.rows), (2, 3));
+        assert!((grid.canvas([16.0, 42.0]).width - 343.0).abs() < 1e-9);
+        let narrow = Grid::new(6, 3, first, [66.0, 78.0]).within(Some(100.0), 16.0);
+        assert!((narrow.area(0).width - NARROWEST).abs() < 1e-9);
+    }
 
     #[test]
     fn a_row_that_is_not_full_is_as_wide_as_the_others() {

@@ -21,7 +21,11 @@ const COMPRESSION: u8 = 8;
 pub(super) fn write(figure: &Figure) -> Vec<u8> {
     let [catalog, pages, page, content, info] = [1, 2, 3, 4, 5].map(Ref::new);
     let canvas = &figure.canvas;
-    let mut painter = Painter::new(canvas.height);
+    let scale = canvas
+        .print
+        .width_pt
+        .map_or(1.0, |width| width / canvas.width);
+    let mut painter = Painter::new(canvas.height, scale);
     canvas.marks.iter().for_each(|mark| painter.mark(mark));
     let drawn = painter.finish();
 
@@ -30,7 +34,12 @@ pub(super) fn write(figure: &Figure) -> Vec<u8> {
     pdf.catalog(catalog).pages(pages);
     pdf.pages(pages).kids([page]).count(1);
     let mut written = pdf.page(page);
-    let size = Rect::new(0.0, 0.0, number(canvas.width), number(canvas.height));
+    let size = Rect::new(
+        0.0,
+        0.0,
+        number(canvas.width * scale),
+        number(canvas.height * scale),
+    );
     written.media_box(size).parent(pages).contents(content);
     let mut resources = written.resources();
     let mut fonts = resources.fonts();

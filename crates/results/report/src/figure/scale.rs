@@ -2,6 +2,9 @@
 
 use crate::number::{fixed, minus, numeral};
 
+/// Room beyond the values at both ends, as a part of their range.
+const BEYOND: f64 = 0.04;
+
 /// Linear or logarithmic scale from values to positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scale {
@@ -25,6 +28,13 @@ impl Scale {
             places,
             is_logarithmic: false,
         }
+    }
+
+    /// A straight scale with a little room beyond both values, so that no mark lies on an edge.
+    pub(crate) fn padded(values: [f64; 2], places: [f64; 2]) -> Scale {
+        let [low, high] = widened(values);
+        let beyond = (high - low) * BEYOND;
+        Scale::linear([low - beyond, high + beyond], places)
     }
 
     /// Linear scale between round values that contain `values`.

@@ -22,11 +22,19 @@ pub(super) fn write(figure: &Figure, alone: bool) -> String {
     let (width, height) = (canvas.width, canvas.height);
     let id = escape::svg(&figure.id);
     let mut out = String::new();
-    let namespace = if alone {
+    let mut namespace = if alone {
         " xmlns=\"http://www.w3.org/2000/svg\""
     } else {
         " tabindex=\"0\""
-    };
+    }
+    .to_owned();
+    if let (true, Some(width_pt)) = (alone, canvas.print.width_pt) {
+        let height_pt = height * width_pt / width;
+        push(
+            &mut namespace,
+            format_args!(" width=\"{width_pt:.2}pt\" height=\"{height_pt:.2}pt\""),
+        );
+    }
     push(
         &mut out,
         format_args!(
@@ -39,7 +47,7 @@ pub(super) fn write(figure: &Figure, alone: bool) -> String {
     if alone {
         push(
             &mut out,
-            format_args!("<style>svg{{{}}}{STYLE}</style>", paper()),
+            format_args!("<style>svg{{{}}}{STYLE}{}</style>", paper(), font(figure)),
         );
         push(
             &mut out,
@@ -51,6 +59,18 @@ pub(super) fn write(figure: &Figure, alone: bool) -> String {
     }
     out.push_str("</svg>\n");
     out
+}
+
+/// The rule that names the font that was asked for before the others.
+fn font(figure: &Figure) -> String {
+    let plain = |letter: &char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.');
+    match &figure.canvas.print.font {
+        Some(family) => {
+            let family: String = family.chars().filter(plain).collect();
+            format!("svg text{{font-family:'{family}',Arial,sans-serif}}")
+        }
+        None => String::new(),
+    }
 }
 
 /// Variables of a figure on white paper.

@@ -10,7 +10,7 @@ use taceva_results::Value;
 /// Limit of names in a readable matrix.
 const MOST: usize = 16;
 
-pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let names = crate::names::names(studies);
     let mut matrices = Vec::new();
     for (study, name) in studies.iter().zip(&names) {
@@ -34,7 +34,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         width: 300.0,
         height: 216.0,
     };
-    let grid = Grid::new(matrices.len(), 2, first, [86.0, 84.0]);
+    let grid = Grid::new(matrices.len(), 2, first, [86.0, 84.0]).within(room, 16.0);
     let mut canvas = grid.canvas([16.0, 16.0]);
     for (position, (matrix, name)) in matrices.iter().enumerate() {
         let area = grid.area(position);

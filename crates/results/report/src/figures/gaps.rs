@@ -16,7 +16,7 @@ struct Gap {
     height: f64,
 }
 
-pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let names = crate::names::names(studies);
     let found: Vec<(usize, Vec<Gap>, [String; 2])> = studies
         .iter()
@@ -29,7 +29,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     if found.is_empty() {
         return None;
     }
-    let (grid, mut canvas) = Grid::of_maps(found.len());
+    let (grid, mut canvas) = Grid::of_maps(found.len(), room);
     let mut words = Vec::new();
     for (position, (at, gaps, units)) in found.iter().enumerate() {
         let area = grid.area(position);

@@ -16,6 +16,8 @@ pub(super) struct Heat<'a> {
     /// Quantity shown: `sensitivity`.
     pub(super) what: &'a str,
     pub(super) unit: Unit,
+    /// The ends of one logarithmic scale that several maps share; its own straight one where absent.
+    pub(super) shared: Option<[f64; 2]>,
 }
 
 /// Draws `heat` into `area`, or a remark that it is too large.
@@ -48,10 +50,17 @@ pub(super) fn draw(heat: &Heat<'_>, area: Area, canvas: &mut Canvas) {
         let at = [area.left + area.width / 2.0, area.top + area.height / 2.0];
         let words = format!("{cells} cells: too many to draw");
         canvas.label(Label::new(at, words, Anchor::Middle));
+        canvas.is_remarked = true;
         return;
     }
-    let Some([low, high]) = inner_range(values) else {
+    let Some([low, high]) = heat.shared.or_else(|| inner_range(values)) else {
         return;
+    };
+    let bar = [area.right() + 12.0, area.top, 10.0, area.height];
+    let upwards = [bar[1] + bar[3], bar[1]];
+    let scale = match heat.shared {
+        Some(ends) => Scale::logarithmic(ends, upwards),
+        None => Scale::linear([low, high], upwards),
     };
     let suffix = match heat.unit {
         Unit::One => String::new(),
@@ -62,7 +71,10 @@ pub(super) fn draw(heat: &Heat<'_>, area: Area, canvas: &mut Canvas) {
             let Some(value) = value else { continue };
             let [left, bottom] = panel.at(x_mm[column], y_mm[row]);
             let [right, top] = panel.at(x_mm[column + 1], y_mm[row + 1]);
-            let share = (value - low) / (high - low).max(f64::MIN_POSITIVE);
+            let share = match heat.shared {
+                Some(_) => (scale.at(*value) - upwards[0]) / (upwards[1] - upwards[0]),
+                None => (value - low) / (high - low).max(f64::MIN_POSITIVE),
+            };
             let words = format!(
                 "{} at ({}, {}) mm: {}{suffix}, n = {n}",
                 heat.what,
@@ -75,14 +87,13 @@ pub(super) fn draw(heat: &Heat<'_>, area: Area, canvas: &mut Canvas) {
             canvas.fill(place, Ink::Rgb(sequential(share)), words);
         }
     }
-    let bar = [area.right() + 12.0, area.top, 10.0, area.height];
-    colour_bar(bar, [low, high], &axis_label(heat.what, heat.unit), canvas);
+    colour_bar(bar, scale, &axis_label(heat.what, heat.unit), canvas);
 }
 
 /// Draws a bar from the colour of the least to that of the greatest number.
 pub(super) fn colour_bar(
     [left, top, width, height]: [f64; 4],
-    ends: [f64; 2],
+    scale: Scale,
     label: &str,
     canvas: &mut Canvas,
 ) {
@@ -97,7 +108,6 @@ pub(super) fn colour_bar(
             String::new(),
         );
     }
-    let scale = Scale::linear(ends, [top + height, top]);
     for tick in scale.ticks(4.0) {
         let at = [left + width + 5.0, scale.at(tick.value) + 4.0];
         canvas.label(Label::new(at, tick.label, Anchor::Start));

@@ -13,7 +13,7 @@ use super::SIX;
 /// Number of bins of a histogram.
 const BINS: usize = 24;
 
-pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let channels: Vec<&str> = SIX
         .into_iter()
         .filter(|name| studies.iter().any(|study| truths(study, name).is_some()))
@@ -28,7 +28,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         width: 216.0,
         height: 150.0,
     };
-    let grid = Grid::new(channels.len(), 3, first, [66.0, 78.0]);
+    let grid = Grid::new(channels.len(), 3, first, [66.0, 78.0]).within(room, 16.0);
     let mut canvas = grid.canvas([16.0, 42.0]);
     if names.len() > 1 {
         let legend: Vec<(usize, String)> = names.iter().cloned().enumerate().collect();

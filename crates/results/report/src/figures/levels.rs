@@ -66,7 +66,7 @@ pub(super) fn sheets(studies: &[Study], metric: &str, x: &str, y: &str, ways: Wa
     sheets
 }
 
-pub(super) fn bias(studies: &[Study]) -> Option<Figure> {
+pub(super) fn bias(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let words = Words {
         id: "bias",
         title: "Bias by level",
@@ -83,10 +83,10 @@ pub(super) fn bias(studies: &[Study]) -> Option<Figure> {
     for level in lines.flat_map(|line| &mut line.levels) {
         level.y = level.y.filter(|_| level.n >= FEWEST);
     }
-    overlay(&sheets, studies, 3, words)
+    overlay(&sheets, studies, 3, words, room)
 }
 
-pub(super) fn tolerance(studies: &[Study]) -> Option<Figure> {
+pub(super) fn tolerance(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let words = Words {
         id: "tolerance",
         title: "Share of samples within a tolerance",
@@ -103,5 +103,5 @@ pub(super) fn tolerance(studies: &[Study]) -> Option<Figure> {
         "share within",
         Ways::LogarithmicX,
     );
-    overlay(&sheets, studies, 3, words)
+    overlay(&sheets, studies, 3, words, room)
 }

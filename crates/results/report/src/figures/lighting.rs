@@ -21,7 +21,7 @@ struct Sheet {
     sensors: Vec<(usize, Light)>,
 }
 
-pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let names = crate::names::names(studies);
     let sheets: Vec<Sheet> = SIX
         .into_iter()
@@ -43,7 +43,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         width: 216.0,
         height: 168.0,
     };
-    let grid = Grid::new(sheets.len(), 3, first, [66.0, 122.0]);
+    let grid = Grid::new(sheets.len(), 3, first, [66.0, 122.0]).within(room, 16.0);
     let mut canvas = grid.canvas([16.0, 86.0]);
     canvas.dot_legend([first.left, 16.0], &legend);
     for (position, sheet) in sheets.iter().enumerate() {

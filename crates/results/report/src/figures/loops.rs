@@ -19,7 +19,7 @@ struct Loop {
     unload: Vec<[f64; 2]>,
 }
 
-pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let names = crate::names::names(studies);
     let found: Vec<(usize, BTreeMap<String, Loop>)> = studies
         .iter()
@@ -36,7 +36,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         width: 330.0,
         height: 220.0,
     };
-    let grid = Grid::new(found.len(), 2, first, [66.0, 78.0]);
+    let grid = Grid::new(found.len(), 2, first, [66.0, 78.0]).within(room, 16.0);
     let mut canvas = grid.canvas([16.0, 42.0]);
     let mut words = Vec::new();
     for (position, (at, loops)) in found.iter().enumerate() {
@@ -73,7 +73,7 @@ fn panel(loops: &BTreeMap<String, Loop>, at: usize, name: &str, area: Area, canv
     };
     let panel = Panel {
         area,
-        x: Scale::linear(x, area.across()),
+        x: Scale::padded(x, area.across()),
         y: Scale::round(y, area.upwards()),
     };
     let axes = Axes {

@@ -57,6 +57,7 @@ pub(super) fn draw(
     studies: &[Study],
     columns: usize,
     words: Words<'_>,
+    room: Option<f64>,
 ) -> Option<Figure> {
     if sheets.is_empty() {
         return None;
@@ -64,7 +65,7 @@ pub(super) fn draw(
     let names = crate::names::names(studies);
     let columns = columns.min(sheets.len()).max(1);
     let first = panel_size(columns);
-    let grid = Grid::new(sheets.len(), columns, first, [66.0, 78.0]);
+    let grid = Grid::new(sheets.len(), columns, first, [66.0, 78.0]).within(room, 16.0);
     let mut canvas = grid.canvas([16.0, 42.0]);
     let is_drawn = |at: &usize| {
         let mut lines = sheets.iter().flat_map(|sheet| &sheet.lines);
@@ -123,7 +124,7 @@ impl Sheet {
             area,
             x: match self.ways {
                 Ways::LogarithmicX => Scale::logarithmic(x, area.across()),
-                Ways::Straight => Scale::linear(x, area.across()),
+                Ways::Straight => Scale::padded(x, area.across()),
             },
             y: Scale::round(y, area.upwards()),
         };

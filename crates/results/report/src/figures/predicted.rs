@@ -1,7 +1,8 @@
 //! Predicted against true values: one panel per channel, one figure per sensor.
 
 use crate::figure::{
-    Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, Stroke, axis_label, extent, short,
+    Anchor, Area, Axes, Canvas, Figure, Grid, Ink, Label, Panel, Points, Scale, Stroke, axis_label,
+    extent, short,
 };
 use crate::number::numeral;
 use crate::results::Study;
@@ -13,15 +14,15 @@ use super::thin::{rule, thin};
 /// Limit of dots in a panel: more would overlap and enlarge the page.
 const MOST: usize = 400;
 
-pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
+pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Vec<Option<Figure>> {
     let names = crate::names::names(studies);
     let figures = studies.iter().zip(&names).enumerate();
     figures
-        .map(|(at, (study, name))| one(study, at, name))
+        .map(|(at, (study, name))| one(study, at, name, room))
         .collect()
 }
 
-fn one(study: &Study, at: usize, name: &str) -> Option<Figure> {
+fn one(study: &Study, at: usize, name: &str, room: Option<f64>) -> Option<Figure> {
     let samples = study.samples.as_ref()?;
     let rows = samples.of_protocol("calibration");
     let channels: Vec<SampleChannel<'_>> = channels(samples)
@@ -37,12 +38,12 @@ fn one(study: &Study, at: usize, name: &str) -> Option<Figure> {
         width: 216.0,
         height: 196.0,
     };
-    let grid = Grid::new(channels.len(), 3, first, [66.0, 78.0]);
+    let grid = Grid::new(channels.len(), 3, first, [66.0, 78.0]).within(room, 16.0);
     let mut canvas = grid.canvas([16.0, 42.0]);
     let mut drawn = String::new();
     for (position, channel) in channels.iter().enumerate() {
         let area = grid.area(position);
-        let (all, shown) = panel(samples, &rows, *channel, area, at, &mut canvas)?;
+        let (all, shown) = panel(study, samples, &rows, *channel, area, at, &mut canvas)?;
         if position == 0 {
             drawn = rule(shown, all);
         }
@@ -51,7 +52,7 @@ fn one(study: &Study, at: usize, name: &str) -> Option<Figure> {
         id: format!("predicted-{}", at + 1),
         title: format!("{}: predicted against true", short(name, 60)),
         caption: format!(
-            "Samples that the model has not seen, by channel; on the line prediction and truth are equal. {drawn}."
+            "Samples that the model has not seen, by channel; on the broken line prediction and truth are equal. n counts the samples, and R² is the score of the channel. {drawn}."
         ),
         description: format!(
             "Predicted over true values of {} for {}.",
@@ -78,6 +79,7 @@ fn channels(samples: &Samples) -> Vec<SampleChannel<'_>> {
 }
 
 fn panel(
+    study: &Study,
     samples: &Samples,
     rows: &[usize],
     channel: SampleChannel<'_>,
@@ -92,8 +94,8 @@ fn panel(
     let ends = extent(pairs.iter().flat_map(|(_, pair)| *pair))?;
     let panel = Panel {
         area,
-        x: Scale::linear(ends, area.across()),
-        y: Scale::linear(ends, area.upwards()),
+        x: Scale::padded(ends, area.across()),
+        y: Scale::padded(ends, area.upwards()),
     };
     let label = |what: &str| {
         axis_label(
@@ -111,7 +113,10 @@ fn panel(
     canvas.line(
         panel.at(low, low),
         panel.at(high, high),
-        Stroke::thin(Ink::Muted),
+        Stroke {
+            dash: "4 3",
+            ..Stroke::thin(Ink::Muted)
+        },
     );
     let errors: Vec<f64> = pairs
         .iter()
@@ -130,5 +135,15 @@ fn panel(
         ));
     }
     canvas.points(points, Ink::Series(at), 2.3, 0.55);
+    let shared = format!("n = {}", pairs.len());
+    let r2 = study
+        .score("r2", channel.name)
+        .and_then(|score| score.value.number());
+    let words = r2.map_or(shared.clone(), |r2| {
+        format!("R² = {}, {shared}", numeral(r2))
+    });
+    let mut label = Label::new([area.left + 5.0, area.top + 11.0], words, Anchor::Start);
+    label.ink = Ink::Text;
+    canvas.label(label);
     Some((pairs.len(), drawn.len()))
 }

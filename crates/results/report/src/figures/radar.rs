@@ -69,8 +69,14 @@ const ROBUSTNESS: [Axis; 7] = [
     },
 ];
 
-/// Width that fits a phone, with axis names in two lines.
-const WIDTH: f64 = 440.0;
+/// Name and direction of an axis, at its rim.
+pub(super) struct Rim<'a> {
+    pub(super) name: &'a str,
+    pub(super) better: Better,
+}
+
+/// Narrow enough for a telephone, with names of axes in two lines.
+pub(super) const WIDTH: f64 = 440.0;
 const RADIUS: f64 = 130.0;
 
 /// Radars of accuracy, sensor and robustness; empty for a single study.
@@ -106,10 +112,15 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
     let legend: Vec<(usize, String)> = legend.collect();
     canvas.legend([12.0, 18.0], &legend);
     let centre = [WIDTH / 2.0, 226.0];
-    web(axes, centre, &mut canvas);
+    let of_axes = axes.iter().map(|axis| Rim {
+        name: axis.name,
+        better: axis.better,
+    });
+    let of_axes: Vec<Rim<'_>> = of_axes.collect();
+    web(&of_axes, centre, &mut canvas);
     for &at in &drawn {
         let of_one: Vec<Option<(f64, f64)>> = shares.iter().map(|axis| axis[at]).collect();
-        outline(&of_one, axes, centre, at, &names[at], &mut canvas);
+        outline(&of_one, &of_axes, centre, at, &names[at], &mut canvas);
     }
     let barred: Vec<Barred> = axes.iter().flat_map(|axis| axis.barred(studies)).collect();
     let of_drawn = barred.iter().filter(|barred| drawn.contains(&barred.study));
@@ -195,6 +206,30 @@ fn unproven(studies: &[Study], axes: &[Axis]) -> String {
     out
 }
 
+/// Each value as a share of the best, with itself.
+pub(super) fn shares(values: &[Option<f64>], better: Better) -> Vec<Option<(f64, f64)>> {
+    // A share of a negative number says nothing.
+    let values = values
+        .iter()
+        .map(|value| value.filter(|value| *value >= 0.0));
+    let values: Vec<Option<f64>> = values.collect();
+    let known = || values.iter().flatten().copied();
+    let best = match better {
+        Better::Higher => known().fold(0.0, f64::max),
+        _ => known().fold(f64::INFINITY, f64::min),
+    };
+    let share = |value: f64| match better {
+        Better::Higher if best > 0.0 => value / best,
+        Better::Higher => 1.0,
+        _ if value > best => best / value,
+        _ => 1.0,
+    };
+    values
+        .iter()
+        .map(|value| value.map(|value| (share(value), value)))
+        .collect()
+}
+
 impl Axis {
     /// Score of `study` that is drawn on the axis.
     fn drawn<'a>(&self, study: &'a Study) -> Option<&'a Score> {
@@ -247,28 +282,11 @@ impl Axis {
             .iter()
             .map(|study| {
                 let found = study.score(self.metric, self.channel);
-                let found = found
-                    .filter(|score| self.without_place(score).is_none())
-                    .and_then(value);
-                // Shares of negative numbers are meaningless.
-                found.filter(|value| *value >= 0.0)
+                let found = found.filter(|score| self.without_place(score).is_none());
+                found.and_then(value)
             })
             .collect();
-        let known = || values.iter().flatten().copied();
-        let best = match self.better {
-            Better::Higher => known().fold(0.0, f64::max),
-            _ => known().fold(f64::INFINITY, f64::min),
-        };
-        let share = |value: f64| match self.better {
-            Better::Higher if best > 0.0 => value / best,
-            Better::Higher => 1.0,
-            _ if value > best => best / value,
-            _ => 1.0,
-        };
-        values
-            .iter()
-            .map(|value| value.map(|value| (share(value), value)))
-            .collect()
+        shares(&values, self.better)
     }
 }
 
@@ -281,13 +299,13 @@ fn place(axis: usize, count: usize, share: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     ]
 }
 
-fn web(axes: &[Axis], centre: [f64; 2], canvas: &mut Canvas) {
+pub(super) fn web(axes: &[Rim<'_>], centre: [f64; 2], canvas: &mut Canvas) {
     let count = axes.len();
     for ring in [0.25, 0.5, 0.75, 1.0] {
         let points = (0..=count).map(|axis| place(axis % count, count, ring, centre));
         canvas.path(points.collect(), Stroke::thin(Ink::Grid));
     }
-    for (position, axis) in axes.iter().enumerate() {
+    for (position, Rim { name, better }) in axes.iter().enumerate() {
         let end = place(position, count, 1.0, centre);
         canvas.line(centre, end, Stroke::thin(Ink::Grid));
         let [x, y] = place(position, count, 1.09, centre);
@@ -296,11 +314,11 @@ fn web(axes: &[Axis], centre: [f64; 2], canvas: &mut Canvas) {
             off if off < -10.0 => Anchor::End,
             _ => Anchor::Middle,
         };
-        let arrow = match axis.better {
+        let arrow = match better {
             Better::Higher => "↑",
             _ => "↓",
         };
-        let name = format!("{} {arrow}", axis.name);
+        let name = format!("{name} {arrow}");
         let (first, second) = name.split_once(' ').unwrap_or((&name, ""));
         // Names are above the upper half and below the lower half, clear of the web.
         let aside = (y - centre[1]) / RADIUS * 8.0;
@@ -312,9 +330,9 @@ fn web(axes: &[Axis], centre: [f64; 2], canvas: &mut Canvas) {
     }
 }
 
-fn outline(
+pub(super) fn outline(
     shares: &[Option<(f64, f64)>],
-    axes: &[Axis],
+    axes: &[Rim<'_>],
     centre: [f64; 2],
     at: usize,
     name: &str,
@@ -336,13 +354,13 @@ fn outline(
         }
     }
     let mut points = Points::default();
-    for (position, axis) in axes.iter().enumerate() {
+    for (position, Rim { name: axis, .. }) in axes.iter().enumerate() {
         if let (Some(corner), Some((share, value))) = (corner(position), shares[position]) {
             points.at.push(corner);
             points.words.push(format!(
                 "{}, {}: {} ({} % of the best)",
                 short(name, 40),
-                axis.name,
+                axis,
                 numeral(value),
                 numeral(share * 100.0)
             ));

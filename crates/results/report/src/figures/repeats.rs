@@ -13,7 +13,7 @@ use super::overlay::{Ways, Words, draw as overlay};
 /// Magnification of a drawn spread.
 const LARGER: f64 = 3.0;
 
-pub(super) fn curves(studies: &[Study]) -> Option<Figure> {
+pub(super) fn curves(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let words = Words {
         id: "repeatability",
         title: "Repeatability over depth",
@@ -30,7 +30,7 @@ pub(super) fn curves(studies: &[Study]) -> Option<Figure> {
         "spread σ",
         Ways::Straight,
     );
-    overlay(&sheets, studies, 3, words)
+    overlay(&sheets, studies, 3, words, room)
 }
 
 /// Predictions of one point at its greatest common depth.
@@ -41,7 +41,7 @@ struct Cloud {
     n: usize,
 }
 
-pub(super) fn volumes(studies: &[Study]) -> Option<Figure> {
+pub(super) fn volumes(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let names = crate::names::names(studies);
     let clouds: Vec<(usize, Vec<Cloud>)> = studies
         .iter()
@@ -58,7 +58,7 @@ pub(super) fn volumes(studies: &[Study]) -> Option<Figure> {
         width: 300.0,
         height: 300.0,
     };
-    let grid = Grid::new(clouds.len(), 2, first, [74.0, 82.0]);
+    let grid = Grid::new(clouds.len(), 2, first, [74.0, 82.0]).within(room, 16.0);
     let mut canvas = grid.canvas([16.0, 42.0]);
     for (position, (at, clouds)) in clouds.iter().enumerate() {
         let area = grid.area(position);

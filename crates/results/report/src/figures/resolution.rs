@@ -9,7 +9,7 @@ use taceva_results::Value;
 use super::levels::levels;
 use super::overlay::{Line, Sheet, Ways, Words, draw as overlay};
 
-pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let mut sheets = Vec::new();
     for (kind, title) in [("line", "Lines"), ("dot", "Dots")] {
         let mut lines = Vec::new();
@@ -47,5 +47,5 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
             crate::names::listed(&crate::names::names(studies))
         ),
     };
-    overlay(&sheets, studies, 2, words)
+    overlay(&sheets, studies, 2, words, room)
 }

@@ -14,11 +14,11 @@ use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 const WINDOW: usize = 5;
 
 /// Error over distance, and over depth.
-pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
-    vec![one(studies, "distance"), one(studies, "depth")]
+pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Vec<Option<Figure>> {
+    vec![one(studies, "distance", room), one(studies, "depth", room)]
 }
 
-fn one(studies: &[Study], over: &str) -> Option<Figure> {
+fn one(studies: &[Study], over: &str, room: Option<f64>) -> Option<Figure> {
     let mut sheets = Vec::new();
     for channel in SIX {
         let (mut lines, mut unit, mut x_unit) = (Vec::new(), Unit::One, Unit::Millimetre);
@@ -60,11 +60,11 @@ fn one(studies: &[Study], over: &str) -> Option<Figure> {
             crate::names::listed(&crate::names::names(studies))
         ),
     };
-    overlay(&sheets, studies, 3, words)
+    overlay(&sheets, studies, 3, words, room)
 }
 
 /// Rolling mean over non-empty bins, weighted by samples, with the spread of these bins around it.
-fn rolling(curve: &Curve) -> Vec<Level> {
+pub(super) fn rolling(curve: &Curve) -> Vec<Level> {
     let bins: Vec<(f64, f64, u64)> = curve
         .x
         .iter()

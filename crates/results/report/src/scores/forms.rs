@@ -1,14 +1,9 @@
 //! Forms of score tables: every number for programs, and page-sized tables for pages and papers.
 
-use std::collections::BTreeSet;
-
 use taceva_core::Unit;
 use taceva_metrics::Better;
 
-use super::notation::metric;
 use super::{ScoreCell, ScoreRow, ScoreTable};
-use crate::escape::latex as escape;
-use crate::number::numeral;
 use crate::table::{Align, Cell, Column, Direction, Estimate, Row, Table, Words, latex_symbol};
 
 /// Legend of bold numbers, plain and in LaTeX.
@@ -16,19 +11,6 @@ const BOLD: [&str; 2] = [
     "Bold: better than every other sensor that takes part in verdicts, at a level of 5 % after Holm's adjustment.",
     "Bold: better than every other sensor that takes part in verdicts, at a level of 5\\,\\% after Holm's adjustment.",
 ];
-/// The same, shortened for a column.
-const SHORT_BOLD: [&str; 2] = [
-    "Bold: better than every other sensor at a level of 5 % after Holm's adjustment.",
-    "Bold: better than every other sensor at a level of 5\\,\\% after Holm's adjustment.",
-];
-/// Legend of the repeatability symbol, plain and in LaTeX.
-const REPEATABILITY: [&str; 2] = [
-    "σ rep: repeatability.",
-    "$\\sigma_{\\mathrm{rep}}$: repeatability.",
-];
-
-/// Mark of a value that takes no part in verdicts, where the reason does not fit.
-const BARRED: &str = "†";
 
 impl ScoreTable {
     /// Table for programs with one row per score and study, and numbers in shortest round-trip form.
@@ -110,6 +92,7 @@ impl ScoreTable {
                 cells: words.map(Cell::Text).into_iter().chain(cells).collect(),
                 better: Better::of(&row.metric).filter(|_| is_new),
                 begins_group: is_new && !last.is_empty(),
+                heading: None,
             });
             last = &row.metric;
         }
@@ -122,52 +105,7 @@ impl ScoreTable {
         table
     }
 
-    /// Main rows for a column of a paper: one line per score, at most three digits, no intervals.
-    pub fn for_column(&self, caption: &str) -> Table {
-        let main = self.main();
-        let mut table = main.of_studies([Column::new("").direction(Direction::OfRows)]);
-        caption.clone_into(&mut table.caption);
-        for row in &main.rows {
-            let unit = match row.unit {
-                Unit::One => String::new(),
-                unit => format!(" ({unit})"),
-            };
-            let plain = format!("{} {}{unit}", row.metric, row.channel);
-            let latex = format!(
-                "{} {}{}",
-                metric(&row.metric),
-                latex_symbol(&row.channel),
-                escape(&unit)
-            );
-            let name = Cell::Text(Words::new(plain).latex(latex));
-            let cells = row.cells.iter().map(|cell| short(cell.as_ref()));
-            table.push_directed(Better::of(&row.metric), std::iter::once(name).chain(cells));
-        }
-        if main.rows.iter().any(|row| row.metric == "repeatability") {
-            table.note(Words::new(REPEATABILITY[0]).latex(REPEATABILITY[1]));
-        }
-        if main.names.len() > 1 {
-            table.note(Words::new(SHORT_BOLD[0]).latex(SHORT_BOLD[1]));
-        }
-        let cells = main.rows.iter().flat_map(|row| row.cells.iter().flatten());
-        let barred: BTreeSet<&str> = cells
-            .filter(|cell| is_barred(cell))
-            .filter_map(|cell| cell.standing.words())
-            .collect();
-        if !barred.is_empty() {
-            let why: Vec<&str> = barred.into_iter().collect();
-            table.note(format!(
-                "{BARRED}: takes no part in verdicts ({}).",
-                why.join(", ")
-            ));
-        }
-        if let Some(spread) = &main.spread {
-            table.note(Words::new(spread));
-        }
-        table
-    }
-
-    /// Table with these columns and one for each study.
+    /// A table with these columns and one for each study.
     fn of_studies<const N: usize>(&self, columns: [Column; N]) -> Table {
         let studies = self.names.iter();
         let studies = studies.map(|name| Column::new(name.as_str()).align(Align::Right));
@@ -208,6 +146,7 @@ fn estimate(cell: Option<&ScoreCell>) -> Cell {
         formatted: cell.formatted.clone(),
         unit: String::new(),
         remark: cell.remark(),
+        mark: "",
         is_best: cell.is_best,
     }))
 }
@@ -221,27 +160,4 @@ fn without_reason(cell: Option<&ScoreCell>) -> Cell {
         }
         other => other,
     }
-}
-
-/// True for a value that takes no part in verdicts.
-fn is_barred(cell: &ScoreCell) -> bool {
-    cell.value.is_some() && !cell.takes_part()
-}
-
-/// Value with at most three digits, to fit a column.
-fn short(cell: Option<&ScoreCell>) -> Cell {
-    let value = cell.and_then(|cell| cell.value).map(numeral);
-    let mut short = Estimate {
-        is_best: cell.is_some_and(|cell| cell.is_best),
-        ..Estimate::default()
-    };
-    let mark = if cell.is_some_and(is_barred) {
-        BARRED
-    } else {
-        ""
-    };
-    short.formatted.value = value
-        .map(|value| format!("{value}{mark}"))
-        .unwrap_or_default();
-    Cell::Estimate(short)
 }

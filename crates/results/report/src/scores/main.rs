@@ -2,43 +2,28 @@
 
 use super::{ScoreRow, ScoreTable};
 
-/// Metrics shown, in order.
-const METRICS: [&str; 9] = [
-    "mae",
-    "r2",
-    "sr",
-    "sensitivity",
-    "uniformity",
-    "r_spatial",
-    "r_light",
-    "repeatability",
-    "hysteresis",
-];
-/// Metrics limited to depth and normal force, as rows of planes would repeat them.
-const OF_NORMAL: [&str; 3] = ["r_spatial", "r_light", "repeatability"];
+/// The metrics of the main table, in their order.
+const METRICS: [&str; 3] = ["mae", "r2", "smape"];
 
 impl ScoreTable {
-    /// Main rows of a paper: accuracy by plane and normal, detail, sensitivity, and robustness of depth and normal force. If channels have
-    /// other names, all rows of these metrics.
+    /// The rows that a paper shows first: MAE, R² and sMAPE, of planes where there are any. Results without them keep all their scores.
     #[must_use]
     pub fn main(&self) -> ScoreTable {
         let headlines = self.headlines();
-        let has_normal = |metric: &str| {
-            let mut rows = headlines.rows.iter();
-            rows.any(|row| row.metric == metric && is_normal(row))
-        };
-        let is_kept = |row: &&ScoreRow| {
-            let is_known = METRICS.contains(&row.metric.as_str());
-            let is_of_normal = OF_NORMAL.contains(&row.metric.as_str()) && has_normal(&row.metric);
-            is_known && (!is_of_normal || is_normal(row))
-        };
-        ScoreTable {
-            rows: headlines.rows.iter().filter(is_kept).cloned().collect(),
-            ..headlines
+        let rows = headlines.rows.iter();
+        let rows: Vec<ScoreRow> = rows.filter(|row| is_main(row)).cloned().collect();
+        match rows.is_empty() {
+            true => headlines,
+            false => ScoreTable { rows, ..headlines },
         }
+    }
+
+    /// True if every row is of a metric of the main table.
+    pub(super) fn is_of_accuracy(&self) -> bool {
+        !self.rows.is_empty() && self.rows.iter().all(is_main)
     }
 }
 
-fn is_normal(row: &ScoreRow) -> bool {
-    matches!(row.channel.as_str(), "Pz" | "Fz")
+fn is_main(row: &ScoreRow) -> bool {
+    METRICS.contains(&row.metric.as_str())
 }

@@ -27,6 +27,8 @@ pub struct Estimate {
     pub unit: String,
     /// Remark for readers.
     pub remark: Option<String>,
+    /// A sign behind the value that a note explains; empty where there is none.
+    pub mark: &'static str,
     /// True if significantly better than all others of its row.
     pub is_best: bool,
 }
@@ -83,7 +85,10 @@ impl Estimate {
             "" => String::new(),
             unit => format!(" {unit}"),
         };
-        self.with_remark(self.formatted.phrase(&unit))
+        match self.mark {
+            "" => self.with_remark(self.formatted.phrase(&unit)),
+            mark => self.with_remark(self.formatted.phrase(&format!("{mark}{unit}"))),
+        }
     }
 
     fn in_markdown(&self) -> String {
@@ -99,6 +104,7 @@ impl Estimate {
             true => format!("**{value}**"),
             false => value.clone(),
         };
+        let value = format!("{value}{}", self.mark);
         let value = match interval {
             Some([low, high]) => format!("{value} ({low} … {high})"),
             None => value,
@@ -118,6 +124,7 @@ impl Estimate {
             true => format!("\\textbf{{{}}}", number(&self.formatted.value)),
             false => number(&self.formatted.value),
         };
+        let value = format!("{value}{}", escape::latex(self.mark));
         match self.unit.as_str() {
             "" => value,
             unit => format!("{value}\\,{}", escape::latex(unit)),

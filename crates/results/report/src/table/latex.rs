@@ -1,7 +1,8 @@
 //! Tables as LaTeX with booktabs.
 
+use super::room::breakable;
 use super::{Row, Table, Words};
-use crate::escape::latex as escape;
+use crate::escape::{LETTER, LETTER_DEFINITION, latex as escape};
 
 /// Limit of the total letters of column names at the size of the numbers in a page column.
 const LETTERS: usize = 28;
@@ -23,7 +24,17 @@ pub enum Layout {
 impl Table {
     /// LaTeX with booktabs, placed by `layout`.
     pub fn latex(&self, layout: Layout) -> String {
-        let mut out = String::from("% needs \\usepackage{booktabs}\n");
+        let table = self.latex_table(layout);
+        let letters = match table.contains(LETTER) {
+            true => LETTER_DEFINITION,
+            false => "",
+        };
+        format!("% needs \\usepackage{{booktabs}}\n{letters}{table}")
+    }
+
+    /// The environment alone.
+    fn latex_table(&self, layout: Layout) -> String {
+        let mut out = String::new();
         if layout == Layout::Rows {
             out += &format!("\\begin{{tabular}}{{{}}}\n", self.sides());
             out += &self.latex_rows("  ", "");
@@ -31,7 +42,11 @@ impl Table {
         }
         out += "\\begin{table}\n";
         if !self.caption.is_empty() {
-            out += &format!("  \\caption{{{}}}\n", escape(&self.caption));
+            let caption = match layout {
+                Layout::Column => breakable(&self.caption),
+                _ => escape(&self.caption),
+            };
+            out += &format!("  \\caption{{{caption}}}\n");
         }
         match layout {
             Layout::Column => {
@@ -50,7 +65,13 @@ impl Table {
             }
         }
         for note in &self.notes {
-            out += &format!("\n  \\footnotesize {}\n", note.in_latex());
+            out += &match layout {
+                Layout::Column => format!(
+                    "\n  \\par\\vspace{{2pt}}\\noindent\\parbox{{\\columnwidth}}{{\\scriptsize\\raggedright {}}}\n",
+                    breakable(note.plain())
+                ),
+                _ => format!("\n  \\footnotesize {}\n", note.in_latex()),
+            };
         }
         out + "\\end{table}\n"
     }
@@ -96,6 +117,10 @@ impl Table {
         for row in &self.rows {
             if row.begins_group {
                 out += &format!("{indent}\\addlinespace\n");
+            }
+            if let Some(heading) = &row.heading {
+                let (count, heading) = (self.columns.len(), heading.in_latex());
+                out += &format!("{indent}\\multicolumn{{{count}}}{{@{{}}l}}{{{heading}}} \\\\\n");
             }
             let cells = self.words_of(row);
             let cells: Vec<String> = cells.iter().map(Words::in_latex).collect();

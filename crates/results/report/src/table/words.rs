@@ -73,7 +73,7 @@ impl Words {
         own.unwrap_or_else(|| escape::markdown(&self.plain))
     }
 
-    pub(super) fn in_latex(&self) -> String {
+    pub(crate) fn in_latex(&self) -> String {
         let own = self.latex.clone();
         own.unwrap_or_else(|| super::latex::number(&self.plain))
     }

@@ -1,6 +1,6 @@
 //! Every table for papers compiles: with `pdflatex` where it is installed, skipped with the reason printed elsewhere.
 
-use crate::paper::{assert_compiles, assert_fits_a_column};
+use crate::paper::assert_compiles;
 use crate::support::drawn;
 use taceva_core::Unit;
 use taceva_report::{
@@ -24,26 +24,6 @@ fn scores_compile() {
         "headlines",
         &table.headlines().for_papers("Drawn").latex(Layout::Float),
     );
-}
-
-#[test]
-fn the_main_scores_fit_a_column() {
-    let four = ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"].map(|name| drawn(name, 60, 1.0));
-    let table = ScoreTable::of(&four)
-        .for_column("Drawn")
-        .latex(Layout::Column);
-    for part in [
-        "MAE $F_{xy}$ (N) $\\downarrow$",
-        "$R^2$ $P_{z}$ $\\uparrow$",
-        "\\columnwidth",
-    ] {
-        assert!(table.contains(part), "{part}: {table}");
-    }
-    assert_fits_a_column("main scores", &table);
-    let odd = ScoreTable::of(&studies())
-        .for_column(NAME)
-        .latex(Layout::Column);
-    assert_compiles("main scores of odd names", &odd);
 }
 
 #[test]

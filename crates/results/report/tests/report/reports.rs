@@ -130,7 +130,7 @@ fn another_schema_and_what_is_no_number_are_refused_by_their_place() {
     assert!(
         error
             .to_string()
-            .starts_with("metrics.sr.line.curve: expected as many values"),
+            .starts_with("metrics.sr.line.curve: expected one value for each place"),
         "{error}"
     );
 }

@@ -171,6 +171,13 @@ impl Check<'_> {
                     .unknown_name(format.at(), what, &format.value, known));
             }
         }
+        if let Some(like) = &report.like
+            && !ReportSpec::LIKE.contains(&like.value.as_str())
+        {
+            let known = ReportSpec::LIKE.to_vec();
+            let what = "study to report like";
+            return Err(self.text.unknown_name(like.at(), what, &like.value, known));
+        }
         Ok(())
     }
 

@@ -82,13 +82,22 @@ impl MetricSettings {
 
 /// Formats of the report.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table with `formats`")]
+#[serde(
+    deny_unknown_fields,
+    default,
+    expecting = "a table with `formats` and `like`"
+)]
 pub struct ReportSpec {
     /// Any of [`FORMATS`](ReportSpec::FORMATS); text and JSON when empty.
     pub formats: Vec<Setting<String>>,
+    /// Any of [`LIKE`](ReportSpec::LIKE): the published study in whose form tables are written besides; none when absent.
+    pub like: Option<Setting<String>>,
 }
 
 impl ReportSpec {
     /// All formats.
     pub const FORMATS: [&'static str; 6] = ["text", "json", "csv", "md", "tex", "html"];
+
+    /// Every study whose form there is.
+    pub const LIKE: [&'static str; 1] = ["taceva"];
 }

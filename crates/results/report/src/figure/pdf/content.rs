@@ -31,11 +31,16 @@ pub(super) struct Drawn {
 }
 
 impl Painter {
-    /// Painter for an empty page of `height`.
-    pub(super) fn new(height: f64) -> Painter {
+    /// A page of `height`, with nothing on it, on which a unit is `scale` points long.
+    pub(super) fn new(height: f64, scale: f64) -> Painter {
+        let mut content = Content::new();
+        if (scale - 1.0).abs() > 1e-9 {
+            let scale = factor(scale);
+            content.transform([scale, 0.0, 0.0, scale, 0.0, 0.0]);
+        }
         Painter {
             height,
-            content: Content::new(),
+            content,
             opacities: BTreeSet::new(),
             fonts: Face::ALL.map(Used::none_of),
         }
@@ -163,6 +168,12 @@ impl Painter {
 /// Name of the graphics state with `hundredths` of opacity.
 pub(super) fn state_name(hundredths: u8) -> String {
     format!("G{hundredths}")
+}
+
+/// A factor as a file holds it: to a millionth.
+#[expect(clippy::cast_possible_truncation, reason = "a factor near one")]
+fn factor(value: f64) -> f32 {
+    ((value * 1e6).round() / 1e6) as f32
 }
 
 /// Number in the file, rounded to a hundredth.

@@ -233,6 +233,11 @@ fn an_unknown_report_format_is_answered_with_what_there_is() {
         error.contains("unknown report format, did you mean `html`?"),
         "{error}"
     );
+    let error = with("[report]\nlike = \"tacev\"");
+    assert!(
+        error.contains("unknown study to report like, did you mean `taceva`?"),
+        "{error}"
+    );
 }
 
 #[test]

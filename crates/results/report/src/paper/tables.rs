@@ -1,0 +1,301 @@
+//! The tables I to V of the study.
+
+use super::beside::{BARRED, Digits, beside, cell};
+use crate::catalogue::find;
+use crate::results::Study;
+use crate::scores::ScoreTable;
+use crate::table::{Align, Cell, Column, Row, Table, Words, latex_symbol};
+use taceva_metrics::Better;
+
+/// A table of the study, or what it needs.
+pub(super) struct Made {
+    pub(super) number: usize,
+    pub(super) table: Option<Table>,
+    pub(super) needs: &'static str,
+}
+
+/// The planes in the order of the tables of robustness.
+const PLANES: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
+/// The planes in the order of the table of lighting.
+const LIT: [&str; 4] = ["Fxy", "Fz", "Pxy", "Pz"];
+/// Scenes of light.
+const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];
+
+/// Every table, in order.
+pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> [Made; 5] {
+    let made = |number, table: Table, needs| Made {
+        number,
+        table: has_values(&table).then_some(table),
+        needs,
+    };
+    let sheet = Sheet { studies, scores };
+    [
+        made(1, sheet.intrinsic(), "`intrinsic`: facts about the sensors"),
+        made(2, sheet.calibration(), "`mae`, `r2` or `smape` of planes"),
+        made(
+            3,
+            sheet.of_planes(
+                "r_spatial",
+                "Table III. Spatial robustness by plane (mm, N; less is better).",
+            ),
+            "`r_spatial` of planes",
+        ),
+        made(4, sheet.lighting(), "`r_light` of planes, by scene"),
+        made(5, sheet.repeatability(), "`repeatability` of planes"),
+    ]
+}
+
+/// True if a cell has a number of ours.
+fn has_values(table: &Table) -> bool {
+    let mut cells = table.rows.iter().flat_map(|row| &row.cells);
+    cells.any(|cell| matches!(cell, Cell::Estimate(of) if !matches!(of.formatted.value.as_str(), "" | "–")))
+}
+
+/// The results that tables are made of.
+struct Sheet<'a> {
+    studies: &'a [Study],
+    scores: &'a ScoreTable,
+}
+
+impl Sheet<'_> {
+    fn names(&self) -> &[String] {
+        &self.scores.names
+    }
+
+    fn cell(&self, at: usize, metric: &str, channel: &str, digits: Digits) -> Cell {
+        cell(self.studies, self.scores, at, [metric, channel], digits)
+    }
+
+    /// The numbers of the studies that have a value of a metric.
+    fn with(&self, metric: &str) -> Vec<usize> {
+        let has = |at: &usize| {
+            let mut rows = self.scores.rows.iter().filter(|row| row.metric == metric);
+            rows.any(|row| {
+                row.cells[*at]
+                    .as_ref()
+                    .is_some_and(|cell| cell.value.is_some())
+            })
+        };
+        (0..self.studies.len()).filter(has).collect()
+    }
+
+    /// Table I: a row a fact, a column a sensor.
+    fn intrinsic(&self) -> Table {
+        let facts = [
+            ("Resolution (MP)", "camera"),
+            ("Thickness (mm)", "thickness"),
+            ("Field of view (mm²)", "field_of_view"),
+            ("Frame rate (Hz)", "frame_rate"),
+        ];
+        let mut table = self.table(
+            "Table I. Intrinsic properties.",
+            [column("property")]
+                .into_iter()
+                .chain(self.names().iter().map(|name| number_column(name))),
+        );
+        for (name, channel) in facts {
+            let cells = self.studies.iter().map(|study| {
+                let ours = study.score("intrinsic", channel);
+                let ours = ours.and_then(|score| score.value.number());
+                let printed = find(&study.sensor).and_then(|sensor| {
+                    let facts = sensor
+                        .intrinsic
+                        .as_ref()
+                        .filter(|facts| facts.source == "study")?;
+                    Some(match channel {
+                        "camera" => facts.camera_mp,
+                        "thickness" => facts.thickness_mm,
+                        "field_of_view" => facts.field_of_view_mm2,
+                        _ => facts.frame_rate_hz,
+                    })
+                });
+                Cell::Estimate(beside(ours, printed, Digits::Significant(3)))
+            });
+            table.rows.push(Row {
+                cells: [Cell::text(name)].into_iter().chain(cells).collect(),
+                ..Row::default()
+            });
+        }
+        table.note("Beside each value stands the printed one of the study, and ours over it. Our results state pixels of recorded frames, which a scene may reduce, but neither pixels of cameras nor thickness.");
+        table
+    }
+
+    /// Table II: forces, then positions; in each a row a sensor and variable.
+    fn calibration(&self) -> Table {
+        let heads = [("mae", "MAE"), ("r2", "R²"), ("smape", "sMAPE")];
+        let columns = heads.map(|(metric, name)| {
+            let words = match metric {
+                "r2" => Words::new(name).latex("$R^2$"),
+                _ => Words::new(name),
+            };
+            let better = Better::of(metric).unwrap_or(Better::Described);
+            let column = Column::new(words).align(Align::Right);
+            column.direction(crate::table::Direction::Is(better))
+        });
+        let first = ["sensor", "variable"].map(column);
+        let caption = "Table II. Calibration by sensor and variable (MAE in N and mm).";
+        let mut table = self.table(caption, first.into_iter().chain(columns));
+        for block in [["Fxy", "Fz"], ["Pxy", "Pz"]] {
+            for (at, name) in self.names().iter().enumerate() {
+                for (line, channel) in block.into_iter().enumerate() {
+                    let name = if line == 0 { name.as_str() } else { "" };
+                    let variable = Words::new(channel).latex(latex_symbol(channel));
+                    let cells = heads
+                        .map(|(metric, _)| self.cell(at, metric, channel, Digits::Significant(4)));
+                    let words = [Cell::text(name), Cell::text(variable)].into_iter();
+                    table.rows.push(Row {
+                        cells: words.chain(cells).collect(),
+                        begins_group: at == 0 && line == 0 && block[0] == "Pxy",
+                        ..Row::default()
+                    });
+                }
+            }
+        }
+        self.explain(&mut table);
+        table
+    }
+
+    /// A row a plane, a column a sensor.
+    fn of_planes(&self, metric: &str, caption: &str) -> Table {
+        let sensors = self.names().iter().map(|name| number_column(name));
+        let mut table = self.table(caption, [column("plane")].into_iter().chain(sensors));
+        for channel in PLANES {
+            let plane = Words::new(channel).latex(latex_symbol(channel));
+            let cells = (0..self.studies.len())
+                .map(|at| self.cell(at, metric, channel, Digits::Significant(3)));
+            table.rows.push(Row {
+                cells: [Cell::text(plane)].into_iter().chain(cells).collect(),
+                ..Row::default()
+            });
+        }
+        self.explain(&mut table);
+        table
+    }
+
+    /// Table IV: a row a scene and their mean, a column a plane and sensor that light reaches.
+    fn lighting(&self) -> Table {
+        let lit = self.with("r_light");
+        let pairs = LIT
+            .iter()
+            .flat_map(|channel| lit.iter().map(move |at| (*channel, *at)));
+        let pairs: Vec<(&str, usize)> = pairs.collect();
+        let columns = pairs.iter().map(|(channel, at)| {
+            let name = &self.names()[*at];
+            let latex = format!("{} {}", latex_symbol(channel), crate::escape::latex(name));
+            Column::new(Words::new(format!("{channel} {name}")).latex(latex)).align(Align::Right)
+        });
+        let caption = "Table IV. Robustness to lighting by scene (more is better).";
+        let mut table = self.table(caption, [column("scene")].into_iter().chain(columns));
+        for scene in SCENES {
+            let metric = format!("r_light.scene:{scene}");
+            let cells = pairs
+                .iter()
+                .map(|(channel, at)| self.cell(*at, &metric, channel, Digits::Percent));
+            table.rows.push(Row {
+                cells: [Cell::text(scene)].into_iter().chain(cells).collect(),
+                ..Row::default()
+            });
+        }
+        let means = pairs
+            .iter()
+            .map(|(channel, at)| self.cell(*at, "r_light", channel, Digits::Percent));
+        table.rows.push(Row {
+            cells: [Cell::text("Mean")].into_iter().chain(means).collect(),
+            begins_group: true,
+            ..Row::default()
+        });
+        self.explain(&mut table);
+        table
+    }
+
+    /// Table V: a row a sensor, a column a plane.
+    fn repeatability(&self) -> Table {
+        let planes = PLANES.map(|channel| {
+            Column::new(Words::new(channel).latex(latex_symbol(channel))).align(Align::Right)
+        });
+        let caption = "Table V. Repeatability by plane (mm, N; less is better).";
+        let mut table = self.table(caption, [column("sensor")].into_iter().chain(planes));
+        for (at, name) in self.names().iter().enumerate() {
+            let cells = PLANES
+                .map(|channel| self.cell(at, "repeatability", channel, Digits::Significant(3)));
+            table.rows.push(Row {
+                cells: [Cell::text(name.as_str())]
+                    .into_iter()
+                    .chain(cells)
+                    .collect(),
+                ..Row::default()
+            });
+        }
+        self.explain(&mut table);
+        table
+    }
+
+    fn table(&self, caption: &str, columns: impl Iterator<Item = Column>) -> Table {
+        let simulated = self
+            .studies
+            .iter()
+            .filter(|study| study.is_simulated())
+            .count();
+        let whose = match simulated {
+            0 => "",
+            _ if simulated == self.studies.len() => " Our samples are simulated.",
+            _ => " Some of our samples are simulated.",
+        };
+        Table::new(format!("{caption}{whose}"), columns)
+    }
+
+    /// Adds the legend of values, bold and marks.
+    fn explain(&self, table: &mut Table) {
+        let cells = || {
+            let cells = table.rows.iter().flat_map(|row| &row.cells);
+            cells.filter_map(|cell| match cell {
+                Cell::Estimate(estimate) => Some(estimate),
+                _ => None,
+            })
+        };
+        let mut said = Vec::new();
+        if cells().any(|cell| cell.remark.is_some()) {
+            said.push("Beside each value stands the printed one of the study, and ours over it.");
+        }
+        if cells().any(|cell| cell.is_best) {
+            said.push(
+                "Bold: better than every other sensor at a level of 5 % after Holm's adjustment.",
+            );
+        }
+        if cells().any(|cell| cell.mark == BARRED) {
+            said.push("†: not shown to be better than a constant, or not above its noise floor.");
+        }
+        if !said.is_empty() {
+            table.note(said.join(" "));
+        }
+    }
+}
+
+fn column(name: &str) -> Column {
+    Column::new(name).align(Align::Left)
+}
+
+fn number_column(name: &str) -> Column {
+    Column::new(name).align(Align::Right)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_sensor_of_the_study_has_its_printed_numbers() {
+        let study = |sensor: &str| Study {
+            sensor: sensor.to_owned(),
+            ..Study::default()
+        };
+        for sensor in super::super::SENSORS {
+            for channel in PLANES {
+                for metric in ["mae", "r2", "smape", "r_spatial"] {
+                    let found = super::super::beside::printed(&study(sensor), metric, channel);
+                    assert!(found.is_some(), "{sensor} {metric} {channel}");
+                }
+            }
+        }
+    }
+}

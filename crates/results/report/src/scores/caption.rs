@@ -1,0 +1,142 @@
+//! The caption of the main table: one sentence with the number and the source of the samples that were scored.
+
+use std::collections::BTreeSet;
+
+use super::{ScoreCell, ScoreTable};
+use crate::results::Study;
+
+/// The entries of a study that a caption names.
+#[derive(Clone, Debug, Default)]
+pub(super) struct About {
+    sensor: String,
+    model: Option<String>,
+    part: Option<String>,
+    recordings: usize,
+}
+
+impl About {
+    pub(super) fn of(study: &Study) -> About {
+        About {
+            sensor: study.sensor.clone(),
+            model: study.made.model.clone(),
+            part: study.made.part.clone().or_else(|| {
+                let mut parts = study.made.samples.iter();
+                let is_divided = parts.any(|(part, _)| part == "test");
+                is_divided.then(|| "test".to_owned())
+            }),
+            recordings: study.made.recordings,
+        }
+    }
+}
+
+impl ScoreTable {
+    /// The caption of the main table: `Accuracy of GelSight (ridge) on 20 simulated test samples, with 95 % intervals.`
+    pub fn caption(&self) -> String {
+        let main = self.main();
+        let what = match main.is_of_accuracy() {
+            true => "Accuracy",
+            false => "Scores",
+        };
+        let samples = main.samples();
+        let intervals = main.intervals();
+        format!("{what} of {}{samples}{intervals}.", main.subjects())
+    }
+
+    /// `GelSight (ridge)`, `4 sensors`, `3 models of GelSight`
+    fn subjects(&self) -> String {
+        let sensors: BTreeSet<&str> = self.about.iter().map(|of| of.sensor.as_str()).collect();
+        match (self.about.as_slice(), sensors.len()) {
+            ([one], _) => {
+                let name = match one.sensor.as_str() {
+                    "unknown" => "predictions",
+                    _ => self.names.first().map_or("", String::as_str),
+                };
+                match &one.model {
+                    Some(model) => format!("{name} ({model})"),
+                    None => name.to_owned(),
+                }
+            }
+            (several, 1) => {
+                let sensor = several.first().map_or("", |of| of.sensor.as_str());
+                let of = match sensor {
+                    "unknown" => String::new(),
+                    sensor => format!(" of {sensor}"),
+                };
+                format!("{} results{of}", several.len())
+            }
+            (several, _) => format!("{} sensors", several.len()),
+        }
+    }
+
+    /// ` on 20 simulated test samples of 3 recordings`; nothing of published numbers, which rarely say.
+    fn samples(&self) -> String {
+        let sources: BTreeSet<&str> = self.sources.iter().map(String::as_str).collect();
+        if sources.iter().all(|source| *source == "published") {
+            return ", as published".to_owned();
+        }
+        let of = |source: &&str| matches!(*source, "simulated" | "synthetic" | "recorded");
+        let is_plain = sources.iter().all(|source| *source == "recorded");
+        let sources: Vec<&str> = sources.into_iter().filter(of).collect();
+        let source = match is_plain || sources.is_empty() {
+            true => String::new(),
+            false => format!("{} ", sources.join(" and ")),
+        };
+        let parts: BTreeSet<Option<&str>> =
+            self.about.iter().map(|of| of.part.as_deref()).collect();
+        let part = match parts.first() {
+            Some(Some("test")) if parts.len() == 1 => "test ",
+            Some(Some("validation")) if parts.len() == 1 => "validation ",
+            Some(Some("train")) if parts.len() == 1 => "training ",
+            _ => "",
+        };
+        let many = match self.common_n() {
+            Some(1) => "1 ".to_owned(),
+            Some(n) => format!("{n} "),
+            None => String::new(),
+        };
+        let noun = match many.as_str() {
+            "1 " => "sample",
+            _ => "samples",
+        };
+        let each = match self.names.len() > 1 && !many.is_empty() {
+            true => " each",
+            false => "",
+        };
+        let recordings = match self.about.as_slice() {
+            [one] if one.recordings > 1 => format!(" of {} recordings", one.recordings),
+            _ => String::new(),
+        };
+        format!(" on {many}{source}{part}{noun}{each}{recordings}")
+    }
+
+    /// The number of samples behind every value, where it is the same and known.
+    pub(super) fn common_n(&self) -> Option<u64> {
+        let counts: BTreeSet<u64> = self.valued().map(|cell| cell.n).collect();
+        let count = counts.first().copied().filter(|_| counts.len() == 1);
+        count.filter(|n| *n > 0)
+    }
+
+    /// `, with 95 % intervals`, or why there are none.
+    fn intervals(&self) -> String {
+        if self.valued().any(|cell| cell.ends.is_some()) {
+            return ", with 95 % intervals".to_owned();
+        }
+        let reasons: BTreeSet<Option<&str>> = self
+            .valued()
+            .map(|cell| cell.formatted.reason.as_deref()?.strip_prefix("none: "))
+            .collect();
+        let is_published = self.sources.iter().all(|source| source == "published");
+        match reasons.first() {
+            Some(Some(reason)) if reasons.len() == 1 && !is_published => {
+                format!(", without intervals ({reason})")
+            }
+            _ => ", without intervals".to_owned(),
+        }
+    }
+
+    /// Every cell with a value.
+    pub(super) fn valued(&self) -> impl Iterator<Item = &ScoreCell> {
+        let cells = self.rows.iter().flat_map(|row| row.cells.iter().flatten());
+        cells.filter(|cell| cell.value.is_some())
+    }
+}

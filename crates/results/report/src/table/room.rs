@@ -1,0 +1,123 @@
+//! The room that words take in a column of a paper, and words that break where it ends.
+
+use crate::escape::{LETTER, is_set_everywhere, latex as escape};
+
+/// The width of a column of a page of two columns, as IEEE sets them: 3.5 in, in points of TeX, with a little to spare.
+pub(crate) const COLUMN_PT: f64 = 249.0;
+/// Letters of a word that stays in one piece where words may break, and of the pieces of a longer one.
+const WHOLE: usize = 14;
+const PIECE: usize = 4;
+
+/// The gap between two columns of a table, in points.
+pub(crate) const GAP_PT: f64 = 4.0;
+
+/// About how wide words are in the widest font that papers begin with, Computer Modern, at a size of `size_pt`.
+pub(crate) fn letters_pt(words: &str, size_pt: f64) -> f64 {
+    words.chars().map(em).sum::<f64>() * size_pt
+}
+
+/// The width of a letter as a part of the size of the font.
+fn em(letter: char) -> f64 {
+    match letter {
+        'i' | 'j' | 'l' | 'f' | 't' | 'r' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' | '!'
+        | '[' | ']' | '(' | ')' => 0.34,
+        ' ' => 0.38,
+        '0'..='9' => 0.57,
+        'm' | 'w' => 0.95,
+        'M' | 'W' => 1.15,
+        '-' | '−' | '–' | '…' => 0.85,
+        'a'..='z' => 0.61,
+        letter if is_set_everywhere(letter) => 0.88,
+        // Its code point, `U+540D`.
+        _ => 4.2,
+    }
+}
+
+/// Words in LaTeX that break between their letters where a word is long, and behind every letter that may be set as its code point.
+pub(super) fn breakable(text: &str) -> String {
+    let mut out = String::new();
+    for (at, word) in text.split(' ').enumerate() {
+        if at > 0 {
+            out.push(' ');
+        }
+        let is_long = word.chars().count() > WHOLE;
+        let mut whole = String::new();
+        for letter in word.chars() {
+            whole.push(letter);
+            let is_point = escape(letter.encode_utf8(&mut [0; 4])).starts_with(LETTER);
+            if is_point || (is_long && whole.chars().count() >= PIECE) {
+                out += &escape(&whole);
+                out += "\\allowbreak{}";
+                whole.clear();
+            }
+        }
+        out += &escape(&whole);
+    }
+    out
+}
+
+/// Words in LaTeX on as many lines as `width_pt` asks for, to the side `l` or `r`: broken behind a space or a joint, else between letters.
+pub(crate) fn stacked(words: &str, width_pt: f64, size_pt: f64, side: char) -> String {
+    let mut lines: Vec<String> = vec![String::new()];
+    for piece in pieces(words, width_pt, size_pt) {
+        let last = lines.last_mut().map_or("", |line| line.as_str());
+        let joined = format!("{last}{piece}");
+        match letters_pt(joined.trim_end(), size_pt) > width_pt && !last.is_empty() {
+            true => lines.push(piece),
+            false => {
+                lines.pop();
+                lines.push(joined);
+            }
+        }
+    }
+    let lines: Vec<String> = lines.iter().map(|line| escape(line.trim())).collect();
+    match lines.as_slice() {
+        [one] => one.clone(),
+        several => format!("\\shortstack[{side}]{{{}}}", several.join("\\\\")),
+    }
+}
+
+/// Words in pieces that end with a space or a joint, each narrower than `width_pt`.
+fn pieces(words: &str, width_pt: f64, size_pt: f64) -> Vec<String> {
+    let mut pieces = vec![String::new()];
+    let mut ends = false;
+    for letter in words.chars() {
+        let is_full = pieces.last().is_some_and(|piece| {
+            !piece.is_empty() && letters_pt(piece, size_pt) + em(letter) * size_pt > width_pt
+        });
+        if ends || is_full {
+            pieces.push(String::new());
+        }
+        if let Some(piece) = pieces.last_mut() {
+            piece.push(letter);
+        }
+        ends = matches!(letter, ' ' | '_' | '-' | '/' | '.');
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_names_stand_on_several_lines_and_short_ones_on_one() {
+        assert_eq!(stacked("GelSight", 46.0, 7.0, 'r'), "GelSight");
+        assert_eq!(
+            stacked("GelSight Mini 2 (ridge)", 46.0, 7.0, 'r'),
+            "\\shortstack[r]{GelSight\\\\Mini 2\\\\(ridge)}"
+        );
+        assert_eq!(
+            stacked("left_finger", 30.0, 7.0, 'l'),
+            "\\shortstack[l]{left\\_\\\\finger}"
+        );
+        let many = stacked(&"x".repeat(40), 46.0, 7.0, 'r');
+        assert_eq!(many.matches("\\\\").count(), 3, "{many}");
+    }
+
+    #[test]
+    fn long_words_of_a_caption_may_break() {
+        let broken = breakable("of recording_of_monday_morning");
+        assert!(broken.starts_with("of reco\\allowbreak{}rdin"), "{broken}");
+    }
+}

@@ -1,0 +1,189 @@
+//! The form of the TacEva study: its tables compile, hold its printed numbers, and say what is missing.
+
+use serde_json::{Value, json};
+use taceva_report::{FigureStyle, PaperForm, Study, paper_form, study_figures};
+
+use crate::paper::assert_compiles;
+use crate::support;
+
+/// The sensors of the study in an order of our own.
+const SENSORS: [&str; 4] = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];
+
+/// A drawn result of a sensor with scenes of light.
+fn study(sensor: &str) -> Study {
+    let mut result = support::results(sensor, 1.0);
+    for channel in ["Pxy", "Pz", "Fxy", "Fz"] {
+        for metric in ["mae", "r2"] {
+            let score = result["metrics"][metric][channel].clone();
+            if metric == "mae" {
+                result["metrics"]["smape"][channel] = score;
+                result["metrics"]["smape"][channel]["unit"] = "1".into();
+            }
+        }
+        // Steps of depth are counted, as the samples count them.
+        let curve = &mut result["metrics"]["repeatability"][channel]["curve"];
+        let steps = curve["values"].as_array().map_or(0, Vec::len);
+        curve["x"] = (0..steps).map(|step| json!(step as f64)).collect();
+        for (at, scene) in (1..).zip(["S1", "S2", "S3", "S4"]) {
+            let value = json!({"value": 0.01 * f64::from(at), "unit": "1"});
+            result["metrics"]["r_light"][channel][format!("scene:{scene}")] = value;
+        }
+    }
+    support::study(&result)
+}
+
+fn form() -> PaperForm {
+    paper_form(&SENSORS.map(study))
+}
+
+/// The words of every cell of a table.
+fn cells(form: &PaperForm, name: &str) -> Vec<Vec<String>> {
+    let table = form.tables.iter().find(|(own, _)| own == name);
+    let (_, table) = table.unwrap_or_else(|| panic!("no {name}"));
+    table.rows.iter().map(taceva_report::Row::plain).collect()
+}
+
+#[test]
+fn all_five_tables_are_there_and_compile() {
+    let form = form();
+    let names: Vec<&str> = form.tables.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(
+        names,
+        ["table-1", "table-2", "table-3", "table-4", "table-5"]
+    );
+    assert!(form.absent.is_empty());
+    assert_compiles("the form of the study", &form.latex());
+    let markdown = form.markdown();
+    assert!(markdown.contains("72 boards") && markdown.contains("Our samples are simulated"));
+}
+
+#[test]
+fn sensors_of_the_study_stand_in_its_order_with_the_ratio_to_the_printed_number() {
+    let form = form();
+    let calibration = cells(&form, "table-2");
+    assert_eq!(calibration.len(), 16);
+    assert_eq!(
+        calibration[0][..3],
+        ["ViTacTip", "Fxy", "0.1000, 0.01020 (×9.80)"]
+    );
+    assert_eq!(calibration[15][1], "Pz");
+    let light = cells(&form, "table-4");
+    assert_eq!(light[0][1], "1.0 %, 11.5 % (×0.09)");
+    assert_eq!(light[4][0], "Mean");
+}
+
+#[test]
+fn every_printed_number_of_tables_one_to_five_stands_in_its_table() {
+    let text = include_str!("../golden/paper_numbers.json");
+    let printed: Value = serde_json::from_str(text).expect("JSON");
+    let form = form();
+    let mut held = 0;
+    for number in printed["numbers"].as_array().expect("a list") {
+        let (table, Some(value)) = (
+            number["table"].as_str().expect("a table"),
+            number["value"].as_f64(),
+        ) else {
+            continue;
+        };
+        // The study's mean of a column of light is not always that of its rows.
+        let Some(at) = ["I", "II", "III", "IV", "V"]
+            .iter()
+            .position(|known| *known == table)
+        else {
+            continue;
+        };
+        if number["scene"] == "Mean" {
+            continue;
+        }
+        let shown = match table {
+            "IV" => format!("{value:.1} %"),
+            "I" | "III" | "V" => digits(value, 3),
+            _ => digits(value, 4),
+        };
+        let all = cells(&form, &format!("table-{}", at + 1));
+        let is_there = all.iter().flatten().any(|cell| {
+            let mut words = cell.split(", ").skip(1);
+            words.any(|below| below == shown || below.starts_with(&format!("{shown} (")))
+        });
+        assert!(is_there, "{number}: {shown} in {all:?}");
+        held += 1;
+    }
+    assert_eq!(held, 124);
+}
+
+fn digits(value: f64, digits: i32) -> String {
+    let decimals =
+        (0..8).find(|decimals| value * 10_f64.powi(*decimals) >= 10_f64.powi(digits - 1));
+    let decimals = usize::try_from(decimals.unwrap_or(digits)).expect("a few");
+    format!("{value:.decimals$}")
+}
+
+#[test]
+fn results_without_planes_have_no_tables_but_reasons() {
+    let result = json!({
+        "schema": "taceva.evaluation/1.0", "subject": {"sensor": "mine"},
+        "metrics": {"mae": {"yaw": {"value": 0.5, "unit": "1", "n": 3}}}
+    });
+    let form = paper_form(&[support::study(&result)]);
+    assert!(form.tables.is_empty(), "{:?}", form.tables);
+    assert_eq!(form.absent.len(), 5);
+    assert!(form.absent[1].1.contains("`mae`"), "{:?}", form.absent);
+}
+
+#[test]
+fn a_sensor_that_the_study_did_not_measure_stands_alone() {
+    let form = paper_form(&[study("a_b & {c}")]);
+    let calibration = cells(&form, "table-2");
+    assert_eq!(calibration[0][2], "0.1000");
+    assert_compiles("another sensor", &form.latex());
+}
+
+#[test]
+fn figures_three_to_eight_are_drawn_with_the_quantities_of_the_study() {
+    let studies = SENSORS.map(|name| {
+        let mut study = study(name);
+        study.samples = support::drawn(name, 200, 1.0).samples;
+        for score in &mut study.scores {
+            if score.metric == "r_spatial" && score.channel == "Pz" {
+                score.standing = taceva_metrics::Standing::NotAboveNoiseFloor;
+            }
+        }
+        study
+    });
+    let figures = study_figures(&studies, &FigureStyle::default());
+    let drawn: Vec<&str> = figures
+        .drawn
+        .iter()
+        .map(|figure| figure.id.as_str())
+        .collect();
+    let absent: Vec<&str> = figures
+        .absent
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .collect();
+    for name in [
+        "figure-4",
+        "figure-5-radius",
+        "figure-5-depth",
+        "figure-7b",
+        "figure-8a",
+        "figure-8c",
+    ] {
+        assert!(drawn.contains(&name), "{name}: {drawn:?}, {absent:?}");
+    }
+    assert!(absent.contains(&"figure-6a"), "{absent:?}");
+    assert_eq!(drawn.len() + absent.len(), 10);
+    let robustness = figures.drawn.iter().find(|figure| figure.id == "figure-8c");
+    let robustness = robustness.expect("drawn");
+    assert!(
+        robustness.svg().contains("position† ↓"),
+        "the mark of the noise floor"
+    );
+    let caption =
+        "† Not above its noise floor, so that it supports no claim: spatial position of GelSight";
+    assert!(
+        robustness.caption.contains(caption),
+        "{}",
+        robustness.caption
+    );
+}

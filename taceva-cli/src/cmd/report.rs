@@ -1,0 +1,72 @@
+//! `taceva report`.
+
+use std::path::{Path, PathBuf};
+use taceva_core::shown;
+
+use anyhow::bail;
+
+use super::results::{self, Reports};
+use super::{Context, Usage};
+use crate::args::{Like, ReportArgs};
+use crate::report::page::{PAGE, Page};
+use crate::{exit, output, report};
+
+pub(crate) fn run(args: &ReportArgs, context: &Context) -> anyhow::Result<u8> {
+    let table = super::table_scores(&args.table, args.format)?;
+    if !args.result.exists() {
+        return Err(Usage::error(format!(
+            "{}: no such file or folder; expected the folder of a run, or the JSON of run, evaluate or score",
+            shown(&args.result)
+        )));
+    }
+    let folder = folder(args);
+    let page = folder.join(PAGE);
+    if page.exists() && !args.force {
+        bail!(
+            "{} exists already; --force replaces the reports there, --out FOLDER writes them elsewhere",
+            shown(&page)
+        );
+    }
+    let Reports { reports, missing } = results::reports(&args.result)?;
+    for line in missing {
+        context.say(format_args!("{line}"));
+    }
+    let drawn = Page::of(&title(&args.result, &reports), &reports)?;
+    std::fs::create_dir_all(&folder)?;
+    let page = drawn.write_files(&folder, &args.figure.style(), context)?;
+    if let Some(Like::Taceva) = args.like {
+        drawn.write_like_taceva(&folder, &args.figure.style(), context)?;
+    }
+    output::write_as(args.format, None, |out| {
+        report::profiles(&reports, args.format, table, out)
+    })?;
+    context.say(format_args!("look at    {}", shown(&page)));
+    Ok(exit::DONE)
+}
+
+/// The folder to write into: the one asked for, or that of the results.
+fn folder(args: &ReportArgs) -> PathBuf {
+    let beside = || match args.result.is_dir() {
+        true => args.result.clone(),
+        false => args
+            .result
+            .parent()
+            .map_or_else(PathBuf::new, Path::to_owned),
+    };
+    args.folder.clone().unwrap_or_else(beside)
+}
+
+/// The title of the page: that of the one sensor, or the name of the folder or file.
+fn title(result: &Path, reports: &[taceva_results::EvaluationReport]) -> String {
+    match reports {
+        [one] => format!("{}: how well it measures", one.subject.sensor),
+        _ => {
+            let meant = result.canonicalize().unwrap_or_else(|_| result.to_owned());
+            let named = match meant.file_name() {
+                Some(name) if name == results::RESULTS => meant.parent().and_then(Path::file_name),
+                name => name,
+            };
+            named.map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+        }
+    }
+}
