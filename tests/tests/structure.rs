@@ -7,7 +7,7 @@ use taceva_tests::structure::{
 };
 
 /// Most lines of product code, and of all `.rs` files: readers of SQLite, bags, Arrow and protobuf, and angles, cost 6,000 and 11,000 of them.
-const MOST_LINES: (usize, usize) = (199_000, 379_000);
+const MOST_LINES: (usize, usize) = (202_000, 383_500);
 
 /// Most parameters that are tuples.
 const MOST_TUPLES: usize = 74;
