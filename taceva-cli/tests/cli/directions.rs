@@ -53,6 +53,13 @@ fn markdown(text: &str, whence: &str) -> usize {
 
 /// The same of a table in LaTeX: each row that names something, but what only describes, has a sign.
 fn latex(text: &str, whence: &str) -> usize {
+    // Where metrics are columns, their heads have the signs.
+    let heads = text.lines().take_while(|line| !line.contains("midrule"));
+    let heads: String = heads.filter(|line| line.contains(" & ")).collect();
+    let in_heads = heads.matches("arrow$").count();
+    if in_heads > 0 {
+        return in_heads;
+    }
     let rows = text.lines().skip_while(|line| !line.contains("midrule"));
     // Where a metric stands on a line of its own, the rows below it name channels.
     let headings = rows.clone().filter(|line| line.contains("\\multicolumn"));

@@ -107,9 +107,20 @@ impl FormattedValue {
         if has <= most || full.value.contains('e') {
             return full;
         }
+        // An interval needs no more digits than its greater end.
+        let greater = ends.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
+        let coarse = |decimals: &i32| greater * 10_f64.powi(*decimals) >= places * (1.0 - 1e-9);
+        let coarse = (0..15).find(coarse).map_or(most, i32_to_usize).min(most);
+        let hides_an_end = |decimals: usize| {
+            let mut all = ends.into_iter().flatten();
+            all.any(|end| end.abs() >= ROUNDING && is_zero(&fixed(end, decimals)))
+        };
+        let coarse = (coarse..=most)
+            .find(|decimals| !hides_an_end(*decimals))
+            .unwrap_or(most);
         FormattedValue {
             value: fixed(number, most),
-            interval: ends.map(|ends| ends.map(|end| fixed(end, most))),
+            interval: ends.map(|ends| ends.map(|end| fixed(end, coarse))),
             reason: None,
         }
     }
@@ -271,6 +282,10 @@ mod tests {
         assert_eq!(short(0.5, Some([-9.0, 10.0]), 3), "0.5 (-9.0 … 10.0)");
         assert_eq!(short(0.0, Some([-0.5, 0.5]), 2), "0.00 (-0.50 … 0.50)");
         assert_eq!(short(2.34e-7, None, 3), "2.340e-7");
+        assert_eq!(
+            short(0.009_14, Some([0.0055, 0.0152]), 2),
+            "0.0091 (0.006 … 0.015)"
+        );
     }
 
     #[test]

@@ -17,7 +17,7 @@ const BARRED: &str = "†";
 const MOST_ROWS: usize = 18;
 /// The widest name of a row, and of the head of a column, in points of TeX.
 const NAME_PT: f64 = 76.0;
-const HEAD_PT: f64 = 46.0;
+const HEAD_PT: f64 = 47.5;
 /// Sizes of letters of values, and of intervals and heads.
 const VALUE_SIZE: f64 = 8.0;
 const SMALL_SIZE: f64 = 7.0;
@@ -174,7 +174,9 @@ impl ScoreTable {
         if self.rows.iter().any(|row| row.metric == "repeatability") {
             sentences.push("σ rep: repeatability.".to_owned());
         }
-        sentences.extend(self.spread.clone());
+        if self.spread.is_some() {
+            sentences.push("The labels of the sensors differ more than twofold in their spread, which may be part of a difference.".to_owned());
+        }
         (!sentences.is_empty()).then(|| Words::new(sentences.join(" ")))
     }
 }

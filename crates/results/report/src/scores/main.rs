@@ -4,6 +4,8 @@ use super::{ScoreRow, ScoreTable};
 
 /// The metrics of the main table, in their order.
 const METRICS: [&str; 3] = ["mae", "r2", "smape"];
+/// Channels and planes in the order of papers; others follow.
+const CHANNELS: [&str; 8] = ["Fxy", "Fx", "Fy", "Fz", "Pxy", "Px", "Py", "Pz"];
 
 impl ScoreTable {
     /// The rows that a paper shows first: MAE, R² and sMAPE, of planes where there are any. Results without them keep all their scores.
@@ -11,7 +13,12 @@ impl ScoreTable {
     pub fn main(&self) -> ScoreTable {
         let headlines = self.headlines();
         let rows = headlines.rows.iter();
-        let rows: Vec<ScoreRow> = rows.filter(|row| is_main(row)).cloned().collect();
+        let mut rows: Vec<ScoreRow> = rows.filter(|row| is_main(row)).cloned().collect();
+        rows.sort_by_key(|row| {
+            let metric = METRICS.iter().position(|known| *known == row.metric);
+            let channel = CHANNELS.iter().position(|known| *known == row.channel);
+            (metric, channel.unwrap_or(CHANNELS.len()))
+        });
         match rows.is_empty() {
             true => headlines,
             false => ScoreTable { rows, ..headlines },

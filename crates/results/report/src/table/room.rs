@@ -19,14 +19,18 @@ pub(crate) fn letters_pt(words: &str, size_pt: f64) -> f64 {
 /// The width of a letter as a part of the size of the font.
 fn em(letter: char) -> f64 {
     match letter {
-        'i' | 'j' | 'l' | 'f' | 't' | 'r' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' | '!'
-        | '[' | ']' | '(' | ')' => 0.34,
+        'i' | 'j' | 'l' | 'f' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' | '[' | ']' | '('
+        | ')' => 0.34,
         ' ' => 0.38,
         '0'..='9' => 0.57,
+        't' | 'r' | 'I' | 's' => 0.46,
+        'a' | 'c' | 'e' | 'g' | 'o' | 'z' => 0.58,
+        'S' | 'E' | 'F' | 'L' | 'P' | 'J' => 0.76,
         'm' | 'w' => 0.95,
-        'M' | 'W' => 1.15,
+        'M' => 1.05,
+        'W' => 1.17,
         '-' | '−' | '–' | '…' => 0.85,
-        'a'..='z' => 0.61,
+        'a'..='z' => 0.63,
         letter if is_set_everywhere(letter) => 0.88,
         // Its code point, `U+540D`.
         _ => 4.2,
