@@ -180,7 +180,7 @@ const SWEEP: &str = "sweep_version = 1\ndatasets = [\"data\"]\nmodels = [\"ridge
 
 /// The simulated bench as a plugin, packed into `sim.tar` of `folder`.
 #[cfg(target_os = "linux")]
-pub fn packed_plugin(folder: &Path) {
+pub(crate) fn packed_plugin(folder: &Path) {
     let plugin = folder.join("plugin");
     std::fs::create_dir(&plugin).expect("room");
     let built = library("taceva-sim-plugin");

@@ -160,7 +160,7 @@ impl Staged {
 /// folder clears what killed processes left there.
 ///
 /// # Errors
-/// Those of `write`, and of the file system; `path` is what it was then.
+/// Errors of `write` and of the file system; `path` is then unchanged.
 pub fn replace<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&Path) -> Result<(), E>,
@@ -236,7 +236,7 @@ fn clear_changed(parent: &Path) {
     }
 }
 
-/// What stood at `target` before the first of two renames.
+/// The old content of `target`, between two renames.
 fn former_of(target: &Path) -> Option<PathBuf> {
     let mut name = std::ffi::OsString::from(FORMER);
     name.push(target.file_name()?);

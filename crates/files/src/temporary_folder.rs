@@ -69,6 +69,8 @@ impl TemporaryFolder {
             if is_taken || !path.exists() {
                 continue;
             }
+            // After a loss of power there is nothing in the folder without its marker.
+            sync_folder(folder.path())?;
             return Ok(TemporaryFolder {
                 path: folder.keep(),
                 _marker: marker,
@@ -147,7 +149,7 @@ fn remove_dead(path: &Path) -> io::Result<()> {
 
 /// Removes a folder of ours, its marker last, so that what a kill leaves of it is known.
 ///
-/// It stays while somebody reads a folder in it, or while nothing else holds what stood in a place that is empty now.
+/// A folder stays while somebody reads in it, or while it holds the old content of a place that is empty.
 fn remove(path: &Path) -> io::Result<()> {
     let mut inner = Vec::new();
     let mut held = Vec::new();
@@ -176,6 +178,7 @@ fn remove(path: &Path) -> io::Result<()> {
             false => fs::remove_file(path)?,
         }
     }
+    sync_folder(path)?;
     match fs::remove_file(path.join(MARKER)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => fs::remove_dir(path),

@@ -42,7 +42,7 @@ pub struct Beside {
     pub signals: Option<SignalsInfo>,
     /// The list of files that an import read, which is written already.
     pub sources: Option<SourcesInfo>,
-    /// What the recording was before rows were added to it.
+    /// The states of the recording before each addition of rows.
     pub extended: Vec<Extension>,
     /// Edits of its header that were accepted before that.
     pub history: Vec<Edit>,

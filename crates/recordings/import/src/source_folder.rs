@@ -15,7 +15,7 @@ pub(crate) struct SourceFolder {
     given: PathBuf,
     /// Path without links, for comparison.
     canonical: PathBuf,
-    /// What was asked for in it, through any copy of this.
+    /// Paths requested through any copy.
     named: Arc<Mutex<BTreeSet<PathBuf>>>,
 }
 

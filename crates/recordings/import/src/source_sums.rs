@@ -102,7 +102,7 @@ impl SourceSums {
     /// The digests that the dataset keeps of the files that it was imported from; `None` if it keeps none.
     ///
     /// # Errors
-    /// Those of [`Dataset::source_sums`].
+    /// Errors of [`Dataset::source_sums`].
     pub fn of_dataset(dataset: &Dataset) -> Result<Option<SourceSums>, DatasetError> {
         let list = dataset.path().join(layout::SOURCES);
         let text = dataset.source_sums()?;

@@ -59,7 +59,7 @@ pub struct Cache {
     memory: Option<features::Memory>,
     /// True if entries are stored in the folder.
     is_on_disk: bool,
-    /// What killed runs left is cleared once.
+    /// Leftovers of killed runs are removed once.
     cleared: Once,
     notes: Mutex<BTreeSet<String>>,
     records: Mutex<Vec<(usize, StageRecord)>>,

@@ -20,9 +20,9 @@ use super::flood::Flood;
 use super::usage::{Usage, processor_time};
 use super::watch::{PRINTED_MAX, Watch};
 
-/// How much a child may print in the time of a flood.
+/// Limit of output within the time of a flood, bytes.
 const PRINTED_IN_ALL: u64 = 64 << 20;
-/// How much a pipe holds.
+/// Capacity of a pipe, bytes.
 const PIPE_MAX: usize = 64 * 1024;
 
 /// A running child: its process number, its watch and its keeper thread.

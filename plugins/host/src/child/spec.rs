@@ -13,7 +13,7 @@ use super::usage::Usage;
 use crate::library::Log;
 use crate::manifest::Sha256Digest;
 
-/// What is called with how a child ended.
+/// Callback that receives the fate of a child and its times.
 pub(super) type Ended = Box<dyn FnOnce(&Fate, Usage) + Send>;
 
 /// Specification of a child to start.

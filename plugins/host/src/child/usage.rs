@@ -13,7 +13,7 @@ const TICKS_PER_SECOND: u64 = 100;
 pub struct Usage {
     /// From its start to its end.
     pub whole: Duration,
-    /// Of all processors together.
+    /// Processor time of all its threads.
     pub processor: Duration,
     /// In which somebody waited for an answer.
     pub calls: Duration,

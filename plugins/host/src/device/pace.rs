@@ -11,11 +11,11 @@ const LATE_MAX: u32 = 10;
 /// Stamps may gain or lose so much on the clock of this machine between two samples.
 const JUMP: Duration = Duration::from_secs(60);
 
-/// What is known of the samples of one device so far.
+/// Delays and stamps of the samples of one device.
 #[derive(Debug)]
 pub(super) struct Pace {
     rate: Option<Hertz>,
-    /// Of a simulated bench: its time is its own.
+    /// True for a device of a simulated bench, whose time is not that of the host.
     is_simulated: bool,
     late: u32,
     last: Option<(Instant, Duration)>,
@@ -34,7 +34,7 @@ impl Pace {
     /// Takes a sample that was asked for at `asked` and is here `now`, stamped `stamp` on the clock of the device.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// Message about a late device or a jump of its stamps.
     pub(super) fn take(
         &mut self,
         asked: Instant,

@@ -94,7 +94,7 @@ pub(super) fn checked(
     Ok((host, plugin))
 }
 
-/// What is in the file that `taceva plugin pack` wrote, unpacked beside the plugins of the user, where no search looks.
+/// Unpacks a file of `taceva plugin pack` beside the plugins of the user, where no search looks.
 fn unpack(file: &Path, user: &Path) -> anyhow::Result<TemporaryFolder> {
     let named = || shown(file).to_string();
     // Asked before opening: opening a pipe would wait for whoever writes into it.

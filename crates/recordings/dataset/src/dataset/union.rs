@@ -343,6 +343,7 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
     header.table.rows = table.rows() as u64;
     header.table.digest = header.digest;
     header.table.sha256 = header.digest;
+    header.sources = None;
     header
 }
 

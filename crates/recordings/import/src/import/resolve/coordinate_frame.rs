@@ -363,7 +363,7 @@ impl Given<'_> {
         let prefix = prefix(self.column);
         let is_there = |label: &&&str| {
             let is_column = self.table.has(label) || self.table.has(base_of(label));
-            is_column && label.starts_with(prefix)
+            is_column && (label.starts_with(prefix) || is_quantity(prefix))
         };
         let mut has_number = false;
         for label in labels.iter().filter(is_there) {
