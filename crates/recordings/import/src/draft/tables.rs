@@ -51,7 +51,7 @@ pub(super) struct SeenColumn {
     pub(super) cells: Vec<String>,
     /// Shape of the lists in its first cell, if they hold many numbers, as taxels do.
     pub(super) taxels: Option<Vec<usize>>,
-    /// Number of empty cells in the whole column.
+    /// Number of empty cells among the first million rows.
     pub(super) empty: usize,
 }
 
@@ -268,9 +268,12 @@ impl SeenColumn {
     }
 }
 
-/// Number of empty cells of a column.
+/// Maximum number of rows that are searched for empty cells. A small file can state many more.
+const SEARCHED: usize = 1_000_000;
+
+/// Number of empty cells among the first rows of a column.
 fn empty_cells(table: &ForeignTable, name: &str) -> usize {
-    let rows = 0..table.rows();
+    let rows = 0..table.rows().min(SEARCHED);
     rows.filter(|row| table.cell(*row, name).is_ok_and(|cell| cell.is_empty()))
         .count()
 }
