@@ -30,6 +30,7 @@ fn header() -> Header {
         channels: Channels::new([Channel::FZ, Channel::PZ, yaw()]).expect("distinct"),
         attributes: vec!["video".to_owned()],
         views: Vec::new(),
+        sources: None,
         columns: vec![MappedColumn {
             sign: -1,
             offset: vec![0.1],

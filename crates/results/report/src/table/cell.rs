@@ -27,7 +27,7 @@ pub struct Estimate {
     pub unit: String,
     /// Remark for readers.
     pub remark: Option<String>,
-    /// A sign behind the value that a note explains; empty where there is none.
+    /// Sign behind the value, explained by a note; empty if there is none.
     pub mark: &'static str,
     /// True if significantly better than all others of its row.
     pub is_best: bool,

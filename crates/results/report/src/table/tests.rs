@@ -81,6 +81,7 @@ fn an_estimate_is_a_phrase_or_two_lines_of_a_paper() {
             unit: "N".to_owned(),
             remark: (!is_best).then(|| "no skill".to_owned()),
             is_best,
+            mark: "",
         })
     };
     let value = Column::new("value").align(Align::Right);
