@@ -41,7 +41,12 @@ const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
     (
         "printed",
         "formatted",
-        &["taceva-conformance", "taceva-host", "taceva-tests"],
+        &[
+            "taceva-conformance",
+            "taceva-host",
+            "taceva-report",
+            "taceva-tests",
+        ],
     ),
     // A log is told something.
     (

@@ -173,9 +173,9 @@ mod tests {
     fn answers_that_end_and_questions_without_default_are_refused() {
         let ended = interview("", false).number("depth", None, [0.0, 1.0]);
         assert!(ended.expect_err("no answer").to_string().contains("depth"));
-        let silent = interview("", true).number("depth", None, [0.0, 1.0]);
+        let unasked = interview("", true).number("depth", None, [0.0, 1.0]);
         assert!(
-            silent
+            unasked
                 .expect_err("no default")
                 .to_string()
                 .contains("--yes")

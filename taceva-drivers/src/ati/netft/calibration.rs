@@ -27,7 +27,7 @@ pub(super) enum CalibrationError {
         address: SocketAddr,
         source: std::io::Error,
     },
-    #[error("`{key}` in {PAGE} is `{}`, expected {expected}", shown(.found))]
+    #[error("{}, expected {expected}", stated(.key, .found))]
     Entry {
         key: &'static str,
         expected: &'static str,
@@ -141,6 +141,14 @@ fn entry<'a>(page: &'a str, key: &str) -> &'a str {
         .split_once(&format!("<{key}>"))
         .and_then(|(_, behind)| behind.split_once(&format!("</{key}>")));
     between.map_or("", |(value, _)| value.trim())
+}
+
+/// Entry of the page as errors name it; `found` is empty if the page lacks it.
+fn stated(key: &str, found: &str) -> String {
+    match found {
+        "" => format!("{PAGE} has no `{key}`"),
+        found => format!("`{key}` in {PAGE} is `{}`", shown(found)),
+    }
 }
 
 #[cfg(test)]

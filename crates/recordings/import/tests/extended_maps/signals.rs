@@ -220,7 +220,7 @@ fn an_array_of_other_rows_or_numbers_than_the_table_is_refused() {
     );
     write("(2, 3)", &good);
     assert!(
-        said().contains("places = [1, 2] of 1 number say"),
+        said().contains("places = [1, 2] of 1 number give"),
         "{}",
         said()
     );

@@ -158,7 +158,7 @@ fn an_episode_of_two_takes_is_refused_with_the_count_of_both() {
     let folder = case("lerobot-two-takes-one-episode");
     let problem = planned(&folder, &map_of("lerobot-two-takes-one-episode")).expect_err("refused");
     assert!(
-        problem.contains("episode 2 has 12 rows") && problem.contains("says 6"),
+        problem.contains("episode 2 has 12 rows") && problem.contains("states 6"),
         "{problem}"
     );
 }

@@ -114,7 +114,7 @@ mod tests {
             (&[3, 4, 2], "places = [3, 4] would fit it"),
             (&[4, 6], "the shape (4, 6)"),
             (&[23], "the shape (23)"),
-            (&[4, 3, 2, 2], "say (4, 3, 2) or (12, 2) or (24)"),
+            (&[4, 3, 2, 2], "give (4, 3, 2) or (12, 2) or (24)"),
         ] {
             let problem = place_first.check_axes(shape).expect_err("refused");
             assert!(problem.contains(words), "{problem}");

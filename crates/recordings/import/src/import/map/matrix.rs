@@ -97,6 +97,8 @@ mod tests {
                 .is_some_and(|problem| problem.contains("length 1"))
         );
         let short = map.problem(&[vec![1.0], vec![2.0]]);
-        assert!(short.is_some_and(|problem| problem.contains("3 rows of 3 numbers")));
+        assert!(short.is_some_and(|problem| {
+            problem.contains("expected 3 rows, one per channel, of 3 numbers")
+        }));
     }
 }
