@@ -93,7 +93,8 @@ impl Staged {
     fn has_rival(&self) -> bool {
         let name = self.path.file_name().unwrap_or_default();
         folders(parent_of(&self.target), STAGED).any(|other| {
-            other != self.folder.path()
+            // Of one path, another spelling may have been made absolute.
+            other.file_name() != self.folder.path().file_name()
                 && fs::symlink_metadata(other.join(name)).is_ok()
                 && is_living(&other)
         })

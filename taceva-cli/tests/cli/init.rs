@@ -50,9 +50,9 @@ fn a_recording_gets_a_map_by_questions_that_imports_and_evaluates() {
 #[test]
 fn a_recording_without_answers_keeps_its_open_places_with_yes() {
     let bench = lab();
-    let said = bench.ok("init recording lab --yes");
+    let said = bench.ok("init recording lab --yes --out first.toml");
     assert!(said.contains("fill in the 3 places"), "{said}");
-    assert!(read(&bench, "map.toml").contains("unit = \"?\""));
+    assert!(read(&bench, "first.toml").contains("unit = \"?\""));
     bench.refused(
         "init recording lab --yes",
         3,
@@ -63,7 +63,7 @@ fn a_recording_without_answers_keeps_its_open_places_with_yes() {
 #[test]
 fn answers_that_end_are_refused_with_the_question() {
     let bench = lab();
-    let ran = bench.answered("init recording lab", "mm\n");
+    let ran = bench.answered("init recording lab --out first.toml", "mm\n");
     assert_eq!(ran.code, 2, "{}", ran.err);
     assert!(
         ran.err
@@ -71,7 +71,7 @@ fn answers_that_end_are_refused_with_the_question() {
         "{}",
         ran.err
     );
-    assert!(!bench.path("map.toml").exists());
+    assert!(!bench.path("first.toml").exists());
 }
 
 #[test]

@@ -45,7 +45,7 @@ pub(super) fn write(
     let question = format!("sensors, separated by commas ({known})");
     let chosen = interview.ask(&question, sensors.first().map(String::as_str), is_known)?;
     let points = interview.count("contact points", "200", [4, 100_000])?;
-    let presses = interview.count("presses at each, to different depths", "4", [1, 1000])?;
+    let presses = interview.count("depths at each point", "4", [1, 1000])?;
     let models = ["ridge", "fast", "default", "best", "auto"];
     let model = interview.choose("model", &models, Some("fast"))?;
     let wanted = interview.choose("metrics", &["all", "accuracy"], Some("accuracy"))?;

@@ -16,7 +16,7 @@ metrics = { want = ["mae", "r2", "smape"] }
 protocol = { calibration = { points = 80, indentations = 1 } }
 report = { like = "taceva" }
 [[study]]
-name = "dome"
+name = "ViTacTip"
 sensor = { driver = "sim/vitactip:reduction=16" }
 "#;
 
@@ -89,7 +89,7 @@ fn figures_have_the_width_and_the_letters_that_were_asked_for() {
     let drawn = read(&bench.path("print/predicted-1.svg"));
     assert!(drawn.contains(" width=\"249.45pt\"") && drawn.contains("font-family:'Times'"));
     assert!(
-        drawn.contains("R² = ") && drawn.contains("n = 40"),
+        drawn.contains("R² = ") && drawn.contains("n = 60"),
         "{drawn}"
     );
     bench.refused(

@@ -121,18 +121,19 @@ impl Comparison {
         };
         let pairs = number(all, "pair", "pairs");
         let shown = number(shown, "differs", "differ");
-        let equivalent = match equivalent {
-            0 => String::new(),
-            count => number(
-                count,
-                "is equivalent within the margin, ",
-                "are equivalent within the margin, ",
+        let others = [
+            (
+                equivalent,
+                "is equivalent within the margin",
+                "are equivalent within the margin",
             ),
-        };
-        let kept = number(kept, "is not shown to differ", "are not shown to differ");
-        format!(
-            "{pairs} of scores: {shown}, {equivalent}{kept}, {without} cannot be tested{why} (5 %, by Holm over each metric)"
-        )
+            (kept, "is not shown to differ", "are not shown to differ"),
+            (without, "cannot be tested", "cannot be tested"),
+        ];
+        let others = others.iter().filter(|(count, ..)| *count > 0);
+        let others = others.map(|(count, one, more)| format!(", {}", number(*count, one, more)));
+        let others: String = others.collect();
+        format!("{pairs} of scores: {shown}{others}{why} (5 %, by Holm over each metric)")
     }
 
     /// First questions with their answers, in at most [`OVERVIEW_LINES`] lines. With a `width`, lines are cut between words to that many

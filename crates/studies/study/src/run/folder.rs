@@ -6,7 +6,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use taceva_files::{Staged, clear_leftovers, sync_folder};
+use taceva_files::{Staged, clear_leftovers, parent_of, sync_folder};
 use taceva_models::Checkpoints;
 
 use taceva_acquire::PlannedScene;
@@ -173,6 +173,7 @@ fn is_empty(path: &Path) -> io::Result<bool> {
 
 /// Creates the folder of a run under a temporary name and renames it, so that it is absent or complete.
 fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
+    fs::create_dir_all(parent_of(path))?;
     let staged = Staged::beside(path)?;
     for inner in [RECORDINGS, REPORTS, FIGURES] {
         fs::create_dir_all(staged.path().join(inner))?;
