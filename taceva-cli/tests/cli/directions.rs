@@ -78,7 +78,7 @@ fn latex(text: &str, whence: &str) -> usize {
         // The symbol of the sensitivity, which only describes.
         let is_descriptive =
             id.starts_with("$S$") || sign(&id).is_none() && Better::of(&id).is_some();
-        id == "greatest" || is_descriptive
+        ["greatest", "size", "price", "availability"].contains(&id.as_str()) || is_descriptive
     };
     for name in names.filter(|name| !name.is_empty() && !describes(name)) {
         let signs = ["$\\downarrow$", "$\\uparrow$", "$\\to$0"];

@@ -118,7 +118,7 @@ fn every_form_of_a_result_holds_every_score() {
         ("json", "\"ci95\""),
         ("csv", "ci95_low"),
         ("md", "| mae ↓ |"),
-        ("tex", "\\toprule"),
+        ("tex --table all", "\\toprule"),
     ] {
         let out = bench.ok(&format!(
             "evaluate data --model ridge --split by-point --format {format} -q"

@@ -87,7 +87,7 @@ fn without_its_plugin_a_model_is_refused_by_name() {
     bench.refused(
         "evaluate set --with near.model",
         3,
-        "fitted by `org.example.nearest/nearest` of the plugin `org.example.nearest`, which is not among the plugins",
+        "fitted by `org.example.nearest/nearest` of the plugin `org.example.nearest`, which was not found",
     );
     bench.refused(
         &format!("fit set --model {MODEL} --out other.model"),

@@ -13,7 +13,6 @@ fn imported() -> Bench {
 fn arguments_that_cannot_be_meant_are_usage_errors() {
     let bench = imported();
     for (words, message) in [
-        ("evaluate data", "required"),
         ("evaluate data --model rigde", "did you mean `ridge`?"),
         (
             "evaluate data --model ridge --set sise=8",

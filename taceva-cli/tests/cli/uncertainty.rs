@@ -34,7 +34,7 @@ fn a_gaussian_process_writes_its_deviations_and_evaluation_counts_what_lies_with
     let report = bench.json("evaluate data --with process.model --metrics mae");
     let notes = report["provenance"]["notes"].as_array().expect("a list");
     let mut notes = notes.iter().filter_map(|note| note.as_str());
-    let note = notes.find(|note| note.starts_with("within 1.96 predicted"));
+    let note = notes.find(|note| note.starts_with("share of samples within 1.96 predicted"));
     let note = note.expect("deviations are judged");
     assert!(note.contains(&share), "{share} in: {note}");
     assert!(note.contains(&format!("n {}", found.len())), "{note}");

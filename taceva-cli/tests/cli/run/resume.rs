@@ -96,8 +96,8 @@ fn a_gel_that_is_softened_by_use_is_brought_back_to_where_it_was() {
 fn a_signal_stops_a_run_between_motions_and_it_says_how_to_go_on() {
     let bench = with_small();
     bench.write("my plugins/none.txt", "no plugin");
-    let mut command = bench.command("run small.toml --out stopped -q --plugin-dir");
-    command.arg("my plugins");
+    let mut command = bench.command("run small.toml --out stopped -q");
+    command.args(["--plugin-dir", "my plugins"]);
     let mut stopped = Started::of(command, &bench, "stopped");
     stopped.reaches(10_000);
     let id = stopped.child.id().to_string();
