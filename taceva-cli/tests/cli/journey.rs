@@ -125,9 +125,9 @@ fn every_form_of_a_result_holds_every_score() {
         ));
         assert!(out.contains(sign), "{format}:\n{out}");
         assert!(
-            ["mae", "rmse", "bias", "r2", "smape"]
+            ["mae", "rmse", "bias", "smape"]
                 .iter()
-                .all(|metric| out.contains(metric)),
+                .all(|metric| out.to_lowercase().contains(metric)),
             "{format}:\n{out}"
         );
     }
