@@ -270,6 +270,10 @@ fn what_links_at_foretold_names_lead_to_keeps_its_bytes() {
             first.len(),
             foretold.len()
         );
-        assert!(tried > 0, "{name}: nothing was foretold");
+        // An extension makes random names alone, and the place of the dataset is there already.
+        assert!(
+            tried > 0 || name == "extend",
+            "{name}: nothing was foretold"
+        );
     }
 }

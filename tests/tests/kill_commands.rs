@@ -139,7 +139,8 @@ fn a_killed_draft_of_an_archive_is_followed_by_one_that_succeeds() {
     let folder = scratch();
     let folder = folder.path();
     archive(folder);
-    let words = "import lab.tar --draft --out draft.toml -q";
+    // A draft that was written before the kill is replaced.
+    let words = "import lab.tar --draft --out draft.toml --force -q";
     kill_often("draft", folder, words, || without(folder, &["draft.toml"]));
 }
 
