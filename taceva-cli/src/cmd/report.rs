@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use taceva_core::shown;
+use taceva_study::RunFolder;
 
 use anyhow::bail;
 
@@ -56,8 +57,15 @@ fn folder(args: &ReportArgs) -> PathBuf {
     args.folder.clone().unwrap_or_else(beside)
 }
 
-/// The title of the page: that of the one sensor, or the name of the folder or file.
+/// The title of the page: the name of a run's scene, that of the one sensor, or the name of the folder or file.
 fn title(result: &Path, reports: &[taceva_results::EvaluationReport]) -> String {
+    let is_run = result
+        .file_name()
+        .is_some_and(|name| name == results::RESULTS);
+    let folder = result.parent().filter(|_| is_run).unwrap_or(result);
+    if let Some(name) = RunFolder::scene_name(folder) {
+        return name;
+    }
     match reports {
         [one] => format!("{}: how well it measures", one.subject.sensor),
         _ => {

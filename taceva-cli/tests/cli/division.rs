@@ -59,7 +59,7 @@ fn a_stream_is_divided_by_blocks_of_time_and_says_so_first() {
 #[test]
 fn a_stream_that_is_divided_at_random_by_hand_is_marked_in_every_output() {
     let bench = stream(MAP);
-    for format in ["text", "json", "md", "tex --table all"] {
+    for format in ["text", "json", "md", "tex", "tex --table all"] {
         let words =
             format!("evaluate data --model knn --metrics r2 --split random --format {format}");
         let out = bench.ok(&words);

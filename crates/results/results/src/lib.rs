@@ -16,7 +16,7 @@ mod value;
 pub use error::ResultsError;
 pub use formula::{escape_csv, unescape_csv};
 pub use interval::Interval;
-pub use provenance::{ModelProvenance, Provenance, RecordingProvenance};
+pub use provenance::{ModelProvenance, OPTIMISTIC, Provenance, RecordingProvenance};
 pub use report::{EVALUATION_SCHEMA, EvaluationReport, RecordingScores, Skip};
 pub use samples::{SampleChannel, Samples, SamplesError};
 pub use schema::{RUN_SCHEMA, RunReport, read, sealed};

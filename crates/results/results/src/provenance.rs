@@ -5,6 +5,14 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use taceva_core::PressOutcome;
 
+/// Words of every note that calls the scores too good: neighbours or copies of test samples were trained on.
+///
+/// ```
+/// let note = "3 of 9 pictures of the test part are in the fit too: the scores are optimistic";
+/// assert!(note.contains(taceva_results::OPTIMISTIC));
+/// ```
+pub const OPTIMISTIC: &str = "the scores are optimistic";
+
 /// Inputs and settings behind a result.
 ///
 /// Independent of the machine, the time and the number of jobs: equal inputs give equal bytes.

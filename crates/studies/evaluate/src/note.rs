@@ -6,6 +6,7 @@ use std::fmt;
 
 use taceva_core::shown;
 use taceva_dataset::{Extension, FramesInfo};
+use taceva_results::OPTIMISTIC;
 
 pub use division::{Division, Independence, Neighbours, SampleOrder};
 
@@ -305,7 +306,7 @@ impl fmt::Display for Note {
             ),
             Note::Copies { copies, of } => write!(
                 f,
-                "{copies} of {of} pictures of the test part are byte for byte in the fit too: the scores are optimistic (taceva check, \
+                "{copies} of {of} pictures of the test part are byte for byte in the fit too: {OPTIMISTIC} (taceva check, \
                  TAC002 and TAC007)"
             ),
             Note::FittedBefore { rows, now } => write!(

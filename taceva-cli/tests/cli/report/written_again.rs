@@ -46,6 +46,7 @@ fn reports_of_a_run_are_written_again_without_acquiring() {
     );
     for file in [
         "scores.csv",
+        "scores.tex",
         "scores-main.tex",
         "figures/predicted-1.svg",
         "figures/labels.svg",

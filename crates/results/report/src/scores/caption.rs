@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{ScoreCell, ScoreTable};
 use crate::results::Study;
+use taceva_results::OPTIMISTIC;
 
 /// The entries of a study that a caption names.
 #[derive(Clone, Debug, Default)]
@@ -12,6 +13,8 @@ pub(super) struct About {
     model: Option<String>,
     part: Option<String>,
     recordings: usize,
+    /// Notes that call the scores too good.
+    pub(super) optimistic: Vec<String>,
 }
 
 impl About {
@@ -25,6 +28,12 @@ impl About {
                 is_divided.then(|| "test".to_owned())
             }),
             recordings: study.made.recordings,
+            optimistic: study
+                .notes
+                .iter()
+                .filter(|note| note.contains(OPTIMISTIC))
+                .cloned()
+                .collect(),
         }
     }
 }

@@ -174,6 +174,14 @@ impl ScoreTable {
         if self.rows.iter().any(|row| row.metric == "repeatability") {
             sentences.push("σ rep: repeatability.".to_owned());
         }
+        for (about, name) in self.about.iter().zip(&self.names) {
+            let of = if self.names.len() > 1 {
+                format!("{name}: ")
+            } else {
+                String::new()
+            };
+            sentences.extend(about.optimistic.iter().map(|note| format!("{of}{note}.")));
+        }
         if self.spread.is_some() {
             sentences.push("The labels of the sensors differ more than twofold in their spread, which may be part of a difference.".to_owned());
         }

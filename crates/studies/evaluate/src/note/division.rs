@@ -3,6 +3,7 @@
 use std::fmt;
 
 use taceva_core::shown;
+use taceva_results::OPTIMISTIC;
 
 /// Order of the samples, by which they are neighbours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,7 +84,7 @@ pub(super) fn write(
         }
         Division::Separated { beside, of } => write!(
             f,
-            ", and {beside} of {of} test samples have a neighbour in the training part: the scores are optimistic; divide with --split \
+            ", and {beside} of {of} test samples have a neighbour in the training part: {OPTIMISTIC}; divide with --split \
              'cv:5 by-block'"
         ),
     }

@@ -33,6 +33,17 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
+    /// Name of the scene of the run in the folder at `path`; `None` if it holds no scene that can be read.
+    ///
+    /// ```
+    /// assert_eq!(taceva_study::RunFolder::scene_name("no-run".as_ref()), None);
+    /// ```
+    pub fn scene_name(path: &Path) -> Option<String> {
+        let text = fs::read_to_string(path.join(SCENE)).ok()?;
+        let scene = taceva_protocol::Scene::parse_for_rig(SCENE, &text).ok()?;
+        Some(scene.name)
+    }
+
     /// Prepares the folder at `path` for `scene`.
     ///
     /// # Errors
