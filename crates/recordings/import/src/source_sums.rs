@@ -47,7 +47,7 @@ pub struct SourceSums {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum SourceDifference {
-    /// Its bytes have another digest.
+    /// The digest of its bytes differs.
     Changed {
         /// Name within the folder.
         name: String,

@@ -77,7 +77,7 @@ pub struct Plan {
 impl Plan {
     /// Digest of the acquisition: a recording begun under another digest is not continued.
     ///
-    /// It excludes metrics, so a finished acquisition serves a scene that wants fewer metrics from the same presses.
+    /// Excludes metrics, so a finished acquisition serves a scene that wants fewer metrics from the same presses.
     pub fn digest(&self) -> ContentId {
         let contact = &self.contact;
         let hasher = Hasher::new("taceva.plan/1")

@@ -1,4 +1,4 @@
-//! Whether a device keeps the rate that it declares, and the time that it stamps.
+//! Checks of a device's declared rate and of its time stamps.
 
 use std::time::{Duration, Instant};
 

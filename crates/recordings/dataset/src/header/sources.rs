@@ -1,4 +1,4 @@
-//! Which files an import read.
+//! Files that an import read, with their digests.
 
 use serde::{Deserialize, Serialize};
 

@@ -19,7 +19,7 @@ use crate::pack::Span;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FrameEntry {
-    /// Its file, or its pack, relative to the folder of the dataset, with `/`.
+    /// File or pack of the frame, relative to the folder of the dataset, with `/`.
     pub path: String,
     /// The bytes within that file; `None` for all of them.
     pub span: Option<Span>,

@@ -108,7 +108,7 @@ fn gather(
     Ok(())
 }
 
-/// Whether a run writes under that name.
+/// True for a name under which a run writes.
 fn is_partial(name: &str) -> bool {
     name.starts_with(STAGED)
 }
