@@ -150,7 +150,9 @@ mod tests {
         };
         let error = least_squares(wide(&matrix), &targets).expect_err("dependent");
         assert!(
-            error.to_string().starts_with("column 2 is a combination"),
+            error
+                .to_string()
+                .starts_with("column 2 is a linear combination"),
             "{error}"
         );
         let few = Mat::from_fn(2, 3, |row, column| (row * column) as f64);
