@@ -15,11 +15,15 @@ use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable, Taxels};
 use crate::source_folder::SourceFolder;
 use ids::{add_parts, attribute_name, shared_points};
-use sections::{HEAD, Lines, add_frames, add_path, add_section, begun, ended, line, shortened};
+use sections::{HEAD, Lines, add_frames, add_path, add_section, begun, ended, line};
 use signals::signals;
+use taceva_dataset::internal::first_names;
 
 /// Limit of unread items that a draft names.
 const UNREAD: usize = 8;
+
+/// Limit of columns that a comment names.
+const NAMED: usize = 24;
 
 /// Map with one more comment at its beginning.
 pub(super) fn with_note(text: &str, note: &str) -> String {
@@ -148,7 +152,7 @@ pub(super) fn of_table(
         ("No channels", excluded),
     ] {
         if !names.is_empty() {
-            let _ = writeln!(comments, "# {said}: {}", shortened(&names));
+            let _ = writeln!(comments, "# {said}: {}", first_names(&names, NAMED));
         }
     }
     add_section(&mut text, "columns", &format!("{comments}{channels}"));

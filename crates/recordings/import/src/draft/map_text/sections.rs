@@ -12,18 +12,6 @@ pub(super) const HEAD: &str = "\
 map_version = 2
 ";
 
-/// Limit of columns that a comment names.
-const NAMED: usize = 24;
-
-pub(super) fn shortened(names: &[String]) -> String {
-    let more = match names.len().saturating_sub(NAMED) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    let names: Vec<&str> = names.iter().take(NAMED).map(String::as_str).collect();
-    format!("{}{more}", names.join(", "))
-}
-
 /// Lines of a section, each key once.
 #[derive(Default)]
 pub(super) struct Lines(pub(super) String);

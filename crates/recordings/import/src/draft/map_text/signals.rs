@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use super::sections::shortened;
+use super::NAMED;
 use crate::draft::tables::Taxels;
+use taceva_dataset::internal::first_names;
 
 /// Lines of taxels. `others` are alternative columns.
 pub(super) fn signals(taxels: &Taxels, others: &[String]) -> String {
@@ -34,7 +35,7 @@ pub(super) fn signals(taxels: &Taxels, others: &[String]) -> String {
     };
     let mut text = match others {
         [] => String::new(),
-        others => format!("# or: from = {}\n", shortened(others)),
+        others => format!("# or: from = {}\n", first_names(others, NAMED)),
     };
     let unit = match taxels.unit {
         Some(unit) => format!("{unit:?}   # by its name"),
