@@ -248,6 +248,36 @@ impl DatasetError {
         }
     }
 
+    /// An error in a table of labels at `place`.
+    pub fn table(place: Place, problem: String) -> DatasetError {
+        DatasetError::Table { place, problem }
+    }
+
+    /// An error of the image at `path`, without a place that names it.
+    pub fn image(path: &Path, problem: String) -> DatasetError {
+        DatasetError::Image {
+            place: None,
+            path: path.to_owned(),
+            problem,
+        }
+    }
+
+    /// A contradiction in the file at `path`, which belongs to a dataset.
+    pub fn damaged(path: &Path, problem: String) -> DatasetError {
+        DatasetError::Damaged {
+            path: path.to_owned(),
+            problem,
+        }
+    }
+
+    /// A request for something that the dataset at `path` lacks.
+    pub fn request(path: &Path, problem: String) -> DatasetError {
+        DatasetError::Request {
+            path: path.to_owned(),
+            problem,
+        }
+    }
+
     /// An error of the operating system while `doing` something to `path`.
     pub fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> DatasetError {
         let path = path.to_owned();

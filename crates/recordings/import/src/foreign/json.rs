@@ -40,10 +40,7 @@ impl JsonRows {
         let value: Value =
             serde_json::from_str(&whole).map_err(|error| no_json(path, &whole, &error, 0))?;
         let pointer = rows.unwrap_or(if value.is_array() { "/*" } else { "" });
-        let wrong = |problem: String| DatasetError::Table {
-            place: Place::file(path),
-            problem,
-        };
+        let wrong = |problem: String| DatasetError::table(Place::file(path), problem);
         let ways = ways(pointer);
         let mut found = vec![(None, value)];
         for (depth, way) in ways.iter().enumerate() {

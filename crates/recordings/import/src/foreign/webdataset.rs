@@ -11,7 +11,7 @@ use taceva_arrays::ArrayFile;
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::json::json_problem;
-use super::pictures::{Picture, Pictures, Visit, damaged};
+use super::pictures::{Picture, Pictures, Visit};
 use crate::frame_names::FrameNames;
 use samples::{Sample, bytes_at, samples};
 use taceva_dataset::internal::{ImageKind, limits};
@@ -325,7 +325,7 @@ impl Pictures for ShardPictures {
         _order: ChannelOrder,
         each: Visit<'_>,
     ) -> Result<(), DatasetError> {
-        let wrong = |problem: String| damaged(&self.path, problem);
+        let wrong = |problem: String| DatasetError::image(&self.path, problem);
         let mut file = File::open(&self.path).map_err(DatasetError::io("open", &self.path))?;
         for index in sorted {
             let sample = usize::try_from(*index)

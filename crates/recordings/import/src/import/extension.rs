@@ -151,10 +151,7 @@ impl ImportPlan {
         frames: Option<&CopiedFrames>,
     ) -> Result<(), DatasetError> {
         let header = before.header();
-        let refused = |problem: String| DatasetError::Request {
-            path: before.path().to_owned(),
-            problem,
-        };
+        let refused = |problem: String| DatasetError::request(before.path(), problem);
         if !header.presses.is_empty() || header.stream.is_some() {
             return Err(refused(
                 "recorded by a run or a capture, and only they can extend it; import these rows as a separate dataset, and name both when \
