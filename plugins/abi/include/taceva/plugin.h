@@ -4,7 +4,7 @@
  * It is data: a host reads magic, size and version before any code of the plugin runs.
  *
  * Rules that hold everywhere
- *   units      SI: m, rad as unit quaternions, N, N m, ns. A host rounds what crosses to 1 nm, 1e-9 degree and 1e-6 N mm, so that
+ *   units      m, unit quaternions, N, N mm, ns. A host rounds what crosses to 1 nm, 1e-9 degree and 1e-6 N mm, so that
  *              converting units loses nothing and a driver gives the same numbers however it is delivered.
  *   frame      the sensor's: x and y along the gel, z into it; forces are those that press on the gel.
  *   text       UTF-8 with a length, borrowed for the call; never NULL data with a length above 0.
