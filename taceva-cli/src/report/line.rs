@@ -92,11 +92,11 @@ pub(super) fn flags(scores: &[Score]) -> Vec<String> {
         .collect()
 }
 
-/// Scores with limited standing in verdicts: `no skill: Pz Fz`, `bounded: r_light Px Py`.
+/// Scores with limited standing in verdicts: `not better than predicting the mean: mae Pz Fz`.
 pub(super) fn standings(scores: &[Score]) -> Vec<String> {
     let mut said = Vec::new();
     for standing in Standing::ALL {
-        let Some(words) = standing.words() else {
+        let Some(words) = standing.phrase() else {
             continue;
         };
         let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();

@@ -162,7 +162,7 @@ fn without(row: &ScoreRow, table: &ScoreTable) -> String {
     }
 }
 
-/// Sensors without a part in verdicts, with the reason: ` Excluded from verdicts: GelSightWM (no skill).`
+/// Sensors without a part in verdicts, with the reason: ` Excluded from verdicts: GelSightWM (not better than predicting the mean).`
 fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
     let barred = known.iter().filter(|known| !known.cell.takes_part());
     let barred: Vec<String> = barred
