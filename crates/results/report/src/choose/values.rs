@@ -32,7 +32,7 @@ impl Choice {
         let first = ["sensor", "place"].map(Column::new).into_iter();
         let known = self.ranked.len() + self.others.len();
         let caption = format!(
-            "Values side by side, of {known} of {} sensors with a requested number",
+            "Values side by side: {known} of {} sensors have a requested number",
             known + self.unknown.len()
         );
         let mut table = Table::new(caption, first.chain(heads));

@@ -115,7 +115,7 @@ impl Comparison {
             };
             let heading = format!("{}{unit}", answer.named());
             if heading != last {
-                out += &format!("\n{}\n", terminal(&heading));
+                out += &format!("\n{}", wrapped(&terminal(&heading), width, 0));
                 last = heading;
             }
             out += &below(&self.line(answer));

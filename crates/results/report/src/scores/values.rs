@@ -1,5 +1,7 @@
 //! Values side by side for people: scores, published facts, and short words for absent ones.
 
+use taceva_metrics::Better;
+
 use super::column::named;
 use super::main::is_main;
 use super::mark::{BARRED, UNPROVEN};
@@ -79,6 +81,11 @@ impl ScoreTable {
         }
         for note in &notes.0 {
             table.note(note.sentence());
+        }
+        if studies.iter().any(|study| study.source == "published") {
+            table.note(
+                "Source, conditions and date of each published number: taceva catalogue show NAME.",
+            );
         }
         table
     }
@@ -183,8 +190,10 @@ fn value(cell: &ScoreCell, source: &str, mark: &'static str) -> Cell {
 
 /// A line that is no score.
 fn fact_line(key: String, cells: Vec<Option<Cell>>) -> Line<'static> {
+    let metric = key.split(' ').next().unwrap_or_default();
+    let name = Better::of(metric).map_or_else(|| key.clone(), |better| better.beside(&key));
     Line {
-        name: Words::new(key.as_str()),
+        name: Words::new(name),
         key,
         row: None,
         cells,
@@ -222,8 +231,12 @@ fn absence(study: &Study, row: Option<&ScoreRow>, at: usize) -> (&'static str, S
         return ("unknown", reason.to_owned());
     };
     let cell = row.cells.get(at).and_then(Option::as_ref);
-    if let Some(reason) = cell.and_then(|cell| cell.formatted.reason.clone()) {
-        return ("undefined", reason);
+    if let Some(reason) = cell.and_then(|cell| cell.formatted.reason.as_deref()) {
+        return match reason.split_once(": ") {
+            Some(("undefined", reason)) => ("undefined", reason.to_owned()),
+            Some(("not applicable", reason)) => ("not applicable", reason.to_owned()),
+            _ => ("in JSON", reason.to_owned()),
+        };
     }
     let what = format!("metric:{}", row.metric);
     let skip = study.skipped.iter().find(|skip| skip.what == what);

@@ -14,4 +14,5 @@ mod pdf_file;
 mod reports;
 #[path = "../support/mod.rs"]
 mod support;
+mod values;
 mod verdicts;
