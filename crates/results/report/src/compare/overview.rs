@@ -349,11 +349,13 @@ fn values(answers: &[&Answer], is_wanted: impl Fn(&Answer) -> bool) -> Vec<(usiz
 /// Reason that nothing is decided.
 fn untested(answers: &[&Answer], valued: &[(usize, f64)], names: &[String]) -> String {
     let reason = answers.iter().find_map(|answer| answer.reason.as_deref());
-    let reason = reason.unwrap_or("no value");
     match valued {
-        [] => format!("no answer: {reason}"),
+        [] => format!("no answer: {}", reason.unwrap_or("no value")),
         [(at, _)] => format!("only {} has a value", names[*at]),
-        _ => format!("no winner: {reason}"),
+        _ => {
+            let reason = reason.unwrap_or("the score is neither good nor bad by itself");
+            format!("no winner: {reason}")
+        }
     }
 }
 

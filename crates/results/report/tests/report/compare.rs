@@ -6,7 +6,7 @@ use taceva_report::{CompareRequest, Comparison, OVERVIEW_LINES, Study, compare, 
 use taceva_results::Samples;
 
 /// Score with the standard error `error` over twenty clusters.
-fn score(value: f64, error: f64, unit: &str) -> Value {
+pub(crate) fn score(value: f64, error: f64, unit: &str) -> Value {
     json!({
         "value": value, "unit": unit, "n": 80, "ci95": [value - 2.0 * error, value + 2.0 * error],
         "standard_error": error, "clusters": 20, "method": "drawn", "definition": "drawn/1"
@@ -14,7 +14,7 @@ fn score(value: f64, error: f64, unit: &str) -> Value {
 }
 
 /// A study of `scores` by metric and channel; that its model has skill on `channels` is known.
-fn study(sensor: &str, scores: &[(&str, &str, Value)], channels: &[&str]) -> Study {
+pub(crate) fn study(sensor: &str, scores: &[(&str, &str, Value)], channels: &[&str]) -> Study {
     let mut metrics = json!({});
     for (metric, channel, score) in scores {
         metrics[metric][channel] = score.clone();
@@ -31,7 +31,7 @@ fn study(sensor: &str, scores: &[(&str, &str, Value)], channels: &[&str]) -> Stu
 }
 
 /// Studies of one error of Fz with skill, from the worst to the best, far apart.
-fn errors(values: &[(&str, f64)]) -> Vec<Study> {
+pub(crate) fn errors(values: &[(&str, f64)]) -> Vec<Study> {
     let of = |&(sensor, value): &(&str, f64)| {
         study(sensor, &[("mae", "Fz", score(value, 0.01, "N"))], &["Fz"])
     };

@@ -3,6 +3,7 @@
 mod accept;
 mod browser;
 mod compare;
+mod glossary;
 mod golden;
 mod hostile;
 mod latex;
