@@ -59,7 +59,10 @@ fn answers(comparison: &Comparison, args: &Compare, width: Option<usize>) -> Str
     match (args.output.format, args.all) {
         (Format::Md, _) => {
             let summary = escape_markdown(&comparison.summary());
-            format!("{summary}.\n\n{}", comparison.table().markdown())
+            match comparison.answers.is_empty() {
+                true => format!("{summary}.\n"),
+                false => format!("{summary}.\n\n{}", comparison.table().markdown()),
+            }
         }
         (_, true) => comparison.text_within(narrow.unwrap_or(OVERVIEW_WIDTH)),
         (_, false) => comparison.overview(narrow),
