@@ -120,6 +120,18 @@ pub(super) fn standings(scores: &[Score]) -> Vec<String> {
     said
 }
 
+/// Steps that may let verdicts use the scores that they exclude, each once.
+pub(super) fn remedies(scores: &[Score]) -> Vec<&'static str> {
+    let is_met = |standing: &Standing| {
+        let mut valued = scores.iter().filter(|score| score.value.number().is_some());
+        valued.any(|score| score.standing == *standing)
+    };
+    let met = Standing::ALL.into_iter().filter(is_met);
+    let mut remedies: Vec<&str> = met.filter_map(Standing::remedy).collect();
+    remedies.dedup();
+    remedies
+}
+
 /// The maps, curves and matrices that only JSON contains, one line for each metric: `r_spatial Px Py Fz: distance, depth`.
 pub(super) fn pictures(scores: &[Score]) -> Vec<String> {
     let mut pictures: Vec<(&str, Vec<&str>, String)> = Vec::new();

@@ -166,6 +166,13 @@ fn what_a_model_has_seen_shows_no_skill_on_others() {
     assert_eq!(report["metrics"]["mae"]["Fz"]["standing"], "skill unknown");
     let report = bench.json("evaluate data --model baseline --part all --metrics mae");
     assert_eq!(report["metrics"]["mae"]["Fz"]["standing"], "no skill");
+    let text = bench.ok("evaluate data --model baseline --part all --metrics mae -q");
+    for words in [
+        "standing   not better than predicting the mean: ",
+        "narrow it  More contact points, or a score of every point (--split cv:5), would narrow this.",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
 }
 
 #[test]

@@ -136,6 +136,29 @@ impl Standing {
         }
     }
 
+    /// Step that may let verdicts use such a score, in a sentence; `None` if they use it.
+    ///
+    /// ```
+    /// use taceva_metrics::Standing;
+    /// assert!(Standing::NoSkill.remedy().is_some_and(|step| step.contains("--split cv:5")));
+    /// assert_eq!(Standing::Counts.remedy(), None);
+    /// ```
+    pub fn remedy(self) -> Option<&'static str> {
+        match self {
+            Standing::Counts | Standing::SkillUnknown => None,
+            Standing::NoSkill | Standing::NoInterval => Some(
+                "More contact points, or a score of every point (--split cv:5), would narrow this.",
+            ),
+            Standing::NotAboveConstant => Some("More presses of gratings would narrow this."),
+            Standing::NotAboveNoiseFloor => Some("More presses at each place would narrow this."),
+            Standing::Neighbours => {
+                Some("A split by groups or blocks (--split by-block) avoids this.")
+            }
+            Standing::LowStimulus => Some("Stronger light or more different presses avoid this."),
+            Standing::Bounded => Some("A model fitted on a wider range of labels avoids this."),
+        }
+    }
+
     /// Standing of a skill score whose 95 % interval begins at `low`.
     ///
     /// Without an interval there is no evidence for or against skill, and a verdict needs evidence.
@@ -199,6 +222,7 @@ mod tests {
             assert_eq!(standing.reason().is_none(), standing.takes_part());
             let phrase = standing.phrase().unwrap_or_default();
             assert_eq!(phrase.is_empty(), standing == Standing::Counts);
+            assert_eq!(standing.remedy().is_none(), standing.takes_part());
             let reason = standing.reason();
             assert!(reason.is_none_or(|reason| reason.starts_with(&format!("{phrase}: "))));
         }
