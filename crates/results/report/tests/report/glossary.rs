@@ -2,14 +2,18 @@
 
 use serde_json::json;
 use taceva_metrics::Standing;
-use taceva_report::{CompareRequest, Study, compare};
+use taceva_report::{Cell, CompareRequest, Need, Study, catalogue, choose, compare};
 
 use crate::compare::{errors, score, study};
 
-/// Rows of a section of `docs/glossary.md`, as cells.
-fn rows(section: &str) -> Vec<Vec<String>> {
+fn glossary() -> String {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../docs/glossary.md");
-    let text = std::fs::read_to_string(path).expect("there");
+    std::fs::read_to_string(path).expect("there")
+}
+
+/// Rows of a section of the glossary, as cells.
+fn rows(section: &str) -> Vec<Vec<String>> {
+    let text = glossary();
     let (_, after) = text
         .split_once(&format!("\n## {section}\n"))
         .unwrap_or_else(|| panic!("no section {section}"));
@@ -42,6 +46,29 @@ fn every_standing_has_one_row_with_its_phrase_its_word_in_files_and_what_narrows
             "{:?}",
             found[0]
         );
+    }
+}
+
+#[test]
+fn the_words_of_limits_and_of_places_are_in_the_glossary() {
+    let needs = Need::parse("accurate shear, ambient light, rate >= 20 Hz").expect("needs");
+    let mut sensors = catalogue::all();
+    let barred = sensors.iter_mut().flat_map(|sensor| &mut sensor.results);
+    let mut barred = barred.filter(|result| result.metric == "mae" && result.channel == "Fxy");
+    if let Some(result) = barred.next() {
+        result.standing = Standing::NoSkill;
+    }
+    let table = choose(&sensors, &needs).values();
+    let places = table.rows.iter().map(|row| row.plain()[1].clone());
+    let places = places.filter(|place| !place.starts_with(char::is_numeric));
+    let mut words: Vec<String> = places.collect();
+    words.extend([true, false].map(|is_met| Cell::Verdict(is_met).plain()));
+    words.sort();
+    words.dedup();
+    assert_eq!(words.len(), 5, "{words:?}");
+    let text = glossary();
+    for word in words {
+        assert!(text.contains(&format!("`{word}`")), "{word}");
     }
 }
 
