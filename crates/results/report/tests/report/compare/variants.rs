@@ -51,10 +51,10 @@ fn an_unevenness_that_is_no_more_than_chance_gives_no_verdict_and_says_why() {
     let decision = &comparison.decisions()[0];
     assert_eq!(decision.winner, None);
     assert!(
-        decision.words.contains("Few: not above its noise floor"),
+        decision.words.contains("Few: not above chance"),
         "{}",
         decision.words
     );
     let reason = comparison.answers[0].reason.as_deref().unwrap_or_default();
-    assert!(reason.contains("not above its noise floor"), "{reason}");
+    assert!(reason.contains("not above chance"), "{reason}");
 }
