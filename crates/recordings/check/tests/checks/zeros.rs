@@ -107,6 +107,6 @@ fn a_shear_force_that_is_zeroed_anew_steps_beside_a_sound_normal_force() {
     let step = |number: u32| if number < 60 { 0.0 } else { 0.35 };
     let report = with_zero("Fx", true, step);
     let said = message(&report, "TAC035");
-    assert!(said.starts_with("Fx of 50 pictures"), "{said}");
+    assert!(said.starts_with("Fx of 50 similar pictures"), "{said}");
     assert!(!said.contains("Fz"), "{said}");
 }
