@@ -12,7 +12,7 @@ Exact metrics with intervals over arrays, recordings on disk, and models, fitted
 
 from taceva._bar import progress
 from taceva._compare import Comparison, compare
-from taceva._dataset import Dataset, Rows, open
+from taceva._dataset import Dataset, Rows, Samples, open
 from taceva._evaluate import evaluate
 from taceva._figure import Figure
 from taceva._metrics import SIX, TactileMetrics, score, score_tables
@@ -35,6 +35,7 @@ __all__ = [
     "OnnxModel",
     "Result",
     "Rows",
+    "Samples",
     "Score",
     "TactileMetrics",
     "compare",

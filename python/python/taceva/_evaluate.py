@@ -16,7 +16,7 @@ from taceva._dataset import Dataset
 from taceva._column_names import predicted
 from taceva._onnx import OnnxModel
 from taceva._result import Result
-from taceva._settings import setting_words
+from taceva._settings import metric_names, setting_words
 
 
 def evaluate(
@@ -45,8 +45,8 @@ def evaluate(
         - an object with ``fit(X, y)`` and ``predict(X)``, as scikit-learn's: fitted here on ``X``, float32 ``[rows, features]`` (see
           `Dataset.features`, 32×32 gray by default), and ``y``, float64 ``[rows, channels]`` in their units; ``fit`` changes it;
         - `onnx` of a file;
-        - a ``torch.nn.Module``: called in ``eval`` mode without gradients, on its own device, with float32 ``[rows, samples, height, width]``
-          from 0 to 1;
+        - a ``torch.nn.Module``: called in ``eval`` mode without gradients, on its own device and in its own precision, with
+          ``[rows, samples, height, width]`` from 0 to 1;
         - any other callable: called with frames ``[rows, height, width, samples]``, uint8 or uint16.
 
         Modules and callables are used without fitting and return ``[rows, channels]`` in the units of the channels. Give the ``split`` that they
@@ -79,7 +79,7 @@ def evaluate(
         your model are raised unchanged.
     """
     recording = dataset if isinstance(dataset, Dataset) else Dataset(dataset)
-    wanted = [metrics] if isinstance(metrics, str) else list(metrics)
+    wanted = metric_names(metrics)
     words = setting_words(settings)
     if isinstance(model, str | os.PathLike):
         if not bounded:
@@ -160,6 +160,8 @@ def _module(model: Any) -> Callable[[npt.NDArray[Any]], Any]:
 
     weights = next(iter(model.parameters()), None)
     device = torch.device("cpu") if weights is None else weights.device
+    # A module of double or half precision takes pictures of its own precision.
+    number = weights.dtype if weights is not None and weights.is_floating_point() else torch.float32
 
     def call(frames: npt.NDArray[Any]) -> Any:
         scale = np.float32(np.iinfo(frames.dtype).max)
@@ -168,7 +170,7 @@ def _module(model: Any) -> Callable[[npt.NDArray[Any]], Any]:
         model.eval()
         try:
             with torch.inference_mode():
-                return model(torch.from_numpy(pictures).to(device))
+                return model(torch.from_numpy(pictures).to(device, number))
         finally:
             model.train(was_training)
 
