@@ -10,6 +10,7 @@ mod columns;
 mod dataset;
 mod errors;
 mod evaluate;
+mod inventory;
 mod given;
 mod metrics;
 mod plugin;
@@ -33,6 +34,8 @@ mod _taceva {
     use super::errors::{DatasetError, ModelError};
     #[pymodule_export]
     use super::evaluate::{evaluate_named, score_tables};
+    #[pymodule_export]
+    use super::inventory::{found_plugins, metric_titles, model_names};
     #[pymodule_export]
     use super::given::{Given, features};
     #[pymodule_export]

@@ -15,6 +15,7 @@ from taceva._compare import Comparison, compare
 from taceva._dataset import Dataset, Rows, Samples, open
 from taceva._evaluate import evaluate
 from taceva._figure import Figure
+from taceva._inventory import FoundPlugin, metrics, models, plugins
 from taceva._metrics import SIX, TactileMetrics, score, score_tables
 from taceva._onnx import OnnxModel, onnx
 from taceva._record import from_arrays, import_recording
@@ -30,6 +31,7 @@ __all__ = [
     "Dataset",
     "DatasetError",
     "Figure",
+    "FoundPlugin",
     "Interval",
     "ModelError",
     "OnnxModel",
@@ -43,8 +45,11 @@ __all__ = [
     "from_arrays",
     "import_recording",
     "load",
+    "metrics",
+    "models",
     "onnx",
     "open",
+    "plugins",
     "progress",
     "score",
     "score_tables",

@@ -191,6 +191,19 @@ class Dataset:
         train, validation, test = (np.asarray(part, dtype=np.intp) for part in parts)
         return Rows(train, validation, test, name)
 
+    def folds(self, split: str = "cv:5", seed: int = 0) -> list[Rows]:
+        """Divide the rows once for each fold of a cross-validation, as ``taceva evaluate --split cv:5`` does; each row is tested in one fold.
+
+        ``split`` may be ``cv:10``, ``cv:5 by-point``, ``loo by-column:object``, ``leave-one-recording-out`` and others.
+
+        Raises
+        ------
+        ValueError
+            For a split that makes one division, and for more folds than groups.
+        """
+        folds, name = self._inner.folds(split, seed)
+        return [Rows(*(np.asarray(part, dtype=np.intp) for part in parts), split=name) for parts in folds]
+
     def check(self, *, jobs: int = 0) -> dict[str, Any]:
         """Return the findings of ``taceva check --format json``: defects of the recording and notes."""
         return dict(json.loads(self._inner.check(jobs, bar())))

@@ -40,7 +40,7 @@ def evaluate(
     model
         One of
 
-        - a name, such as ``"ridge"``, ``"fast"``, ``"cnn"``, ``"auto"`` or ``"linfa/elastic-net"``: fitted here;
+        - a name, such as ``"ridge"``, ``"fast"``, ``"cnn"``, ``"auto"`` or ``"linfa/elastic-net"``, or the key of a plugin: fitted here; see `models`;
         - the file of a model that ``taceva fit`` wrote, which brings its own split;
         - an object with ``fit(X, y)`` and ``predict(X)``, as scikit-learn's: fitted here on ``X``, float32 ``[rows, features]`` (see
           `Dataset.features`, 32×32 gray by default), and ``y``, float64 ``[rows, channels]`` in their units; ``fit`` changes it;
