@@ -15,6 +15,7 @@ from taceva._compare import Comparison, compare
 from taceva._dataset import Dataset, Rows, Samples, open
 from taceva._evaluate import evaluate
 from taceva._figure import Figure
+from taceva._function_score import score_function
 from taceva._inventory import FoundPlugin, metrics, models, plugins
 from taceva._metrics import SIX, TactileMetrics, score, score_tables
 from taceva._onnx import OnnxModel, onnx
@@ -52,5 +53,6 @@ __all__ = [
     "plugins",
     "progress",
     "score",
+    "score_function",
     "score_tables",
 ]

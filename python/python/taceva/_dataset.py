@@ -224,6 +224,21 @@ class Dataset:
         frame.attrs.update(units=self._units_of(list(frame.columns)), source=self.source, sensor=self.sensor)
         return frame
 
+    def to_xarray(self) -> Any:
+        """Return the labels as an ``xarray.DataArray`` of ``sample`` and ``channel``, with the names of both, units and contact points as coordinates."""
+        import xarray
+
+        points = self._inner.column("point_id")
+        coordinates: dict[str, Any] = {
+            "sample": self.column("sample"),
+            "channel": list(self.channels),
+            "unit": ("channel", list(self.units.values())),
+        }
+        if points is not None:
+            coordinates["point"] = ("sample", points)
+        facts = {"sensor": self.sensor, "source": self.source, "digest": self.digest}
+        return xarray.DataArray(np.array(self.labels()), dims=("sample", "channel"), coords=coordinates, name="labels", attrs=facts)
+
     def _units_of(self, columns: Sequence[str]) -> dict[str, str]:
         units = {"t_s": "s", "spacing_mm": "mm", **self.units}
         return {name: units[name] for name in columns if name in units}

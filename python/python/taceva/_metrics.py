@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
@@ -15,7 +16,7 @@ from taceva._column_names import beside, pair
 from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._result import Result
 from taceva._settings import metric_names
-from taceva._states import opened, sealed
+from taceva._states import gathered, opened, sealed
 
 #: The channels of the TacEva paper: place and depth in mm, forces in N.
 SIX = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
@@ -150,6 +151,52 @@ class TactileMetrics:
             self._sums.merge(sums)
         if both.paired_by is not None:
             self._paired.add(both.paired_by)
+
+    def forward(
+        self,
+        truth: Any,
+        prediction: Any,
+        points: Any = None,
+        *,
+        allow_invalid: bool = False,
+        **fields: Any,
+    ) -> Result:
+        """Add samples as `update` does, and return the scores of these samples alone. An object that is called does the same.
+
+        >>> import taceva
+        >>> metrics = taceva.TactileMetrics(["Fz"])
+        >>> [float(metrics([[0.0]], [[error]])["mae", "Fz"]) for error in (0.5, 0.25)], float(metrics.compute()["mae", "Fz"])
+        ([0.5, 0.25], 0.375)
+        """
+        batch = self._emptied()
+        batch.update(truth, prediction, points, allow_invalid=allow_invalid, **fields)
+        self.merge(batch)
+        return batch.compute()
+
+    __call__ = forward
+
+    def sync(self, gather: Callable[[bytes], Sequence[bytes]] | None = None) -> TactileMetrics:
+        """Return the samples of every process in a new object, the same in each process; this object keeps its own samples alone.
+
+        ``gather`` passes bytes to every process and returns those of all, as ``allgather`` of mpi4py. The default is that of ``torch.distributed``,
+        if it was initialised. Every process calls this method, and all have the same channels and metrics.
+        """
+        # A list of keys has no line break.
+        own = json.dumps(sorted(self._paired)).encode() + b"\n" + self.states()
+        whole = self._emptied()
+        for sent in (gather or gathered)(own):
+            paired, _, states = sent.partition(b"\n")
+            whole.merge_states(states)
+            whole._paired |= set(json.loads(paired))
+        return whole
+
+    def _emptied(self) -> TactileMetrics:
+        """Return an object of the same channels and metrics without samples."""
+        found = TactileMetrics.__new__(TactileMetrics)
+        found._asked = self._asked
+        found._sums = _taceva.Sums(*self._asked)
+        found._paired = set()
+        return found
 
     def compute(self) -> Result:
         """Return the scores of all samples so far; more samples may follow."""

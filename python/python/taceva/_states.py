@@ -1,8 +1,9 @@
-"""States of metrics as bytes, with a digest by which a changed one is refused."""
+"""States of metrics as bytes, with a digest by which a changed one is refused, and their exchange between processes."""
 
 from __future__ import annotations
 
 import hashlib
+import sys
 
 _HEAD = b"taceva.states/1 sha256:"
 
@@ -35,3 +36,13 @@ def opened(states: bytes) -> bytes:
     if sealed(content) != states:
         raise ValueError("the states were changed after states() returned them: the digest differs; send the bytes unchanged")
     return content
+
+
+def gathered(own: bytes) -> list[bytes]:
+    """Return what every process of ``torch.distributed`` has passed, or ``own`` alone where it was not initialised."""
+    torch = sys.modules.get("torch")
+    if torch is None or not torch.distributed.is_available() or not torch.distributed.is_initialized():
+        return [own]
+    found: list[bytes] = [b""] * torch.distributed.get_world_size()
+    torch.distributed.all_gather_object(found, own)
+    return found
