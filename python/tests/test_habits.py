@@ -60,7 +60,7 @@ def test_rmse_and_bias_are_there_and_a_table_says_what_it_leaves_out() -> None:
     error = prediction - truth
     for at, channel in enumerate(SIX):
         assert result["rmse", channel].value == pytest.approx(np.sqrt((error[:, at] ** 2).mean()), rel=1e-12)
-        assert result["bias", channel].value == pytest.approx(error[:, at].mean(), rel=1e-9)
+        assert result["bias", channel].value == pytest.approx(-error[:, at].mean(), rel=1e-9)
     for shown in (str(result), result._repr_html_()):
         assert "Not in this table where a score of the plane is: Px, Py, Fx, Fy" in shown
         assert "No intervals" not in shown

@@ -5,7 +5,7 @@ Exact metrics with intervals over arrays, recordings on disk, and models, fitted
 >>> import numpy as np
 >>> import taceva
 >>> truth = np.array([0.25, 0.50, 1.00])
->>> result = taceva.score(truth, truth + 0.125, channels=["Fz"])
+>>> result = taceva.score(truth, truth + 0.125, channels=["Fz"], independent=True)
 >>> result["mae", "Fz"].value
 0.125
 """
