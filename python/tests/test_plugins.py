@@ -349,6 +349,14 @@ def test_an_estimator_in_python_is_evaluated_by_the_command(tmp_path: Path, prog
     assert f"model {key}" in done.stdout and "Fz" in done.stdout, done.stdout
 
 
+def test_complex_predictions_of_a_plugin_are_refused_as_those_of_any_model(tmp_path: Path, program: Program) -> None:
+    made = new(tmp_path, "estimator", "my-plane")
+    code = made / "__init__.py"
+    code.write_text(code.read_text().replace("return np.einsum(", "return 1j + np.einsum("))
+    done = program.check("org.example.my-plane", made, "--only", "estimator/fits")
+    assert "what the model predicted: expected numbers, found an array of complex128" in "\n".join(done["failed"]), done
+
+
 SCENE = """scene_version = 1
 name = "eye"
 seed = 7

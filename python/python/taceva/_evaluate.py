@@ -10,11 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from taceva import _taceva
-from taceva._arrays import numbers
 from taceva._bar import bar
 from taceva._dataset import Dataset
-from taceva._column_names import predicted
 from taceva._onnx import OnnxModel
+from taceva._predictions import prediction_rows
 from taceva._result import Result
 from taceva._settings import metric_names, setting_words
 
@@ -109,7 +108,7 @@ def evaluate(
         predictions = _fitted(recording, model, given, words, described, jobs)
     else:
         predictions = _called(recording, model, given, batch, jobs)
-    found = _as_rows(predictions, _name_of(model), len(given.target()), given.channels())
+    found = prediction_rows(predictions, _name_of(model), len(given.target()), given.channels())
     text = given.score(recording._inner, _name_of(model), described, found, wanted, jobs)
     return Result(text)
 
@@ -138,7 +137,7 @@ def _called(recording: Dataset, model: Any, given: Any, batch: int, jobs: int) -
         for first in range(0, len(rows), batch):
             own = rows[first : first + batch]
             frames = np.asarray(recording._inner.frames(own, jobs, None))
-            predictions.append(_as_rows(call(frames), _name_of(model), len(own), names))
+            predictions.append(prediction_rows(call(frames), _name_of(model), len(own), names))
             if shown is not None:
                 shown.advance(len(own))
     finally:
@@ -175,17 +174,6 @@ def _module(model: Any) -> Callable[[npt.NDArray[Any]], Any]:
             model.train(was_training)
 
     return call
-
-
-def _as_rows(predictions: Any, name: str, rows: int, channels: list[str]) -> Any:
-    """Return predictions as an array of ``[rows, channels]``; named columns are matched by name."""
-    width = len(channels)
-    found = numbers(predicted(predictions, channels, f"what {name} predicted"), f"what {name} predicted", allow_invalid=True)
-    if found.ndim == 1 and width == 1:
-        found = found[:, np.newaxis]
-    if found.shape != (rows, width):
-        raise ValueError(f"{name} predicted an array of the shape {list(found.shape)}, expected {[rows, width]}: one row per sample, one column per channel")
-    return np.ascontiguousarray(found)
 
 
 def _name_of(model: Any) -> str:
