@@ -10,8 +10,8 @@ mod columns;
 mod dataset;
 mod errors;
 mod evaluate;
-mod inventory;
 mod given;
+mod inventory;
 mod metrics;
 mod plugin;
 mod record;
@@ -35,9 +35,9 @@ mod _taceva {
     #[pymodule_export]
     use super::evaluate::{evaluate_named, score_tables};
     #[pymodule_export]
-    use super::inventory::{found_plugins, metric_titles, model_names};
-    #[pymodule_export]
     use super::given::{Given, features};
+    #[pymodule_export]
+    use super::inventory::{found_plugins, metric_titles, model_names};
     #[pymodule_export]
     use super::metrics::{Sums, unit_of};
     #[pymodule_export]

@@ -6,8 +6,10 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -347,6 +349,55 @@ def test_an_estimator_in_python_is_evaluated_by_the_command(tmp_path: Path, prog
     )
     assert done.returncode == 0, done.stderr
     assert f"model {key}" in done.stdout and "Fz" in done.stdout, done.stdout
+
+
+def silent_fit(folder: Path, seconds: float) -> tuple[str, list[str]]:
+    """A recording and an estimator that prints, says that it begins, and then is silent for so long; the words that evaluate it."""
+    made = new(folder, "estimator", "my-plane")
+    code = made / "__init__.py"
+    begins = f"""        import time
+        print("a printed line")
+        tp.log("the fit begins", "warn")
+        time.sleep({seconds})
+        progress.begin("solve", 1)
+"""
+    text = code.read_text()
+    assert text.count('        progress.begin("solve", 1)\n') == 1
+    code.write_text(text.replace('        progress.begin("solve", 1)\n', begins))
+    force = np.linspace(0, 5, 40)
+    frames = np.zeros((40, 32, 32), np.uint8) + (20 + 40 * force).astype(np.uint8)[:, None, None]
+    taceva.from_arrays(folder / "recording", force, frames, channels=["Fz"], points=np.arange(40) // 2, sensor="plate", source="synthetic")
+    key = "org.example.my-plane/my-plane"
+    words = ["evaluate", str(folder / "recording"), "--model", key, "--split", "by-point", "--metrics", "mae", "--no-cache", "--plugin-dir", str(made)]
+    return key, words
+
+
+def test_what_a_plugin_prints_is_told_where_details_are_asked_for(tmp_path: Path, program: Program) -> None:
+    _, words = silent_fit(tmp_path, 0)
+    quiet, loud = program.run(*words), program.run(*words, "-v")
+    assert quiet.returncode == loud.returncode == 0, quiet.stderr + loud.stderr
+    assert "org.example.my-plane: printed: a printed line" in loud.stderr, loud.stderr
+    assert "a printed line" not in quiet.stderr and "the fit begins" in quiet.stderr, quiet.stderr
+
+
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_against_a_silent_fit_is_answered_at_once_and_ends_it_in_seconds(tmp_path: Path, program: Program, sent: signal.Signals) -> None:
+    key, words = silent_fit(tmp_path, 1000)
+    command = [sys.executable, "-m", "taceva", *words, "--python", str(program.python)]
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=program.variables) as running:
+        assert running.stderr is not None
+        try:
+            before = next((line for line in running.stderr if "the fit begins" in line), None)
+            assert before is not None
+            running.send_signal(sent)
+            begun = time.monotonic()
+            answered = next((line for line in running.stderr if f"stopping the fit of {key}" in line), None)
+            assert answered is not None and time.monotonic() - begun < 5, answered
+            assert running.wait(timeout=30) != 0
+            # Five seconds; the bound is wide, since the machine may be busy, but far from the thirty of other calls.
+            assert time.monotonic() - begun < 20
+        finally:
+            running.kill()
 
 
 def test_complex_predictions_of_a_plugin_are_refused_as_those_of_any_model(tmp_path: Path, program: Program) -> None:

@@ -147,9 +147,10 @@ impl Fitted {
         // The gate of models outside of plugins: complex numbers are refused, and named columns matched by name.
         let names = self.channels.iter().map(|channel| channel.name());
         let names: Vec<&str> = names.collect();
-        let rows = py
-            .import("taceva._predictions")?
-            .call_method1("prediction_rows", (said, "the model", given.samples(), names))?;
+        let rows = py.import("taceva._predictions")?.call_method1(
+            "prediction_rows",
+            (said, "the model", given.samples(), names),
+        )?;
         let table = Table::of(&rows, "the prediction", self.channels.len())?;
         Ok(table.row_by_row(py))
     }
