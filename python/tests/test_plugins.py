@@ -376,6 +376,35 @@ def silent_fit(folder: Path, seconds: float) -> tuple[str, list[str]]:
     return key, words
 
 
+def test_torch_is_told_to_write_no_code_and_its_error_names_the_remedy(tmp_path: Path, program: Program) -> None:
+    head = """
+import sys, types
+flags = []
+library = types.SimpleNamespace(set_flags=flags.append)
+sys.modules["torch"] = types.ModuleType("torch")
+sys.modules["torch"].backends = types.SimpleNamespace(mkldnn=library, nnpack=library)
+"""
+    told = SCALE.replace("self.readings += 1", "self.readings += 1; assert flags == [False, False], flags")
+    done = program.check(KEY, package(tmp_path / "told", head + told), "--only", "force/reads")
+    assert done["failed"] == [] and done["passed"], done
+    fails = SCALE.replace("self.readings += 1", "raise RuntimeError('could not create a primitive')")
+    why = failure(program, package(tmp_path / "fails", fails), "force/reads")
+    assert "oneDNN writes code while it computes" in why and "torch.backends.mkldnn.set_flags(False)" in why, why
+
+
+def test_a_new_network_of_torch_is_that_of_the_examples(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "taceva", "plugin", "new"]
+    words = ["estimator", "my-network", "--language", "python", "--with", "torch"]
+    subprocess.run([*command, *words], cwd=tmp_path, check=True, capture_output=True)
+    example = Path(__file__).parents[2] / "examples/python-plugins/torch-estimator/src/torch_estimator"
+    made = tmp_path / "my-network/src/my_network"
+    network = [(folder / "__init__.py").read_text().split("FILTERS = ")[1].split("plugin = ")[0] for folder in (made, example)]
+    assert network[0] == network[1] and "torch.nn.Conv2d" in network[0]
+    assert 'dependencies = ["taceva", "torch"]' in (tmp_path / "my-network/pyproject.toml").read_text()
+    refused = subprocess.run([*command, "force", "my-scale", *words[2:]], cwd=tmp_path, check=False, capture_output=True, text=True)
+    assert refused.returncode != 0 and "expected `taceva plugin new estimator NAME --language python --with torch`" in refused.stderr
+
+
 def test_what_a_plugin_prints_is_told_where_details_are_asked_for(tmp_path: Path, program: Program) -> None:
     _, words = silent_fit(tmp_path, 0)
     quiet, loud = program.run(*words), program.run(*words, "-v")
