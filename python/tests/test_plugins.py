@@ -441,16 +441,8 @@ def test_complex_predictions_of_a_plugin_are_refused_as_those_of_any_model(tmp_p
     assert "what the model predicted: expected numbers, found an array of complex128" in "\n".join(done["failed"]), done
 
 
-SCENE = """scene_version = 1
-name = "eye"
-seed = 7
-robot = { driver = "sim/robot:gel=gelsight" }
-force = { driver = "sim/force-transducer" }
-model = { name = "ridge", set = { size = "8x6" } }
-sensor = { driver = "org.example.my-eye/my-eye:brightness=180" }
-protocol = { calibration = { points = 6, indentations = 2 } }
-metrics = { want = ["mae", "intrinsic"] }
-"""
+# The study of the guide.
+SCENE = re.findall(r"^```toml eye.toml\n(.*?)^```$", (Path(__file__).parents[2] / "docs/python-plugins.md").read_text(), re.MULTILINE | re.DOTALL)[0]
 
 
 def test_a_sensor_in_python_is_measured_by_a_whole_run_of_the_command(tmp_path: Path, program: Program) -> None:
