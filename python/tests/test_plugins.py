@@ -433,6 +433,22 @@ def test_a_signal_against_a_silent_fit_is_answered_at_once_and_ends_it_in_second
             running.kill()
 
 
+def test_harmless_checks_share_a_process_and_run_alone_where_that_fails(tmp_path: Path, program: Program) -> None:
+    made = new(tmp_path, "estimator", "my-plane")
+    code, key = made / "__init__.py", "org.example.my-plane"
+    text = code.read_text().replace('        progress.begin("solve", 1)', '        Model.fits += 1\n        progress.begin("solve", 1)')
+    text = text.replace("    def save(self) -> bytes:", "    fits = 0\n\n    def save(self) -> bytes:")
+    # A model that only the third fit of a process can save: it keeps its promise in company alone.
+    code.write_text(text.replace("        return self.weights.astype", "        assert Model.fits >= 3\n        return self.weights.astype"))
+    assert program.check(key, made, "--only", "estimator/keeps")["failed"]
+    done = program.check(key, made, "--only", "estimator/fits,estimator/keeps")
+    assert done["failed"] == [] and len(done["passed"]) == 3, done
+    # Three fits in one process are too many for this one, and alone each check needs two at most.
+    code.write_text(text.replace("        Model.fits += 1\n", "        Model.fits += 1\n        assert Model.fits <= 2\n"))
+    done = program.check(key, made, "--only", "estimator/fits,estimator/keeps,estimator/predicts")
+    assert done["failed"] == [] and len(done["passed"]) == 5, done
+
+
 def test_complex_predictions_of_a_plugin_are_refused_as_those_of_any_model(tmp_path: Path, program: Program) -> None:
     made = new(tmp_path, "estimator", "my-plane")
     code = made / "__init__.py"

@@ -33,7 +33,7 @@ pub(crate) enum Plugin {
     New(PluginNew),
     /// Write the headers for plugins in C and C++
     Headers(PluginHeaders),
-    /// Check a plugin against its interface, each check in its own process with a time limit
+    /// Check a plugin against its interface, in processes of its own with a time limit
     Check(PluginCheck),
     /// Write plugin.toml from the data in the library
     Manifest(PluginManifest),
