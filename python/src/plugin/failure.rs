@@ -154,7 +154,7 @@ fn shortened(text: &str, room: usize) -> String {
 
 /// Message of oneDNN, which writes code while it computes; a confined process may not run that.
 const NO_PRIMITIVE: &str = "could not create a primitive";
-const ONEDNN: &str = "; oneDNN writes code while it computes, which a confined plugin may not: import torch at the top of the module, or call torch.backends.mkldnn.set_flags(False)";
+const ONEDNN: &str = "; oneDNN writes code: import torch at the top of the module, or call torch.backends.mkldnn.set_flags(False)";
 
 const TOO_LATE: &str = "failed to map segment";
 

@@ -21,7 +21,7 @@ pub(super) struct PrintedLines {
     begun: Vec<u8>,
     lines: Option<SyncSender<Vec<u8>>>,
     limited: Arc<Limited>,
-    teller: Option<JoinHandle<()>>,
+    thread: Option<JoinHandle<()>>,
 }
 
 impl PrintedLines {
@@ -33,20 +33,20 @@ impl PrintedLines {
         }));
         let limited = Arc::new(limited);
         let (lines, waiting) = sync_channel::<Vec<u8>>(WAITING);
-        let told = Arc::clone(&limited);
-        let teller = std::thread::Builder::new()
+        let shared = Arc::clone(&limited);
+        let thread = std::thread::Builder::new()
             .name("taceva-printed".to_owned())
             .spawn(move || {
                 for line in waiting {
                     let line = shown(&String::from_utf8_lossy(&line));
-                    told.tell(Level::Debug, TARGET, &line);
+                    shared.tell(Level::Debug, TARGET, &line);
                 }
             })?;
         Ok(PrintedLines {
             begun: Vec::new(),
             lines: Some(lines),
             limited,
-            teller: Some(teller),
+            thread: Some(thread),
         })
     }
 
@@ -69,7 +69,7 @@ impl PrintedLines {
             return;
         }
         let lines = self.lines.as_ref();
-        if !lines.is_some_and(|lines| lines.try_send(line).is_ok()) {
+        if lines.is_none_or(|lines| lines.try_send(line).is_err()) {
             self.limited.lose(1);
         }
     }
@@ -80,9 +80,9 @@ impl Drop for PrintedLines {
         self.pass_on();
         // Without a sender the thread ends after the last line.
         self.lines = None;
-        if let Some(teller) = self.teller.take() {
+        if let Some(thread) = self.thread.take() {
             // A panic of the log is ignored.
-            let _ = teller.join();
+            let _ = thread.join();
         }
     }
 }
@@ -94,9 +94,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_are_joined_escaped_divided_and_all_told_at_the_end() {
-        let told = Arc::new(Mutex::new(Vec::new()));
-        let heard = Arc::clone(&told);
+    fn lines_are_joined_and_escaped_and_all_there_at_the_end() {
+        let shared = Arc::new(Mutex::new(Vec::new()));
+        let heard = Arc::clone(&shared);
         let log: Log = Box::new(move |level, target: &str, message: &str| {
             let line = format!("{level:?} {target}: {message}");
             heard.lock().expect("whole").push(line);
@@ -111,13 +111,13 @@ mod tests {
             "Debug printed: \\u{1b}[2Jthree",
             "Debug printed: four",
         ];
-        assert_eq!(*told.lock().expect("whole"), expected);
+        assert_eq!(*shared.lock().expect("whole"), expected);
     }
 
     #[test]
     fn a_flood_of_lines_is_cut_and_counted() {
-        let told = Arc::new(Mutex::new(Vec::new()));
-        let heard = Arc::clone(&told);
+        let shared = Arc::new(Mutex::new(Vec::new()));
+        let heard = Arc::clone(&shared);
         let log: Log = Box::new(move |_, _, message: &str| {
             heard.lock().expect("whole").push(message.to_owned());
         });
@@ -127,9 +127,9 @@ mod tests {
         }
         lines.take(&[b'x'; 3 * LINE_MAX]);
         drop(lines);
-        let told = told.lock().expect("whole");
-        assert!(told.len() < 200, "{}", told.len());
-        let last = told.last().expect("a line");
+        let shared = shared.lock().expect("whole");
+        assert!(shared.len() < 200, "{}", shared.len());
+        let last = shared.last().expect("a line");
         assert!(last.starts_with("lines left out: "), "{last}");
     }
 }
