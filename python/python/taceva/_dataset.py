@@ -188,8 +188,7 @@ class Dataset:
     def split(self, split: str | None = None, seed: int = 0) -> Rows:
         """Divide the rows as ``taceva evaluate --split`` does: ``by-point 70/15/15``, ``random 80/0/20``, ``chronological 90/0/10`` and others."""
         parts, name = self._inner.split(split, seed)
-        train, validation, test = (np.asarray(part, dtype=np.intp) for part in parts)
-        return Rows(train, validation, test, name)
+        return _rows_by_part(parts, name)
 
     def folds(self, split: str = "cv:5", seed: int = 0) -> list[Rows]:
         """Divide the rows once for each fold of a cross-validation, as ``taceva evaluate --split cv:5`` does; each row is tested in one fold.
@@ -202,7 +201,7 @@ class Dataset:
             For a split that makes one division, and for more folds than groups.
         """
         folds, name = self._inner.folds(split, seed)
-        return [Rows(*(np.asarray(part, dtype=np.intp) for part in parts), split=name) for parts in folds]
+        return [_rows_by_part(parts, name) for parts in folds]
 
     def check(self, *, jobs: int = 0) -> dict[str, Any]:
         """Return the findings of ``taceva check --format json``: defects of the recording and notes."""
@@ -321,6 +320,11 @@ class Dataset:
 
     def __reduce__(self) -> tuple[Any, tuple[int, str, str, str | None]]:
         return _arrived, (PICKLE_VERSION, self.path, self.digest, self.view)
+
+
+def _rows_by_part(parts: list[list[int]], split: str) -> Rows:
+    train, validation, test = (np.asarray(part, dtype=np.intp) for part in parts)
+    return Rows(train, validation, test, split)
 
 
 def open(path: str | os.PathLike[str], view: str | None = None) -> Dataset:

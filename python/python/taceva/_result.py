@@ -135,7 +135,12 @@ class Result(Mapping[tuple[str, str], Score]):
     def __getitem__(self, key: tuple[str, str] | str) -> Score | dict[str, Score]:
         if not isinstance(key, str) and not (isinstance(key, tuple) and len(key) == 2):
             raise KeyError(f"{key!r}: expected a metric and a channel, result['mae', 'Fz'], or a metric, result['mae']")
-        metric, channel = (key, None) if isinstance(key, str) else key
+        metric: str
+        channel: str | None
+        if isinstance(key, str):
+            metric, channel = key, None
+        else:
+            metric, channel = key
         scores = {score.channel: score for score in self._scores if score.metric == metric}
         if not scores:
             left_out = self.skipped.get(f"metric:{metric}")
