@@ -171,6 +171,6 @@ def _interval(
     ends = []
     for share in (0.025, 0.975):
         at = shift + normal.inv_cdf(share)
-        turned = normal.cdf(shift + at / (1 - skew * at)) if skew * at < 1 else share
+        turned = normal.cdf(shift + at / (1 - skew * at)) if skew * at < 1 else float(at > 0)
         ends.append(float(np.quantile(drawn, turned)))
     return Interval(ends[0], ends[1], f"BCa over {count} points, {draws} draws, seed {seed}")
