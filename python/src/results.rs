@@ -109,7 +109,7 @@ fn left_out(scores: &ScoreTable, shown: &ScoreTable) -> Option<String> {
     }
     (!channels.is_empty()).then(|| {
         format!(
-            "Not in this table where a score of the plane is: {}. All scores: scores(), to_frame().",
+            "Left out, since scores of their planes are shown: {}. All scores: scores(), to_frame().",
             channels.join(", ")
         )
     })

@@ -62,12 +62,12 @@ def test_rmse_and_bias_are_there_and_a_table_says_what_it_leaves_out() -> None:
         assert result["rmse", channel].value == pytest.approx(np.sqrt((error[:, at] ** 2).mean()), rel=1e-12)
         assert result["bias", channel].value == pytest.approx(-error[:, at].mean(), rel=1e-9)
     for shown in (str(result), result._repr_html_()):
-        assert "Not in this table where a score of the plane is: Px, Py, Fx, Fy" in shown
+        assert "Left out, since scores of their planes are shown: Px, Py, Fx, Fy" in shown
         assert "No intervals" not in shown
     assert "No intervals, since the contact points are unknown" in str(taceva.score(truth, prediction))
     assert "independent=True" in taceva.score(truth, prediction)._repr_html_()
     alone = taceva.score(truth[:, 5], prediction[:, 5], channels=["Fz"], metrics="all", independent=True)
-    assert "Not in this table" not in str(alone) and "No intervals" not in str(alone)
+    assert "Left out" not in str(alone) and "No intervals" not in str(alone)
     skipped = [what.removeprefix("metric:") for what in alone.skipped]
     assert skipped and f"Skipped: {', '.join(skipped)}." in str(alone)
 
