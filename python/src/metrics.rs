@@ -115,8 +115,8 @@ impl Sums {
     ) -> PyResult<Sums> {
         let channels = channels_of(&channels)?;
         let with_period = |channel: &Channel| match periods.get(channel.name()) {
-            Some(period) => channel.clone().with_period(*period).map_err(value_error),
-            None => Ok(channel.clone()),
+            Some(period) => channel.with_period(*period).map_err(value_error),
+            None => Ok(*channel),
         };
         let channels: Vec<Channel> = channels.iter().map(with_period).collect::<PyResult<_>>()?;
         let channels = Channels::new(channels).map_err(value_error)?;
@@ -273,7 +273,7 @@ fn channel(name: &str, unit: &str) -> PyResult<Channel> {
         ))
     })?;
     match Channel::SIX.iter().find(|known| known.name() == name) {
-        Some(known) if known.unit() == unit => Ok(known.clone()),
+        Some(known) if known.unit() == unit => Ok(*known),
         Some(known) => Err(value_error(format_args!(
             "channel {name} is in {}, found {unit}: convert it first",
             known.unit()

@@ -41,6 +41,12 @@ pub(crate) fn check_free(path: &Path, force: bool) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Width of the terminal that shows standard output, in characters; `None` if it is no terminal.
+pub(crate) fn terminal_width() -> Option<usize> {
+    let (width, _) = terminal_size::terminal_size_of(io::stdout())?;
+    Some(usize::from(width.0))
+}
+
 /// Writes text to standard output, or a file of any kind to `path`.
 ///
 /// A file is written to a temporary path, synced and renamed, so that it is absent or complete.

@@ -1,12 +1,14 @@
 //! Measured quantities: the six channels of a contact, and named extra ones.
 
-use std::borrow::Cow;
+mod name;
+
 use std::fmt;
 use std::num::NonZeroU16;
 
+use self::name::{ChannelName, NAME_MAX};
 use crate::unit::Unit;
 
-/// One measured quantity: a name and a unit.
+/// One measured quantity: a name and a unit. A plain value, copied like a number.
 ///
 /// # Units
 /// `Px Py Pz` in mm and `Fx Fy Fz` in N. `Pz` is the indentation, positive into the gel; `Fz` is positive in compression;
@@ -18,9 +20,9 @@ use crate::unit::Unit;
 /// assert_eq!((turn.name(), Channel::FZ.unit()), ("Rx", Unit::Newton));
 /// # Ok::<(), taceva_core::ChannelError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Channel {
-    name: Cow<'static, str>,
+    name: ChannelName,
     unit: Unit,
     period: Option<NonZeroU16>,
 }
@@ -49,11 +51,11 @@ impl Channel {
     ];
 
     /// Longest name of an extra channel, in bytes.
-    pub const NAME_MAX: usize = 32;
+    pub const NAME_MAX: usize = NAME_MAX;
 
-    const fn fixed(name: &'static str, unit: Unit) -> Channel {
+    const fn fixed(name: &str, unit: Unit) -> Channel {
         Channel {
-            name: Cow::Borrowed(name),
+            name: ChannelName::new(name),
             unit,
             period: None,
         }
@@ -67,7 +69,7 @@ impl Channel {
     pub fn named(name: &str, unit: Unit) -> Result<Channel, ChannelError> {
         if let Some(known) = Channel::SIX
             .into_iter()
-            .find(|channel| channel.name == name)
+            .find(|channel| channel.name() == name)
         {
             return if known.unit == unit {
                 Ok(known)
@@ -88,11 +90,7 @@ impl Channel {
                 name: name.to_owned(),
             });
         }
-        Ok(Channel {
-            name: Cow::Owned(name.to_owned()),
-            unit,
-            period: None,
-        })
+        Ok(Channel::fixed(name, unit))
     }
 
     /// The channel as an angle whose values repeat after `degrees`, from 1 to 360.
@@ -115,7 +113,7 @@ impl Channel {
                 ..self
             }),
             _ => Err(ChannelError::Period {
-                name: self.name.into_owned(),
+                name: self.name().to_owned(),
                 degrees,
             }),
         }
@@ -123,7 +121,7 @@ impl Channel {
 
     /// Name in tables, maps and reports.
     pub fn name(&self) -> &str {
-        &self.name
+        self.name.as_str()
     }
 
     /// Unit of its values.
@@ -154,7 +152,7 @@ impl Channel {
 
 impl fmt::Display for Channel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.name)
+        f.write_str(self.name())
     }
 }
 
@@ -182,11 +180,14 @@ impl Channels {
             let rank = Channel::SIX
                 .iter()
                 .position(|known| known.name == channel.name);
-            (rank.unwrap_or(Channel::SIX.len()), channel.name.to_string())
+            (
+                rank.unwrap_or(Channel::SIX.len()),
+                channel.name().to_owned(),
+            )
         });
         if let Some(pair) = list.windows(2).find(|pair| pair[0].name == pair[1].name) {
             return Err(ChannelError::Twice {
-                name: pair[0].name.to_string(),
+                name: pair[0].name().to_owned(),
             });
         }
         Ok(Channels { list })
@@ -194,12 +195,12 @@ impl Channels {
 
     /// Index of the channel called `name`; `None` if there is none.
     pub fn position(&self, name: &str) -> Option<usize> {
-        self.list.iter().position(|channel| channel.name == name)
+        self.list.iter().position(|channel| channel.name() == name)
     }
 
     /// The channel called `name`.
     pub fn by_name(&self, name: &str) -> Option<&Channel> {
-        self.list.iter().find(|channel| channel.name == name)
+        self.list.iter().find(|channel| channel.name() == name)
     }
 
     /// The channels in order.
@@ -306,7 +307,7 @@ mod tests {
     #[test]
     fn channels_stand_in_one_order_whatever_order_they_came_in() {
         let extra = Channel::named("Rx", Unit::Degree).expect("a plain name");
-        let first = Channels::new([extra.clone(), Channel::FZ, Channel::PX]).expect("distinct");
+        let first = Channels::new([extra, Channel::FZ, Channel::PX]).expect("distinct");
         let second = Channels::new([Channel::PX, extra, Channel::FZ]).expect("distinct");
         assert_eq!(first, second);
         assert_eq!(
@@ -324,7 +325,7 @@ mod tests {
     #[test]
     fn an_angle_is_compared_by_the_shortest_way_and_other_channels_as_they_are() {
         let angle = Channel::named("Rz", Unit::Degree).expect("a plain name");
-        let whole = angle.clone().with_period(360).expect("an angle");
+        let whole = angle.with_period(360).expect("an angle");
         for (value, reference, nearest) in [
             (-179.0, 179.0, 181.0),
             (179.0, -179.0, -181.0),
@@ -334,12 +335,12 @@ mod tests {
         ] {
             assert!((whole.nearest(value, reference) - nearest).abs() < 1e-12);
         }
-        let half = angle.clone().with_period(180).expect("an angle");
+        let half = angle.with_period(180).expect("an angle");
         assert!((half.nearest(89.0, -89.0) + 91.0).abs() < 1e-12);
         assert!((angle.nearest(-179.0, 179.0) + 179.0).abs() < 1e-12);
         assert_ne!(angle, whole);
         for degrees in [0, 361] {
-            let refused = angle.clone().with_period(degrees);
+            let refused = angle.with_period(degrees);
             assert!(matches!(refused, Err(ChannelError::Period { .. })));
         }
     }

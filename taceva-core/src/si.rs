@@ -1,9 +1,8 @@
-//! Conversion to SI units and back: poses, wrenches and speeds cross the plugin boundary in them.
+//! Conversion to SI units and back: poses and speeds cross the plugin boundary in them.
 
 use crate::driver::{Speed, SpeedError};
 use crate::geometry::{Point, Pose, Rotation, nearest};
-use crate::quantity::{Degree, Millimetre, Newton, NewtonMillimetre};
-use crate::wrench::Wrench;
+use crate::quantity::{Degree, Millimetre};
 
 /// Millimetres in a metre.
 const PER_METRE: f64 = 1e3;
@@ -93,22 +92,6 @@ impl SiPose {
     }
 }
 
-impl Wrench {
-    /// Torque in N·m. The force is in N already.
-    pub fn torque_nm(&self) -> [f64; 3] {
-        self.torque.map(|torque| torque.0 / PER_METRE)
-    }
-
-    /// The wrench of a force in N and a torque in N·m, on the grid of [`on_grid`](Wrench::on_grid).
-    pub fn from_si(force_n: [f64; 3], torque_nm: [f64; 3]) -> Wrench {
-        let wrench = Wrench {
-            force: force_n.map(Newton),
-            torque: torque_nm.map(|torque| NewtonMillimetre(torque * PER_METRE)),
-        };
-        wrench.on_grid()
-    }
-}
-
 impl Speed {
     /// Speed in m/s.
     pub fn metres_per_second(self) -> f64 {
@@ -184,12 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn torques_and_speeds_come_back_by_bits() {
-        let mut wrench = Wrench::default();
-        wrench.torque[1] = NewtonMillimetre(0.1 + 0.2);
-        let wrench = wrench.on_grid();
-        let force = wrench.force.map(|force| force.0);
-        assert_eq!(Wrench::from_si(force, wrench.torque_nm()), wrench);
+    fn speeds_come_back_by_bits() {
         for step in 1..10_000_u32 {
             let speed = Speed::try_new(f64::from(step) / 1e3).expect("above 0");
             let back = Speed::from_metres_per_second(speed.metres_per_second());

@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     evaluator.update_pairs(Channel::FZ, truth, prediction)?;
     let scores = evaluator.score()?;
     let mae = scores.mae(Channel::FZ).ok_or("no score")?;
-    println!("MAE {:?} {}", mae.value.scalar(), mae.unit);
+    println!("MAE {} {}", mae.value, mae.unit);
     println!("{scores}");
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 mod bootstrap_ends;
 pub(crate) mod curve;
+pub(crate) mod digits;
 pub(crate) mod direction;
 pub(crate) mod flag;
 mod interval;

@@ -178,7 +178,8 @@ fn remove(path: &Path) -> io::Result<()> {
             false => fs::remove_file(path)?,
         }
     }
-    sync_folder(path)?;
+    // Where the disk refuses this, a loss of power can leave contents without their marker. Nothing is worse if the folder goes now.
+    drop(sync_folder(path));
     match fs::remove_file(path.join(MARKER)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => fs::remove_dir(path),

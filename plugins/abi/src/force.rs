@@ -13,15 +13,15 @@ use crate::status::Status;
 /// ```
 /// use taceva_abi::Wrench;
 /// let pressed = Wrench { force_n: [0.0, 0.0, 1.5], ..Wrench::default() };
-/// assert_eq!(pressed.torque_nm, [0.0; 3]);
+/// assert_eq!(pressed.torque_n_mm, [0.0; 3]);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Wrench {
     /// The force along x, y and z, in N.
     pub force_n: [f64; 3],
-    /// The torque about x, y and z, in N m.
-    pub torque_nm: [f64; 3],
+    /// The torque about x, y and z, in N·mm.
+    pub torque_n_mm: [f64; 3],
 }
 
 /// `taceva_force_calls`.

@@ -13,7 +13,7 @@ pub const MAGIC: u32 = 0x3145_4154;
 /// Major version of the interface: equal on both sides, or the host rejects the library.
 pub const ABI_MAJOR: u32 = 1;
 /// Minor version of the interface; the two sides may differ.
-pub const ABI_MINOR: u32 = 2;
+pub const ABI_MINOR: u32 = 3;
 /// The name of the one exported symbol.
 pub const ENTRY_SYMBOL: &CStr = c"taceva_plugin_v1";
 
@@ -21,8 +21,8 @@ pub const ENTRY_SYMBOL: &CStr = c"taceva_plugin_v1";
 pub const SENSOR_FACTORY: &str = "taceva.sensor/1";
 /// The id of the [`Factory`](crate::Factory) of robots.
 pub const ROBOT_FACTORY: &str = "taceva.robot/1";
-/// The id of the [`Factory`](crate::Factory) of force transducers.
-pub const FORCE_FACTORY: &str = "taceva.force/1";
+/// The id of the [`Factory`](crate::Factory) of force transducers, since minor 3: their torques are in N·mm.
+pub const FORCE_FACTORY: &str = "taceva.force/2";
 /// The id of the [`Factory`](crate::Factory) of lightings.
 pub const LIGHTING_FACTORY: &str = "taceva.lighting/1";
 /// The id of the [`Factory`](crate::Factory) of changers, since minor 2.

@@ -1,9 +1,11 @@
 /* A force transducer on which something of a weight of one's choice rests: Fz alone, a reading every 5 ms. */
 #include <stdlib.h>
 #include <string.h>
+#include <taceva/ext/numbered.h>
 #include <taceva/ext/tare.h>
 #include <taceva/force.h>
 
+#include "text.h"
 #include "waiting.h"
 
 #define PERIOD_NS 5000000u
@@ -66,9 +68,21 @@ static taceva_status zero(void *handle, uint64_t timeout_ns, taceva_error *error
 
 static const taceva_tare_calls tare_calls = {sizeof tare_calls, 0, zero};
 
+/* The number of the last reading. It is counted here because nothing is measured; a real plugin passes on the device's own number. */
+static taceva_status sequence(void *handle, uint64_t *number, taceva_error *error) {
+  transducer *it = handle;
+  if (!number) return failed(error, TACEVA_INVALID_ARGUMENT, "no place for the number");
+  if (it->readings == 0) return failed(error, TACEVA_NOT_FOUND, "nothing was read yet");
+  *number = it->readings;
+  return TACEVA_OK;
+}
+
+static const taceva_numbered_calls numbered_calls = {sizeof numbered_calls, 0, sequence};
+
 static const void *extension(void *handle, taceva_text id) {
   (void)handle;
-  return id.length == strlen(TACEVA_TARE) && !memcmp(id.data, TACEVA_TARE, id.length) ? &tare_calls : NULL;
+  if (is(id, TACEVA_TARE)) return &tare_calls;
+  return is(id, TACEVA_NUMBERED) ? &numbered_calls : NULL;
 }
 
 static const taceva_force_calls calls = {

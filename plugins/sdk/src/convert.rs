@@ -1,5 +1,6 @@
-//! Conversion between the SI numbers of the boundary and the mm and degrees of core; numbers that are not finite are rejected in both
-//! directions.
+//! Conversion between the numbers of the boundary and those of core; numbers that are not finite are rejected in both directions.
+//!
+//! Places are in m at the boundary and in mm in core. Forces are in N and torques in N·mm on both sides.
 
 use std::time::Duration;
 
@@ -67,7 +68,7 @@ pub(crate) fn wrench(wrench: &Wrench) -> Result<AbiWrench, Failure> {
     check_wrench(wrench).map_err(fault)?;
     Ok(AbiWrench {
         force_n: wrench.force.map(|force| force.0),
-        torque_nm: wrench.on_grid().torque_nm(),
+        torque_n_mm: wrench.on_grid().torque.map(|torque| torque.0),
     })
 }
 

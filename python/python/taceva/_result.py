@@ -45,7 +45,7 @@ class Score:
     n: int
     n_invalid: int
     reason: str | None
-    #: Why the score takes part in no verdict, where it does not: ``no skill``, ``skill unknown``, ``bounded``, …
+    #: Why the score takes part in no verdict, where it does not, as files say it: ``no skill``, ``skill unknown``, ``bounded``, …
     standing: str | None
 
     def __float__(self) -> float:

@@ -6,7 +6,8 @@ use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 
 use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 
-/// Results are JSON files of `evaluate` and `score`, folders of runs (or their results.json), or names of the catalogue. If two of them
+/// Text and Markdown show the values side by side, then what can be compared. Results are JSON files of `evaluate` and `score`, folders of
+/// runs (or their results.json), or names of the catalogue. If two of them
 /// predict the same samples, mean absolute errors are compared sample by sample. The samples are read from `<name>.samples.csv` beside
 /// `<name>.json` (`--samples-out` writes it) and from `reports/` of a run. Other scores are compared by the intervals of both, with Holm's
 /// adjustment.
@@ -23,7 +24,7 @@ pub(crate) struct Compare {
     pub(crate) margins: Vec<String>,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    /// Print every pair with both p values and its interval, not only the decisions; other formats always do
+    /// Print every score and every pair with both p values and its interval, not only the main ones; other formats always do
     #[arg(long)]
     pub(crate) all: bool,
     #[command(flatten)]

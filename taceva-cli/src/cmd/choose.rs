@@ -4,10 +4,10 @@ use std::fs;
 use taceva_core::shown;
 
 use anyhow::Context as _;
-use taceva_report::{Need, catalogue, choose, choose_results};
+use taceva_report::{Need, catalogue, choose, choose_results, escape_markdown};
 
 use super::{Usage, results};
-use crate::args::Choose;
+use crate::args::{Choose, Format};
 use crate::{exit, output};
 
 pub(crate) fn run(args: &Choose) -> anyhow::Result<u8> {
@@ -29,7 +29,21 @@ pub(crate) fn run(args: &Choose) -> anyhow::Result<u8> {
         true => choose(&catalogue::all(), &needs),
         false => choose_results(&results::read_all(&args.results)?, &needs),
     };
-    results::write(&choice.table(), &args.output, || choice.json())?;
+    let table = choice.table();
+    match args.output.format {
+        Format::Text | Format::Md => {
+            let rest = |width: Option<usize>| match (args.output.format, width) {
+                (Format::Md, _) => {
+                    let headline = escape_markdown(&choice.headline());
+                    format!("{headline}.\n\n{}", table.markdown())
+                }
+                (_, Some(width)) => table.text_within(width),
+                (_, None) => table.text(),
+            };
+            results::write_values(&choice.values(), rest, &args.output)?;
+        }
+        _ => results::write(&table, &args.output, || choice.json())?,
+    }
     if let Some(path) = &args.page.path {
         let words: Vec<&str> = needs.iter().map(|need| need.words.as_str()).collect();
         let page = choice.page(&words.join(", "));

@@ -1,9 +1,10 @@
 //! `taceva compare`.
 
 use std::collections::BTreeMap;
-use std::io::IsTerminal;
 
-use taceva_report::{CompareRequest, OVERVIEW_WIDTH, ScoreTable, compare};
+use taceva_report::{
+    CompareRequest, Comparison, OVERVIEW_WIDTH, ScoreTable, compare, escape_markdown,
+};
 
 use super::{Context, Usage, results};
 use crate::args::{Compare, Format, TableScores};
@@ -32,21 +33,16 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
         seed: args.seed.value,
     };
     let comparison = compare(&studies, &request);
-    // Only a terminal has too little width for whole lines.
-    let is_seen = args.output.path.is_none() && std::io::stdout().is_terminal();
     if table == TableScores::Main {
         let scores = ScoreTable::compared(&studies, &request);
         output::write_as(args.output.format, args.output.path.as_deref(), |out| {
             report::main_scores(&scores, args.output.format, out)
         })?;
-    } else if args.output.format == Format::Text {
-        let text = match args.all {
-            true => comparison.text(),
-            false => comparison.overview(is_seen.then_some(OVERVIEW_WIDTH)),
-        };
-        output::write(args.output.path.as_deref(), |out| {
-            out.write_all(text.as_bytes())
-        })?;
+    } else if matches!(args.output.format, Format::Text | Format::Md) {
+        let scores = ScoreTable::answered(&studies, &request, comparison.answers.clone());
+        let values = scores.side_by_side(&studies, &request, args.all);
+        let answers = |width: Option<usize>| answers(&comparison, args, width);
+        results::write_values(&values, answers, &args.output)?;
     } else {
         results::write(&comparison.table(), &args.output, || comparison.json())?;
     }
@@ -55,6 +51,22 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;
     }
     Ok(exit::DONE)
+}
+
+/// What can be compared, with the answers, in the width of a terminal if there is one.
+fn answers(comparison: &Comparison, args: &Compare, width: Option<usize>) -> String {
+    let narrow = width.map(|width| width.min(OVERVIEW_WIDTH));
+    match (args.output.format, args.all) {
+        (Format::Md, _) => {
+            let summary = escape_markdown(&comparison.summary());
+            match comparison.answers.is_empty() {
+                true => format!("{summary}.\n"),
+                false => format!("{summary}.\n\n{}", comparison.table().markdown()),
+            }
+        }
+        (_, true) => comparison.text_within(narrow.unwrap_or(OVERVIEW_WIDTH)),
+        (_, false) => comparison.overview(narrow),
+    }
 }
 
 /// `METRIC[.CHANNEL]=NUMBER`.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use taceva_core::shown;
 
 use anyhow::Context as _;
-use taceva_report::{Layout, Study, Table, catalogue, escape_terminal};
+use taceva_report::{Layout, Study, Table, catalogue, escape_markdown, escape_terminal};
 use taceva_results::EvaluationReport;
 
 use super::Usage;
@@ -122,6 +122,27 @@ fn file_of(path: &Path) -> anyhow::Result<PathBuf> {
         )));
     }
     Ok(file)
+}
+
+/// Writes `values` for people, in text or Markdown, and below them `rest`.
+pub(super) fn write_values(
+    values: &Table,
+    rest: impl FnOnce(Option<usize>) -> String,
+    to: &Output,
+) -> anyhow::Result<()> {
+    let width = to.path.is_none().then(output::terminal_width).flatten();
+    let text = match (to.format, width) {
+        (Format::Md, _) => format!(
+            "{}\n\n{}",
+            escape_markdown(&values.caption),
+            values.markdown()
+        ),
+        (_, Some(width)) => values.text_within(width),
+        (_, None) => values.text(),
+    };
+    output::write_as(to.format, to.path.as_deref(), |out| {
+        write!(out, "{text}\n{}", rest(width))
+    })
 }
 
 /// Writes a table to the path and in the format of `to`; `json` makes JSON.

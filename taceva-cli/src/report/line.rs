@@ -92,11 +92,11 @@ pub(super) fn flags(scores: &[Score]) -> Vec<String> {
         .collect()
 }
 
-/// Scores with limited standing in verdicts: `no skill: Pz Fz`, `bounded: r_light Px Py`.
+/// Scores with limited standing in verdicts: `not better than predicting the mean: mae Pz Fz`.
 pub(super) fn standings(scores: &[Score]) -> Vec<String> {
     let mut said = Vec::new();
     for standing in Standing::ALL {
-        let Some(words) = standing.words() else {
+        let Some(words) = standing.phrase() else {
             continue;
         };
         let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
@@ -118,6 +118,18 @@ pub(super) fn standings(scores: &[Score]) -> Vec<String> {
         }
     }
     said
+}
+
+/// Steps that may let verdicts use the scores that they exclude, each once.
+pub(super) fn remedies(scores: &[Score]) -> Vec<&'static str> {
+    let is_met = |standing: &Standing| {
+        let mut valued = scores.iter().filter(|score| score.value.number().is_some());
+        valued.any(|score| score.standing == *standing)
+    };
+    let met = Standing::ALL.into_iter().filter(is_met);
+    let mut remedies: Vec<&str> = met.filter_map(Standing::remedy).collect();
+    remedies.dedup();
+    remedies
 }
 
 /// The maps, curves and matrices that only JSON contains, one line for each metric: `r_spatial Px Py Fz: distance, depth`.

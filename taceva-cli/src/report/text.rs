@@ -8,7 +8,7 @@ use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
 use taceva_results::{EvaluationReport, Interval};
 
-use super::line::{Line, flags, pictures, read_lines, standings};
+use super::line::{Line, flags, pictures, read_lines, remedies, standings};
 use super::number::formatted;
 use super::recordings;
 
@@ -151,6 +151,9 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     }
     for standing in standings(&report.scores) {
         writeln!(out, "standing   {standing}")?;
+    }
+    for remedy in remedies(&report.scores) {
+        writeln!(out, "narrow it  {remedy}")?;
     }
     for picture in pictures(&report.scores) {
         writeln!(out, "in JSON    {picture}")?;

@@ -87,7 +87,10 @@ fn the_baseline_wins_nothing_in_comparisons_choices_pages_and_acceptances() {
         if !OF_TRUTH.contains(&metric) && answer["standings"][0] != Value::Null {
             assert_eq!(answer["standings"][0], "no skill");
             let words = answer["answer"].as_str().expect("a text");
-            assert!(words.contains("no skill"), "{words}");
+            assert!(
+                words.contains("not better than predicting the mean"),
+                "{words}"
+            );
         }
     }
     bench.ok("compare baseline.json ridge.json --html both.html -q");
@@ -108,7 +111,10 @@ fn the_baseline_wins_nothing_in_comparisons_choices_pages_and_acceptances() {
     assert_eq!(choice["ranked"][0]["steps"][0]["standing"], Value::Null);
     let reason = choice["barred"][0]["reason"].as_str().expect("a reason");
     assert!(reason.contains("`force` looks at MAE of Fz"), "{reason}");
-    assert!(reason.contains("no skill"), "{reason}");
+    assert!(
+        reason.contains("not better than predicting the mean"),
+        "{reason}"
+    );
     bench.write(
         "limits.toml",
         "limits_version = 1\n[[limit]]\nmetric = \"linearity\"\nchannel = \"Px\"\nunit = \"1\"\nmost = 1000\n",
@@ -160,6 +166,13 @@ fn what_a_model_has_seen_shows_no_skill_on_others() {
     assert_eq!(report["metrics"]["mae"]["Fz"]["standing"], "skill unknown");
     let report = bench.json("evaluate data --model baseline --part all --metrics mae");
     assert_eq!(report["metrics"]["mae"]["Fz"]["standing"], "no skill");
+    let text = bench.ok("evaluate data --model baseline --part all --metrics mae -q");
+    for words in [
+        "standing   not better than predicting the mean: ",
+        "narrow it  More contact points, or a score of every point (--split cv:5), would narrow this.",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
 }
 
 #[test]

@@ -45,7 +45,7 @@ impl Rows {
         let columns = truth.columns().into_iter().zip(prediction.columns());
         let columns = channels.iter().zip(columns);
         Ok(columns.fold(self, |rows, (channel, (truth, prediction))| {
-            rows.pairs(channel.clone(), truth, prediction)
+            rows.pairs(*channel, truth, prediction)
         }))
     }
 }

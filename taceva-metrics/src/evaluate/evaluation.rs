@@ -3,6 +3,7 @@
 mod handles;
 #[cfg(feature = "serde")]
 mod json;
+mod summary;
 mod table;
 
 use std::collections::BTreeMap;
@@ -15,7 +16,7 @@ use crate::evaluate::verdicts;
 use crate::score::Score;
 use crate::score::standing::Standing;
 
-/// Scores of an evaluation, in the order of reports, and the skipped metrics.
+/// Scores of an evaluation, in the order of reports, and the skipped metrics. `{}` prints one line per channel, `{:#}` every score.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};
@@ -23,7 +24,8 @@ use crate::score::standing::Standing;
 /// evaluator.update_pairs(Channel::FZ, &[0.25, 0.5], &[0.5, 0.5])?;
 /// let evaluation = evaluator.finish()?;
 /// assert!(evaluation.scores().any(|(metric, channel, _)| metric.id == "rmse" && channel == "Fz"));
-/// assert!(evaluation.to_string().starts_with("metric"));
+/// assert!(evaluation.to_string().starts_with("channel"));
+/// assert!(format!("{evaluation:#}").starts_with("metric"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]

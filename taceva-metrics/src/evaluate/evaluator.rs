@@ -130,7 +130,7 @@ impl Evaluator {
             while rows > PAIR_ROWS {
                 let truth = truth.by_ref().take(PAIR_ROWS);
                 let prediction = prediction.by_ref().take(PAIR_ROWS);
-                self.update_rows(Rows::new().pairs(channel.clone(), truth, prediction))?;
+                self.update_rows(Rows::new().pairs(channel, truth, prediction))?;
                 rows -= PAIR_ROWS;
             }
         }

@@ -59,7 +59,7 @@ impl Standing {
         matches!(self, Standing::Counts | Standing::SkillUnknown)
     }
 
-    /// Words for it in every output; `None` for a score that counts.
+    /// Words for it in files and for programs; `None` for a score that counts. [`Standing::phrase`] has those for people.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -80,6 +80,27 @@ impl Standing {
         }
     }
 
+    /// Words for it beside a value, for people; `None` for a score that counts.
+    ///
+    /// ```
+    /// use taceva_metrics::Standing;
+    /// assert_eq!(Standing::NoSkill.phrase(), Some("not better than predicting the mean"));
+    /// assert_eq!(Standing::Counts.phrase(), None);
+    /// ```
+    pub fn phrase(self) -> Option<&'static str> {
+        match self {
+            Standing::Counts => None,
+            Standing::SkillUnknown => Some("not tested against predicting the mean"),
+            Standing::Bounded => Some("predictions beyond the trained range"),
+            Standing::Neighbours => Some("tested on neighbours of training samples"),
+            Standing::LowStimulus => Some("stimulus hardly changed"),
+            Standing::NotAboveNoiseFloor => Some("not above chance"),
+            Standing::NotAboveConstant => Some("not above a constant answer"),
+            Standing::NoInterval => Some("no interval to show more than predicting the mean"),
+            Standing::NoSkill => Some("not better than predicting the mean"),
+        }
+    }
+
     /// Standing with these `words`.
     pub fn from_words(words: &str) -> Option<Standing> {
         let mut said = Standing::ALL.into_iter();
@@ -90,28 +111,51 @@ impl Standing {
     pub fn reason(self) -> Option<&'static str> {
         match self {
             Standing::Counts | Standing::SkillUnknown => None,
-            Standing::Bounded => {
-                Some("bounded: more than 5 % of its predictions exceed the bounds of the model")
-            }
+            Standing::Bounded => Some(
+                "predictions beyond the trained range: more than 5 % of them exceed the bounds of the model",
+            ),
             Standing::Neighbours => Some(
-                "neighbours in training: tested samples resemble training samples, so the score is too good",
+                "tested on neighbours of training samples: tested samples resemble them, so the score is too good",
             ),
             Standing::LowStimulus => Some(
-                "low stimulus: the light of some scene, or the labels of repeated presses, hardly changed",
+                "stimulus hardly changed: the light of some scene, or the labels of repeated presses, was almost constant",
             ),
             Standing::NotAboveNoiseFloor => Some(
-                "not above its noise floor: with this number of samples, the differences between places may be chance",
+                "not above chance: with this number of samples, the differences between places may be chance",
             ),
             Standing::NotAboveConstant => Some(
-                "not above the constant: its interval is not above the share that the constant of the skill, the mean of the training \
-                    labels, reaches",
+                "not above a constant answer: its interval is not above the share that always predicting the mean of the training \
+                    labels reaches",
             ),
             Standing::NoInterval => Some(
-                "skill not known: no interval, because too few contact points were scored or nothing varied between them",
+                "no interval to show more than predicting the mean: too few contact points were scored, or nothing varied between them",
             ),
             Standing::NoSkill => {
-                Some("no skill: the model is not shown to do better than a constant")
+                Some("not better than predicting the mean: its skill is not shown to be above zero")
             }
+        }
+    }
+
+    /// Step that may let verdicts use such a score, in a sentence; `None` if they use it.
+    ///
+    /// ```
+    /// use taceva_metrics::Standing;
+    /// assert!(Standing::NoSkill.remedy().is_some_and(|step| step.contains("--split cv:5")));
+    /// assert_eq!(Standing::Counts.remedy(), None);
+    /// ```
+    pub fn remedy(self) -> Option<&'static str> {
+        match self {
+            Standing::Counts | Standing::SkillUnknown => None,
+            Standing::NoSkill | Standing::NoInterval => Some(
+                "More contact points, or a score of every point (--split cv:5), would narrow this.",
+            ),
+            Standing::NotAboveConstant => Some("More presses of gratings would narrow this."),
+            Standing::NotAboveNoiseFloor => Some("More presses at each place would narrow this."),
+            Standing::Neighbours => {
+                Some("A split by groups or blocks (--split by-block) avoids this.")
+            }
+            Standing::LowStimulus => Some("Stronger light or more different presses avoid this."),
+            Standing::Bounded => Some("A model fitted on a wider range of labels avoids this."),
         }
     }
 
@@ -173,9 +217,14 @@ mod tests {
     }
 
     #[test]
-    fn what_takes_no_part_has_a_reason_and_what_does_has_none() {
+    fn what_takes_no_part_has_a_reason_that_begins_with_its_phrase() {
         for standing in Standing::ALL {
             assert_eq!(standing.reason().is_none(), standing.takes_part());
+            let phrase = standing.phrase().unwrap_or_default();
+            assert_eq!(phrase.is_empty(), standing == Standing::Counts);
+            assert_eq!(standing.remedy().is_none(), standing.takes_part());
+            let reason = standing.reason();
+            assert!(reason.is_none_or(|reason| reason.starts_with(&format!("{phrase}: "))));
         }
     }
 

@@ -5,14 +5,18 @@ use std::fmt;
 use taceva_core::Unit;
 
 use crate::score::curve::Curve;
+use crate::score::digits::significant;
 use crate::score::map::Map;
 use crate::score::matrix::Matrix;
 
-/// A finished value.
+/// A finished value. It prints to four digits, or to the decimals of a precision such as `{:.2}`; [`scalar`](Value::scalar) has all digits.
 ///
 /// ```
 /// use taceva_metrics::{UndefinedReason, Value};
 /// assert_eq!(Value::Scalar(0.5).scalar(), Some(0.5));
+/// assert_eq!(Value::Scalar(1.0 / 3.0).to_string(), "0.3333");
+/// assert_eq!(format!("{:.2}", Value::Scalar(0.5)), "0.50");
+/// assert_eq!(Value::Undefined(UndefinedReason::Empty).to_string(), "undefined: empty");
 /// assert_eq!(Value::Undefined(UndefinedReason::Empty).scalar(), None);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +42,20 @@ impl Value {
         match self {
             Value::Scalar(value) => Some(*value),
             _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Scalar(value) if f.precision().is_some() => fmt::Display::fmt(value, f),
+            Value::Scalar(value) => f.pad(&significant(*value)),
+            Value::Map(_) => f.write_str("a map"),
+            Value::Curve(_) => f.write_str("a curve"),
+            Value::Matrix(_) => f.write_str("a matrix"),
+            Value::Undefined(reason) => write!(f, "undefined: {reason}"),
+            Value::NotApplicable(reason) => write!(f, "not applicable: {reason}"),
         }
     }
 }

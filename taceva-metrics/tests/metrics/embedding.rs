@@ -2,7 +2,7 @@
 
 use taceva_metrics::{
     Channel, Channels, Evaluation, Evaluator, FieldSet, MetricPlan, Readings, Rows, Sample,
-    SampleSink, catalogue,
+    SampleSink, UndefinedReason, Unit, Value, catalogue,
 };
 
 /// Predictions of 100 samples that all differ, and their truth.
@@ -185,4 +185,72 @@ fn a_value_that_is_no_number_is_counted_and_an_absent_one_is_not_there() {
     let counted = |channel| scores.mae(channel).map(|mae| (mae.n, mae.n_invalid));
     assert_eq!(counted(Channel::FZ), Some((1, 1)));
     assert_eq!(counted(Channel::FX), Some((0, 0)));
+}
+
+#[test]
+fn three_pairs_print_in_three_lines_and_every_score_by_the_alternate_form() {
+    let mut evaluator = Evaluator::of_channels([Channel::FZ]).expect("one channel");
+    let (truth, prediction) = ([0.25, 0.50, 1.00], [0.50, 0.50, 0.75]);
+    evaluator
+        .update_pairs(Channel::FZ, truth, prediction)
+        .expect("as many");
+    let scores = evaluator.finish().expect("scores");
+    let short = scores.to_string();
+    let lines: Vec<&str> = short.lines().collect();
+    assert_eq!(lines.len(), 3, "{short}");
+    let cells = |line: &str| -> Vec<String> {
+        let cells = line.split("  ").map(str::trim);
+        let filled = cells.filter(|cell| !cell.is_empty());
+        filled.map(str::to_owned).collect()
+    };
+    let headings = [
+        "channel",
+        "mae ↓",
+        "rmse ↓",
+        "bias →0",
+        "r2 ↑",
+        "skill ↑",
+        "n",
+    ];
+    assert_eq!(cells(lines[0]), headings);
+    let line = cells(lines[1]);
+    let values = ["Fz", "0.1667 N", "0.2041 N", "0.000 N", "0.5714"];
+    assert_eq!(line[..5], values);
+    assert_eq!(line.last().map(String::as_str), Some("3"));
+    let long = format!("{scores:#}");
+    assert!(long.lines().count() > 10, "{long}");
+    assert!(
+        long.contains("95% interval") && long.contains("smape"),
+        "{long}"
+    );
+}
+
+#[test]
+fn a_value_prints_to_four_digits_or_to_the_decimals_of_a_precision() {
+    let third = Value::Scalar(1.0 / 3.0);
+    assert_eq!(third.to_string(), "0.3333");
+    assert_eq!(format!("{third:.1}"), "0.3");
+    assert_eq!(format!("{third:>8}|"), "  0.3333|");
+    let empty = Value::Undefined(UndefinedReason::Empty);
+    assert_eq!(empty.to_string(), "undefined: empty");
+}
+
+#[test]
+fn a_channel_and_its_array_are_used_again_after_they_were_given_away() {
+    let channels = [
+        Channel::FZ,
+        Channel::named("Rz", Unit::Degree).expect("a name"),
+    ];
+    let mut evaluator = Evaluator::of_channels(channels).expect("two channels");
+    for channel in channels {
+        let (truth, prediction) = ([1.0, 2.0], [1.5, 2.5]);
+        evaluator
+            .update_pairs(channel, truth, prediction)
+            .expect("as many");
+        let scores = evaluator.score().expect("scores");
+        assert_eq!(
+            scores.mae(channel).and_then(|mae| mae.value.scalar()),
+            Some(0.5)
+        );
+    }
 }

@@ -21,7 +21,7 @@ const PREDICTION: [f64; 4] = [-178.0, 178.0, 92.0, 371.0];
 #[test]
 fn errors_of_an_angle_with_a_period_are_the_short_way_round() {
     let periodic = yaw().with_period(360).expect("an angle");
-    let mut evaluator = Evaluator::of_channels([periodic.clone()]).expect("a plan");
+    let mut evaluator = Evaluator::of_channels([periodic]).expect("a plan");
     evaluator
         .update_pairs(periodic, TRUTH, PREDICTION)
         .expect("taken in");
@@ -43,7 +43,7 @@ fn other_channels_beside_an_angle_with_a_period_are_as_they_were_to_the_bit() {
     let forces = [0.1, 0.7, 1.3, 2.9];
     let answers = [0.15, 0.65, 1.9, 500.3];
     let of = |channel: Channel| {
-        let mut evaluator = Evaluator::of_channels([Channel::FZ, channel.clone()]).expect("a plan");
+        let mut evaluator = Evaluator::of_channels([Channel::FZ, channel]).expect("a plan");
         let rows = Rows::new()
             .pairs(Channel::FZ, forces, answers)
             .pairs(channel, TRUTH, PREDICTION);
@@ -59,7 +59,7 @@ fn an_angle_that_never_leaves_half_a_period_scores_as_without_one_to_the_bit() {
     let truth = [1.0, 20.5, 33.3, 47.1];
     let prediction = [1.7, 19.9, 36.4, 44.0];
     let of = |channel: Channel| {
-        let mut evaluator = Evaluator::of_channels([channel.clone()]).expect("a plan");
+        let mut evaluator = Evaluator::of_channels([channel]).expect("a plan");
         evaluator
             .update_pairs(channel, truth, prediction)
             .expect("taken in");
@@ -87,7 +87,7 @@ fn the_spread_of_an_angle_about_a_known_mean_is_that_of_its_directions() {
     let truth = [170.0, -170.0, 176.0, -176.0];
     let prediction = [172.0, -172.0, -179.0, 179.0];
     let metrics = ["mae", "r2"].map(|id| catalogue::find(id).expect("in the catalogue"));
-    let channels = Channels::new([periodic.clone()]).expect("one");
+    let channels = Channels::new([periodic]).expect("one");
     let plan = MetricPlan::new(&metrics, channels, FieldSet::PAIRS);
     let centre = BTreeMap::from([("yaw".to_owned(), 180.0)]);
     let plan = plan.with_constants(centre).expect("known channels");

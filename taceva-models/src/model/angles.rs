@@ -43,7 +43,7 @@ impl LearntChannels {
         let mut list = Vec::new();
         for channel in asked {
             match of(channel) {
-                None => list.push(channel.clone()),
+                None => list.push(*channel),
                 Some(angle) => {
                     list.push(Channel::named(&angle.sine(), Unit::One)?);
                     list.push(Channel::named(&angle.cosine(), Unit::One)?);

@@ -16,6 +16,7 @@ use std::io::{self, Read as _};
 
 use anyhow::{Context as _, bail, ensure};
 use taceva_core::Unit;
+use taceva_metrics::Standing;
 use taceva_report::{FormattedValue, spaced};
 
 /// One score.
@@ -110,7 +111,10 @@ fn with_standing(score: &Score) -> String {
     let printed = FormattedValue::number(score.value, score.ends).phrase(&spaced(score.unit));
     match &*score.standing {
         "" => printed,
-        standing => format!("{printed}, {standing}"),
+        standing => {
+            let phrase = Standing::from_words(standing).and_then(Standing::phrase);
+            format!("{printed}, {}", phrase.unwrap_or(standing))
+        }
     }
 }
 
@@ -140,7 +144,10 @@ mod tests {
     fn a_cell_has_unit_interval_and_what_bars_it() {
         let cell = |metric| with_standing(&score(TABLE, metric).expect("a score"));
         assert_eq!(cell("mae:Fx"), "0.50 N (0.40 … 0.70)");
-        assert_eq!(cell("r2:Fx"), "0.25 (-0.50 … 0.75), no skill");
+        assert_eq!(
+            cell("r2:Fx"),
+            "0.25 (-0.50 … 0.75), not better than predicting the mean"
+        );
         assert!(score(TABLE, "mae:Fy").is_err());
     }
 

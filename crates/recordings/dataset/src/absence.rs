@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::layout;
 use crate::shell::shell_word;
-use crate::text::shown_path;
+use crate::text::{first_names, shown_path};
 
 /// The file of the plans of a run, by which its folder is recognised, and the folder of its recordings.
 const RUN: [&str; 2] = ["plans.json", "recordings"];
@@ -26,13 +26,16 @@ pub(crate) fn absence(path: &Path) -> String {
             [] => format!("{missing}: it is the folder of a run that has recorded nothing yet"),
             found => format!(
                 "{missing}: it is the folder of a run; name one of its recordings: {}",
-                listed(found)
+                first_names(found, LISTED)
             ),
         };
     }
     match datasets(path).as_slice() {
         [] => missing.to_owned(),
-        found => format!("{missing}, but datasets are in it: {}", listed(found)),
+        found => format!(
+            "{missing}, but datasets are in it: {}",
+            first_names(found, LISTED)
+        ),
     }
 }
 
@@ -55,20 +58,6 @@ fn datasets(path: &Path) -> Vec<String> {
     let mut names: Vec<String> = whole.map(|entry| quoted(&entry.path())).collect();
     names.sort();
     names
-}
-
-fn listed(names: &[String]) -> String {
-    let more = names.len().saturating_sub(LISTED);
-    let first = names
-        .iter()
-        .take(LISTED)
-        .cloned()
-        .collect::<Vec<_>>()
-        .join(", ");
-    match more {
-        0 => first,
-        more => format!("{first} and {more} more"),
-    }
 }
 
 /// A path quoted for a shell.

@@ -1,6 +1,7 @@
 //! Errors of recordings, tables and maps.
 
-use std::fmt;
+mod place;
+
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -11,6 +12,8 @@ use crate::digest::Digest;
 use crate::text::{shown, shown_path};
 use crate::version::Version;
 use crate::view_names::wanted_view;
+
+pub use place::Place;
 
 /// Error of data on disk; each variant states the content found, its location, and the accepted form.
 ///
@@ -245,6 +248,36 @@ impl DatasetError {
         }
     }
 
+    /// An error in a table of labels at `place`.
+    pub fn table(place: Place, problem: String) -> DatasetError {
+        DatasetError::Table { place, problem }
+    }
+
+    /// An error of the image at `path`, without a place that names it.
+    pub fn image(path: &Path, problem: String) -> DatasetError {
+        DatasetError::Image {
+            place: None,
+            path: path.to_owned(),
+            problem,
+        }
+    }
+
+    /// A contradiction in the file at `path`, which belongs to a dataset.
+    pub fn damaged(path: &Path, problem: String) -> DatasetError {
+        DatasetError::Damaged {
+            path: path.to_owned(),
+            problem,
+        }
+    }
+
+    /// A request for something that the dataset at `path` lacks.
+    pub fn request(path: &Path, problem: String) -> DatasetError {
+        DatasetError::Request {
+            path: path.to_owned(),
+            problem,
+        }
+    }
+
     /// An error of the operating system while `doing` something to `path`.
     pub fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> DatasetError {
         let path = path.to_owned();
@@ -299,95 +332,11 @@ impl DatasetError {
     }
 }
 
-/// A location in a file.
-///
-/// ```
-/// use taceva_dataset::{DatasetError, SensorFile};
-///
-/// # let folder = tempfile::tempdir()?;
-/// # let path = folder.path().join("sensor.toml");
-/// std::fs::write(&path, "model = \"DIGIT\"\ncolour = 1\n")?;
-/// let Err(DatasetError::Toml { place, .. }) = SensorFile::read(&path) else {
-///     unreachable!("`colour` is no key");
-/// };
-/// assert_eq!((place.line, place.path), (Some(2), path));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[non_exhaustive]
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Place {
-    /// The file.
-    pub path: PathBuf,
-    /// Line, from 1.
-    pub line: Option<u64>,
-    /// Row, from 0, for files without lines.
-    pub row: Option<u64>,
-    /// Column, by name.
-    pub column: Option<String>,
-}
-
-impl Place {
-    /// The whole file at `path`.
-    pub fn file(path: &Path) -> Place {
-        Place {
-            path: path.to_owned(),
-            ..Place::default()
-        }
-    }
-
-    /// The same location, in the column called `name`.
-    #[must_use]
-    pub fn in_column(self, name: impl Into<String>) -> Place {
-        Place {
-            column: Some(name.into()),
-            ..self
-        }
-    }
-
-    /// The same location, in the row `row`, from 0.
-    #[must_use]
-    pub fn in_row(self, row: u64) -> Place {
-        Place {
-            row: Some(row),
-            ..self
-        }
-    }
-
-    /// The same column without a row.
-    pub fn without_row(self) -> Place {
-        Place { row: None, ..self }
-    }
-
-    /// A line of the file at `path`.
-    pub fn line(path: &Path, line: u64) -> Place {
-        Place {
-            line: Some(line),
-            ..Place::file(path)
-        }
-    }
-}
-
 /// The location of a picture: the place that names it, and its own file if that differs.
 fn image_at(place: &Option<Box<Place>>, path: &Path) -> String {
     match place {
         Some(place) if place.path == path => format!("{place}: "),
         _ => format!("{}{}: ", named_by(place), shown_path(path)),
-    }
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&shown_path(&self.path))?;
-        if let Some(line) = self.line {
-            write!(f, ", line {line}")?;
-        }
-        if let Some(row) = self.row {
-            write!(f, ", row {row}")?;
-        }
-        if let Some(column) = &self.column {
-            write!(f, ", column `{}`", shown(column))?;
-        }
-        Ok(())
     }
 }
 

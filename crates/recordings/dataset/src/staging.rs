@@ -91,12 +91,7 @@ impl StagedFolder {
 
 /// Checks that the content of `target` may be replaced. Only complete datasets without foreign files are replaced.
 pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
-    let refused = |problem: String| {
-        Err(DatasetError::Request {
-            path: target.to_owned(),
-            problem,
-        })
-    };
+    let refused = |problem: String| Err(DatasetError::request(target, problem));
     if fs::symlink_metadata(target).is_err() {
         return Ok(());
     }

@@ -57,10 +57,7 @@ pub fn write_table_and_header(
     frames: Option<FramesInfo>,
     beside: Beside,
 ) -> Result<Header, DatasetError> {
-    let bytes = to_parquet(table).map_err(|problem| DatasetError::Damaged {
-        path: samples.to_owned(),
-        problem,
-    })?;
+    let bytes = to_parquet(table).map_err(|problem| DatasetError::damaged(samples, problem))?;
     write_durable(samples, &bytes)?;
     let table_digest = table.digest();
     let mut written = Header {

@@ -20,10 +20,17 @@ pub fn shown_path(path: &Path) -> String {
 /// Names for a message; after the first few the others are counted.
 pub fn listed(names: &[String]) -> String {
     const LISTED: usize = 64;
-    let shown: Vec<String> = names.iter().take(LISTED).map(|name| shown(name)).collect();
-    match names.len().saturating_sub(LISTED) {
-        0 => shown.join(", "),
-        more => format!("{} and {more} more", shown.join(", ")),
+    let shown: Vec<String> = names.iter().map(|name| shown(name)).collect();
+    first_names(&shown, LISTED)
+}
+
+/// The first `most` of `names`, as they are; the others are counted.
+pub fn first_names(names: &[impl AsRef<str>], most: usize) -> String {
+    let first: Vec<&str> = names.iter().take(most).map(AsRef::as_ref).collect();
+    let first = first.join(", ");
+    match names.len().saturating_sub(most) {
+        0 => first,
+        more => format!("{first} and {more} more"),
     }
 }
 
@@ -35,5 +42,11 @@ mod tests {
     fn control_characters_are_written_out_and_long_text_is_cut() {
         assert_eq!(shown("a\u{1b}[31m\n"), "a\\u{1b}[31m\\n");
         assert_eq!(shown(&"x".repeat(100)).chars().count(), 81);
+    }
+
+    #[test]
+    fn names_beyond_the_limit_are_counted() {
+        assert_eq!(first_names(&["a", "b"], 2), "a, b");
+        assert_eq!(first_names(&["a", "b", "c", "d"], 2), "a, b and 2 more");
     }
 }

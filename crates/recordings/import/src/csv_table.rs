@@ -253,18 +253,13 @@ impl CsvTable {
                 None => return Ok(()),
             }
         };
-        Err(DatasetError::Table {
-            place: Place::line(&self.path, 1),
-            problem,
-        })
+        Err(DatasetError::table(Place::line(&self.path, 1), problem))
     }
 }
 
 fn as_text(path: &Path, mut bytes: Vec<u8>) -> Result<String, DatasetError> {
-    let refused = |line: u64, problem: &str| DatasetError::Table {
-        place: Place::line(path, line),
-        problem: problem.to_owned(),
-    };
+    let refused =
+        |line: u64, problem: &str| DatasetError::table(Place::line(path, line), problem.to_owned());
     let start = &bytes[..bytes.len().min(4_096)];
     let is_utf16 = start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff");
     let nothing = start.iter().position(|byte| *byte == 0);

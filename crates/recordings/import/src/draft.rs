@@ -5,6 +5,7 @@ mod clips;
 mod frames;
 mod joins;
 mod map_text;
+mod notes;
 mod path_parts;
 mod roles;
 mod survey;
@@ -64,7 +65,7 @@ impl MapDraft {
             }
             match SeenTable::read(&source, group) {
                 Ok(Some(table)) => tables.push(table),
-                Ok(None) => notes.extend(map_text::refused_form(group)),
+                Ok(None) => notes.extend(notes::refused_form(group)),
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
@@ -83,7 +84,7 @@ impl MapDraft {
         let most = pictures.iter().max_by_key(|group| group.paths.len());
         let main = main_table(&source, &tables);
         let array = main.filter(|main| most.is_some_and(|most| are_beside(&source, main, most)));
-        notes.extend(array.map(map_text::array_beside_pictures));
+        notes.extend(array.map(notes::array_beside_pictures));
         let text = match main.filter(|_| array.is_none()) {
             Some(main) => {
                 let text = map_text::of_table(&source, &groups, main, &tables, &notes);
@@ -107,7 +108,7 @@ impl MapDraft {
                             (Some(note), _) => {
                                 format!("nothing here can be read as a table: {note}")
                             }
-                            (None, Some(bare)) => map_text::bare_clips(bare),
+                            (None, Some(bare)) => notes::bare_clips(bare),
                             (None, None) => "no table and no picture is in it".to_owned(),
                         },
                     });
@@ -116,7 +117,7 @@ impl MapDraft {
         };
         Ok(MapDraft {
             text: match known_layout(folder, &text) {
-                Some(preset) => map_text::with_note(&text, &map_text::known_layout(preset)),
+                Some(preset) => map_text::with_note(&text, &notes::known_layout(preset)),
                 None => text,
             },
         })

@@ -365,10 +365,7 @@ impl ForeignTable {
         if let ForeignTable::Columns(table) = self
             && let Some(problem) = table.why_absent(name)
         {
-            return DatasetError::Table {
-                place: self.place(0, name).without_row(),
-                problem,
-            };
+            return DatasetError::table(self.place(0, name).without_row(), problem);
         }
         let names = self.names();
         let guess = nearest(name, names.iter().map(String::as_str));

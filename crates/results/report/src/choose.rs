@@ -5,6 +5,7 @@ mod need;
 mod place;
 mod property;
 mod render;
+mod values;
 mod words;
 
 pub use evidence::{Evidence, choose_results};
@@ -27,6 +28,8 @@ pub struct Choice {
     pub dropped: Vec<Dropped>,
     /// Unranked sensors, because a number that a need uses takes no part in verdicts.
     pub barred: Vec<Dropped>,
+    /// Numbers of the sensors that are not ranked, in the order of the sensors.
+    pub others: Vec<Candidate>,
     /// Sensors with none of the numbers that the needs use.
     pub unknown: Vec<String>,
     /// Significant differences between ranked sensors; `None` if nothing was tested, as with published numbers.
@@ -107,6 +110,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         open: Vec::new(),
         dropped: Vec::new(),
         barred: Vec::new(),
+        others: Vec::new(),
         unknown: Vec::new(),
         evidence: None,
         spread: None,
@@ -143,6 +147,10 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         .collect();
     let by_share = |left: &Candidate, right: &Candidate| right.share.total_cmp(&left.share);
     choice.ranked.sort_by(by_share);
+    let others = sensors.iter().filter(|sensor| choice.sets_aside(sensor));
+    choice.others = others
+        .map(|sensor| candidate(sensor, &remaining, needs))
+        .collect();
     choice
 }
 
@@ -358,14 +366,6 @@ mod tests {
         for study in ["Eval", "Sparsh", "TacEva", "VT-Review", "PBR-Design"] {
             assert!(!listed.contains(&format!("\"{study}\"")), "{study}");
         }
-    }
-
-    #[test]
-    fn numbers_have_the_digits_that_people_read() {
-        let shown = |value: f64| Property::Error("Fz").shown(value);
-        assert_eq!(shown(0.031_415_926_535_897_9), "0.03142 N");
-        assert_eq!(shown(25.0), "25 N");
-        assert_eq!(shown(0.0361), "0.0361 N");
     }
 
     #[test]

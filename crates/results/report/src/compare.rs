@@ -92,7 +92,10 @@ impl Answer {
                 let unknown = self.unknown(names);
                 let words = match unknown.is_empty() {
                     true => words,
-                    false => format!("{words}; unknown skill of {}", unknown.join(" and ")),
+                    false => format!(
+                        "{words}; not tested against predicting the mean: {}",
+                        unknown.join(" and ")
+                    ),
                 };
                 let drawn = self.drawn(names);
                 match drawn.is_empty() || self.better().is_none() {

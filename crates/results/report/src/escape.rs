@@ -44,6 +44,7 @@ pub fn latex(text: &str) -> String {
             '±' => escaped.push_str("$\\pm$"),
             '−' => escaped.push_str("$-$"),
             '†' => escaped.push_str("\\dag{}"),
+            '‡' => escaped.push_str("\\ddag{}"),
             '≤' => escaped.push_str("$\\leq$"),
             '≥' => escaped.push_str("$\\geq$"),
             '↑' => escaped.push_str("$\\uparrow$"),

@@ -22,6 +22,7 @@ mod spread;
 mod table;
 mod tables_page;
 mod tie;
+mod wrap;
 
 pub use accept::{
     ACCEPTANCE_SCHEMA, Acceptance, Finding, Limit, LimitsError, LimitsFile, accept, limits_template,
@@ -44,7 +45,8 @@ pub use names::names;
 pub use number::{FormattedValue, spaced, with_interval};
 pub use paper::{PaperForm, paper_form};
 pub use results::{
-    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, Made, ModelBench, ModelRow, Study,
+    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, Fact, Made, ModelBench, ModelRow,
+    Study,
 };
 pub use scores::{ScoreCell, ScoreRow, ScoreTable};
 pub use short_digests::short_digests;

@@ -1,6 +1,6 @@
 //! Effect of light on the errors of a sensor: the scenes of its lighting robustness, in numbers and words.
 
-use taceva_metrics::Flag;
+use taceva_metrics::{Flag, Standing};
 
 use crate::number::numeral;
 use crate::results::Study;
@@ -66,7 +66,7 @@ impl Light {
         ))
     }
 
-    /// `light changed by 0.0089 % to 10.1 %: low stimulus`, if the score has that flag.
+    /// `light changed by 0.0089 % to 10.1 %: stimulus hardly changed`, if the score has that flag.
     pub(crate) fn low_stimulus(&self) -> Option<String> {
         if !self.is_low {
             return None;
@@ -81,7 +81,8 @@ impl Light {
                 numeral(high)
             ),
         });
-        Some(format!("{}{}", said.unwrap_or_default(), Flag::LowStimulus))
+        let hardly = Standing::LowStimulus.phrase().unwrap_or_default();
+        Some(format!("{}{hardly}", said.unwrap_or_default()))
     }
 }
 
@@ -148,7 +149,7 @@ mod tests {
             &[[0.99991, 1.25], [1.1, 20.0]],
             r#", "flags": ["low stimulus"]"#,
         );
-        let expected = "x: errors of unbounded predictions become 1.25 to 20 times as large in the lit scenes; light changed by 0.009 % to 10 %: low stimulus.";
+        let expected = "x: errors of unbounded predictions become 1.25 to 20 times as large in the lit scenes; light changed by 0.009 % to 10 %: stimulus hardly changed.";
         assert_eq!(said(dim), expected);
     }
 

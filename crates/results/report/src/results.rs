@@ -1,9 +1,11 @@
 //! Results in the form that pages and tables need.
 
+mod fact;
 mod model_bench;
 mod provenance;
 mod standing;
 
+pub use fact::Fact;
 pub use model_bench::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow,
 };
@@ -28,6 +30,8 @@ pub struct Study {
     pub source: String,
     /// Scores in report order.
     pub scores: Vec<Score>,
+    /// Published properties that are no scores.
+    pub facts: Vec<Fact>,
     /// Skipped metrics with the reasons.
     pub skipped: Vec<Skip>,
     /// Provenance as names and texts, in file order.
@@ -91,6 +95,7 @@ impl From<EvaluationReport> for Study {
             gel: report.subject.gel,
             source: report.subject.source,
             scores: report.scores,
+            facts: Vec::new(),
             skipped: report.skipped,
             provenance,
             made,

@@ -4,7 +4,9 @@ mod caption;
 mod column;
 mod forms;
 mod main;
+mod mark;
 mod notation;
+mod values;
 
 use taceva_core::Unit;
 use taceva_metrics::{Standing, catalogue};
@@ -78,6 +80,15 @@ impl ScoreTable {
 
     /// The scores of the metrics that `request` names, of all where it names none, compared as it says.
     pub fn compared(studies: &[Study], request: &CompareRequest) -> ScoreTable {
+        ScoreTable::answered(studies, request, compare(studies, request).answers)
+    }
+
+    /// The same with the `answers` of a comparison of `studies` by `request`.
+    pub fn answered(
+        studies: &[Study],
+        request: &CompareRequest,
+        answers: Vec<Answer>,
+    ) -> ScoreTable {
         let mut rows: Vec<ScoreRow> = Vec::new();
         for (at, study) in studies.iter().enumerate() {
             for score in &study.scores {
@@ -95,7 +106,6 @@ impl ScoreTable {
         };
         // Unknown metrics come last, in order of appearance.
         rows.sort_by_key(order);
-        let answers = compare(studies, request).answers;
         if studies.len() > 1 {
             mark_best(&mut rows, &answers);
         }
@@ -224,9 +234,10 @@ impl ScoreCell {
         self.value.is_some() && self.standing.takes_part()
     }
 
-    /// Remark on its standing: `no skill`, `bounded (12 %)`; `None` for a cell that counts without remark.
+    /// Remark on its standing: `not better than predicting the mean`, `predictions beyond the trained range (12 %)`; `None` for a cell that
+    /// counts without remark.
     pub fn remark(&self) -> Option<String> {
-        let words = self.standing.words().filter(|_| self.value.is_some())?;
+        let words = self.standing.phrase().filter(|_| self.value.is_some())?;
         let share = self
             .bounded_share
             .filter(|_| self.standing == Standing::Bounded);

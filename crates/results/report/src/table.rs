@@ -8,6 +8,7 @@ mod json;
 mod latex;
 mod markdown;
 mod room;
+mod terminal;
 mod text;
 mod words;
 

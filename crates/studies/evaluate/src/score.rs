@@ -181,7 +181,7 @@ impl Scoring {
         let channels = channels.map(|(at, channel)| {
             let columns = [batch.truth(at), batch.prediction(at)].map(Column::clone);
             let [truth, prediction] = columns;
-            (channel.clone(), truth, prediction)
+            (*channel, truth, prediction)
         });
         Ok(samples::of_pairs(ids, points, channels))
     }

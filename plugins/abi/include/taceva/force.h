@@ -8,10 +8,10 @@
 extern "C" {
 #endif
 
-/* What presses on the gel. Components that the manifest does not list as `axes` are 0. */
+/* Force in N and torque in N mm on the gel, as in C++, Rust and Python. Components that the manifest does not list as `axes` are 0. */
 typedef struct taceva_wrench {
   double force_n[3];
-  double torque_nm[3];
+  double torque_n_mm[3];
 } taceva_wrench;
 
 /* `read` waits for the next reading. A clipped force is no force: OUT_OF_RANGE. */

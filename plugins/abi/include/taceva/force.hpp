@@ -10,7 +10,7 @@
 namespace taceva {
 class force : public device {
  public:
-  virtual void next_reading(taceva_wrench &into, taceva_stamp &stamp, deadline until) = 0; /* both are 0 before */
+  virtual void next_reading(taceva_wrench &into, taceva_stamp &stamp, deadline until) = 0; /* N and N mm; both are 0 before */
 };
 
 /* Abilities that a transducer derives from beside `force`; its manifest says `tare = true`, `numbered = true`. */

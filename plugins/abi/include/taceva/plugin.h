@@ -4,7 +4,7 @@
  * It is data: a host reads magic, size and version before any code of the plugin runs.
  *
  * Rules that hold everywhere
- *   units      SI: m, rad as unit quaternions, N, N m, ns. A host rounds what crosses to 1 nm, 1e-9 degree and 1e-6 N mm, so that
+ *   units      m, unit quaternions, N, N mm, ns. A host rounds what crosses to 1 nm, 1e-9 degree and 1e-6 N mm, so that
  *              converting units loses nothing and a driver gives the same numbers however it is delivered.
  *   frame      the sensor's: x and y along the gel, z into it; forces are those that press on the gel.
  *   text       UTF-8 with a length, borrowed for the call; never NULL data with a length above 0.
@@ -36,7 +36,7 @@ extern "C" {
 
 #define TACEVA_MAGIC 0x31454154u /* "TAE1", little-endian */
 #define TACEVA_ABI_MAJOR 1u      /* equal, or the library is refused */
-#define TACEVA_ABI_MINOR 2u      /* may differ either way */
+#define TACEVA_ABI_MINOR 3u      /* may differ either way */
 
 /* ---- status: the closed list of failures, 0 and below ---- */
 
@@ -182,7 +182,7 @@ typedef struct taceva_plugin {
   taceva_status (*init)(const taceva_host *host, taceva_error *error); /* [once, first] may be NULL */
   void (*deinit)(void);                                                /* [once, last; not after a failed init] may be NULL */
 
-  /* [any] `id` is "taceva.sensor/1", "taceva.robot/1", "taceva.force/1", "taceva.lighting/1" or, since minor 2, "taceva.changer/1": a
+  /* [any] `id` is "taceva.sensor/1", "taceva.robot/1", "taceva.force/2", "taceva.lighting/1" or, since minor 2, "taceva.changer/1": a
    * `taceva_factory`, or "taceva.estimator/1": a `taceva_estimator_factory`. NULL for a kind that the plugin does not provide. */
   const void *(*factory)(taceva_text id);
 
@@ -198,7 +198,7 @@ typedef struct taceva_plugin {
 
 #define TACEVA_SENSOR_FACTORY "taceva.sensor/1"
 #define TACEVA_ROBOT_FACTORY "taceva.robot/1"
-#define TACEVA_FORCE_FACTORY "taceva.force/1"
+#define TACEVA_FORCE_FACTORY "taceva.force/2" /* since minor 3: torques in N mm */
 #define TACEVA_LIGHTING_FACTORY "taceva.lighting/1"
 #define TACEVA_CHANGER_FACTORY "taceva.changer/1"
 #define TACEVA_ESTIMATOR_FACTORY "taceva.estimator/1"

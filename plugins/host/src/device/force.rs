@@ -10,7 +10,7 @@ use taceva_abi as abi;
 use taceva_abi::ext::{NUMBERED, NumberedCalls, TARE, TareCalls};
 use taceva_core::{
     Axes, Axis, Deadline, DriverError, DriverKind, ErrorKind, Facts, ForceFacts, ForceTransducer,
-    Interrupt, Stamp, Tare, Wrench, check_wrench,
+    Interrupt, Newton, NewtonMillimetre, Stamp, Tare, Wrench, check_wrench,
 };
 
 use super::handle::{Handle, Opened, Owned, PluginDevice};
@@ -118,7 +118,11 @@ impl ForceTransducer for PluginForce {
         })?;
         let kept = (self.pace).take(asked, Instant::now(), Duration::from_nanos(when.valid_ns));
         kept.map_err(|why| self.handle.failed(ErrorKind::DeviceFault, DOING, why))?;
-        let wrench = Wrench::from_si(wrench.force_n, wrench.torque_nm);
+        let wrench = Wrench {
+            force: wrench.force_n.map(Newton),
+            torque: wrench.torque_n_mm.map(NewtonMillimetre),
+        };
+        let wrench = wrench.on_grid();
         check_wrench(&wrench).map_err(|error| {
             let why = error.to_string();
             self.handle.failed(ErrorKind::DeviceFault, DOING, why)

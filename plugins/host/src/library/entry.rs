@@ -170,7 +170,7 @@ pub(super) fn entries(
         }
     }
     if let Some(manifest) = manifest {
-        agree(&said, manifest)?;
+        agree(&said, manifest, library.plugin.abi_minor)?;
     }
     Ok(said)
 }
@@ -227,8 +227,12 @@ fn insert(said: &mut BTreeMap<DriverKey, Entry>, entry: Entry) -> Result<(), Loa
     Ok(())
 }
 
-/// Fails if the library's entries differ from its manifest.
-fn agree(said: &BTreeMap<DriverKey, Entry>, manifest: &Manifest) -> Result<(), LoadProblem> {
+/// Fails if the entries of a library, built for the minor version `minor`, differ from its manifest.
+fn agree(
+    said: &BTreeMap<DriverKey, Entry>,
+    manifest: &Manifest,
+    minor: u32,
+) -> Result<(), LoadProblem> {
     let differs = |what: String, manifest: &str, library: &str| LoadProblem::Differs {
         what,
         manifest: manifest.to_owned(),
@@ -237,7 +241,7 @@ fn agree(said: &BTreeMap<DriverKey, Entry>, manifest: &Manifest) -> Result<(), L
     for promised in &manifest.provides {
         let key = promised.key();
         let Some(entry) = said.get(key) else {
-            return Err(differs(format!("`{key}`"), "present", "absent"));
+            return Err(differs(format!("`{key}`"), "present", &absent(minor)));
         };
         match (promised, &entry.provided) {
             (
@@ -269,4 +273,15 @@ fn agree(said: &BTreeMap<DriverKey, Entry>, manifest: &Manifest) -> Result<(), L
         Some(key) => Err(differs(format!("`{key}`"), "absent", "present")),
         None => Ok(()),
     }
+}
+
+/// Word for a missing entry, with the remedy if an older interface may be the reason: minor 3 has another id of force transducers.
+fn absent(minor: u32) -> String {
+    if minor >= abi::ABI_MINOR {
+        return "absent".to_owned();
+    }
+    let [major, known] = [abi::ABI_MAJOR, abi::ABI_MINOR];
+    format!(
+        "absent: it was built for version {major}.{minor} of the interface, build it again for {major}.{known}"
+    )
 }

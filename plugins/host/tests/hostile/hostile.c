@@ -376,7 +376,7 @@ static taceva_status read_force(void *handle, taceva_wrench *wrench, taceva_stam
   memset(wrench, 0, sizeof *wrench);
   wrench->force_n[2] = 1.5;
   if (is("wrench_nan")) wrench->force_n[2] = 0.0 / 0.0;
-  if (is("wrench_infinite")) wrench->torque_nm[1] = 1.0 / 0.0;
+  if (is("wrench_infinite")) wrench->torque_n_mm[1] = 1.0 / 0.0;
   stamp->valid_ns = stamp->received_ns = is("stamp_stale") ? 0 : 5;
   return TACEVA_OK;
 }

@@ -108,11 +108,16 @@ fn a_device_that_never_closes_is_told_of_and_waited_for_a_few_seconds() {
     let begun = Instant::now();
     drop(open);
     assert!(begun.elapsed() < Duration::from_secs(10));
-    let said = told(&lines, 1);
-    let line = said.last().expect("one line");
     let expected = "org.example.fixture Warn host: closed late: its process was ended because it did not close the device within 5s; \
                     recordings are not affected";
-    assert_eq!(line, expected);
+    // The time that the host waited for it may be reported before.
+    let said = told(&lines, 1);
+    let said = if said.iter().any(|line| line == expected) {
+        said
+    } else {
+        told(&lines, 2)
+    };
+    assert!(said.iter().any(|line| line == expected), "{said:?}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use taceva_conformance::{self as conformance, Report, Trial};
 use taceva_core::{
     Args, Deadline, Descriptor, DriverError, DriverKind, ErrorKind, Fault, FrameMut, Guard,
-    GuardedStop, Millimetre, Newton, Pose, Sensor, Speed,
+    GuardedStop, Millimetre, Newton, NewtonMillimetre, Pose, Sensor, Speed,
 };
 use taceva_host::{PluginSensor, Session};
 
@@ -214,6 +214,19 @@ fn a_force_is_what_is_measured_and_nothing_else() {
     assert_eq!(stamp.received_s, None);
     wrist.tare().expect("it can").zero(SECOND).expect("tares");
     assert_eq!(wrist.read(SECOND).expect("reads").0.force[2], Newton(0.0));
+}
+
+#[test]
+fn a_torque_in_c_is_the_same_number_here() {
+    let Some(fixture) = Fixture::built(&[r#"AXES="[\"Fz\", \"Tx\"]""#]) else {
+        return;
+    };
+    let fixture = fixture.with_manifest("axes = [\"Fz\"]", "axes = [\"Fz\", \"Tx\"]");
+    let session = fixture.session();
+    let mut wrist = session.force(&WRIST, &Args::default()).expect("opens");
+    wrist.start(SECOND).expect("starts");
+    let (wrench, _) = wrist.read(SECOND).expect("reads");
+    assert_eq!(wrench.torque[0], NewtonMillimetre(42.0));
 }
 
 #[test]

@@ -79,8 +79,18 @@ pub(crate) fn lay_c(folder: &Path, word: &str, compiler: &str, level: &str) -> b
     }
     let example = root().join("plugins/c-example");
     fs::create_dir_all(folder.join("src")).expect("a folder");
-    let sources =
-        ["plugin.c", "sensor.c", "force.c", "waiting.h"].map(|name| format!("src/{name}"));
+    let sources = [
+        "plugin.c",
+        "sensor.c",
+        "robot.c",
+        "force.c",
+        "lighting.c",
+        "changer.c",
+        "estimator.c",
+        "text.h",
+        "waiting.h",
+    ]
+    .map(|name| format!("src/{name}"));
     for name in sources
         .iter()
         .map(String::as_str)

@@ -26,6 +26,10 @@ fn main() -> std::process::ExitCode {
             check::every_device_of_the_bench_passes_every_check_of_plugins,
         ),
         (
+            "one_of_each_kind_in_c_passes_every_check_of_plugins",
+            check::one_of_each_kind_in_c_passes_every_check_of_plugins,
+        ),
+        (
             "plugins_of_different_languages_and_flags_keep_their_contracts_in_one_process",
             side_by_side::plugins_of_different_languages_and_flags_keep_their_contracts_in_one_process,
         ),

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use taceva_conformance::{self as conformance, Report, Trial};
 use taceva_core::{
-    Args, Deadline, Device, Factory, ForceTransducer, FrameMut, Lighting, Rig, Robot, Sensor,
-    Stamp, Wrench,
+    Args, Changer, Deadline, Device, Factory, ForceTransducer, FrameMut, Lighting, Rig, Robot,
+    Sensor, Stamp, Wrench,
 };
 use taceva_host::{PluginDriver, PluginHost};
 use taceva_sim::{ForceTransducerFactory, Model, SensorFactory};
@@ -58,7 +58,10 @@ pub(crate) fn plugins_of_different_languages_and_flags_keep_their_contracts_in_o
     for driver in host.drivers::<dyn Lighting>() {
         reports.push(conformance::lighting(&*driver, &trial));
     }
-    assert_eq!(reports.len(), 7 + 2 * c.len());
+    for driver in host.drivers::<dyn Changer>() {
+        reports.push(conformance::changer(&*driver, &trial));
+    }
+    assert_eq!(reports.len(), 7 + 5 * c.len());
     for report in reports {
         assert!(report.passed(), "{report}");
     }

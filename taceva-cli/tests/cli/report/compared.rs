@@ -1,8 +1,10 @@
 //! Comparisons of results, of runs and of the catalogue.
 
 use std::fs;
+use std::process::{Command, Stdio};
 
 use serde_json::Value;
+use taceva_needs::{Need, skip};
 
 use super::json;
 use crate::support::Bench;
@@ -134,4 +136,75 @@ fn published_numbers_are_compared_and_chosen_from() {
         2,
         "expected METRIC[.CHANNEL]=NUMBER",
     );
+}
+
+#[test]
+fn values_stand_first_and_then_what_can_be_compared() {
+    let bench = Bench::new();
+    bench.record("data", 40);
+    for model in ["ridge", "pls"] {
+        bench.ok(&format!(
+            "evaluate data --model {model} --split random --part all --format json --out {model}.json -q"
+        ));
+    }
+    let order = |text: &str, parts: [&str; 2]| {
+        let at = parts.map(|part| {
+            let found = text.find(part);
+            found.unwrap_or_else(|| panic!("no `{part}`: {text}"))
+        });
+        assert!(at[0] < at[1], "{text}");
+    };
+    for (names, shown) in [
+        ("GelSight MagicTac", "0.0361"),
+        ("ridge.json pls.json", " … "),
+        ("ridge.json GelSight", "0.0361"),
+    ] {
+        for format in ["text", "md"] {
+            let text = bench.ok(&format!("compare {names} --format {format} -q"));
+            order(&text, ["Values of 2", "of scores: "]);
+            order(&text, [shown, "of scores: "]);
+        }
+    }
+    let none = bench.ok("compare DIGIT TacTip -q");
+    assert!(none.contains("not published"), "{none}");
+    order(&none, ["availability", "compared"]);
+    for format in ["text", "md"] {
+        let choice = bench.ok(&format!("choose --need shear,light --format {format} -q"));
+        order(&choice, ["Values side by side", "share of the best"]);
+        order(&choice, ["dropped", "share of the best"]);
+    }
+}
+
+#[test]
+fn on_a_terminal_of_forty_columns_one_sensor_stands_below_the_other() {
+    let bench = Bench::new();
+    let program = env!("CARGO_BIN_EXE_taceva");
+    for words in [
+        "compare GelSight MagicTac -q",
+        "compare GelSight MagicTac --all -q",
+        "choose --need shear -q",
+    ] {
+        let typed = format!("stty cols 40 rows 24; '{program}' {words}");
+        let done = Command::new("script")
+            .current_dir(bench.path("."))
+            .args(["-qec", &typed, "/dev/null"])
+            .stdin(Stdio::null())
+            .output();
+        let done = match done {
+            Ok(done) => done,
+            Err(error) => return skip(Need::Terminal, format!("`script`: {error}")),
+        };
+        let shown = String::from_utf8_lossy(&done.stdout).replace('\r', "");
+        // `script` may echo the end of its own empty input.
+        let lines = shown.lines().map(|line| line.replace("^D\u{8}\u{8}", ""));
+        let lines: Vec<String> = lines.collect();
+        assert!(lines.len() > 10, "{shown}");
+        for line in &lines {
+            assert!(line.chars().count() <= 40, "{words}: {line}\n{shown}");
+        }
+        assert!(
+            shown.contains("0.0361") || shown.contains("0.0245"),
+            "{shown}"
+        );
+    }
 }

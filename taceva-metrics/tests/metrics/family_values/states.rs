@@ -97,6 +97,6 @@ fn a_report_has_maps_curves_and_variants_as_fields_of_their_metric() {
         (&json!("mm"), &json!("N"))
     );
     assert_eq!(distance["values"].as_array().map(Vec::len), Some(100));
-    let table = evaluation.to_string();
+    let table = format!("{evaluation:#}");
     assert!(table.contains("sensitivity.slope"), "{table}");
 }

@@ -11,7 +11,7 @@ pub(crate) fn states(mut evaluator: Evaluator) -> Vec<State> {
 pub(crate) fn report(evaluator: Evaluator) -> String {
     let evaluation = evaluator.finish().expect("the plan's channels");
     let json = serde_json::to_string(&evaluation).expect("a report");
-    format!("{json}\n{evaluation}")
+    format!("{json}\n{evaluation:#}")
 }
 
 /// Both together.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use taceva_core::shown;
+use taceva_dataset::internal::first_names;
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -87,11 +88,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 
 /// The first names, with their counts.
 fn named(counts: &BTreeMap<String, u64>) -> String {
-    let some = counts.iter().take(NAMED);
-    let some = some.map(|(name, count)| format!("{} {count}", shown(name)));
-    let some = some.collect::<Vec<_>>().join(", ");
-    match counts.len().saturating_sub(NAMED) {
-        0 => some,
-        more => format!("{some} and {more} more"),
-    }
+    let counted = counts.iter();
+    let counted = counted.map(|(name, count)| format!("{} {count}", shown(name)));
+    first_names(&counted.collect::<Vec<_>>(), NAMED)
 }

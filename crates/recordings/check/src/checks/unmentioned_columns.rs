@@ -1,6 +1,7 @@
 //! TAC014: columns of the imported table that were not used, above all those that rate their rows.
 
 use taceva_core::shown;
+use taceva_dataset::internal::first_names;
 use taceva_dataset::names_quality;
 
 use crate::evidence::Evidence;
@@ -27,16 +28,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .map(|name| Found::overall(Severity::Warning, unread(name)))
         .collect();
     if !others.is_empty() {
-        let named = others
-            .iter()
-            .take(NAMED)
-            .map(|name| shown(name).to_string());
-        let named = named.collect::<Vec<_>>().join(", ");
-        let more = match others.len().saturating_sub(NAMED) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        let message = format!("columns of the table that no key of the map names: {named}{more}");
+        let names: Vec<String> = others.iter().map(|name| shown(name).to_string()).collect();
+        let named = first_names(&names, NAMED);
+        let message = format!("columns of the table that no key of the map names: {named}");
         found.push(Found::overall(Severity::Note, message));
     }
     found

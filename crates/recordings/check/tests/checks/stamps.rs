@@ -1,10 +1,10 @@
 //! Frames that are missing, clocks of several units, and clocks that jump.
 
 use taceva_check::{CheckReport, Severity};
-use taceva_core::Clock;
+use taceva_core::{Clock, Stamp};
 
 use super::streams::{message, regular, says_nothing, stamped};
-use super::{SAMPLES, codes};
+use super::{Recording, SAMPLES, codes, found};
 
 /// What a check says of a recording by its stamps, without any contact point.
 fn without_points(time: impl Fn(u32) -> f64) -> CheckReport {
@@ -205,4 +205,59 @@ fn pauses_between_presses_scenes_and_contact_points_are_no_jumps_of_a_clock() {
         }
     });
     says_nothing(&points, "TAC024");
+}
+
+#[test]
+fn times_that_repeat_run_backwards_or_are_whole_seconds_are_noticed() {
+    let with_times = |time: fn(u32) -> f64| {
+        let mut recording = Recording::sound();
+        for (number, sample) in (0..).zip(&mut recording.samples) {
+            sample.stamp = Some(Stamp {
+                valid_s: time(number),
+                received_s: None,
+            });
+        }
+        recording
+    };
+    found(
+        with_times(|number| f64::from(number / 2) + 0.5),
+        "TAC008",
+        Severity::Warning,
+    );
+    found(
+        with_times(|number| 0.3 * f64::from(number ^ 1)),
+        "TAC008",
+        Severity::Warning,
+    );
+    found(with_times(f64::from), "TAC008", Severity::Warning);
+}
+
+#[test]
+fn a_clock_that_begins_anew_is_noticed_unless_the_machine_was_started_again_between_two_sessions() {
+    let begun_anew = || {
+        let mut recording = Recording::sound();
+        for (number, sample) in (0..SAMPLES).zip(&mut recording.samples) {
+            sample.stamp = Some(Stamp {
+                valid_s: 0.031 * f64::from(number % 100) + 0.013,
+                received_s: None,
+            });
+        }
+        recording
+    };
+    let warns = |report: &CheckReport| codes(report).contains(&("TAC008", Severity::Warning));
+    let header = "boot_id,begun_s,unit,specimen,height_mm,depth_mm,Fz_N,zero_Fx_N,zero_Fy_N,zero_Fz_N,x_felt,y_felt,picture_changed,reaction_ms,overshoot_mm";
+    let row = "1.5,1,sphere of radius 4 mm,0.1,0.2,0.06,0.0,0.0,0.3,true,true,true,6.5,0.02";
+    let sessions = |boots: [&str; 2]| {
+        let [one, other] = boots;
+        begun_anew().check_beside("", Some(&format!("{header}\n{one},{row}\n{other},{row}\n")))
+    };
+    assert!(warns(&begun_anew().check("")));
+    assert!(warns(&sessions(["b7", "b7"])));
+    let report = sessions(["b7", "c1"]);
+    assert!(!warns(&report), "{:?}", report.findings);
+    let said = report
+        .findings
+        .iter()
+        .any(|finding| finding.message.contains("2 sessions"));
+    assert!(said, "{:?}", report.findings);
 }

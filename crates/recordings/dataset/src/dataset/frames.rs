@@ -97,11 +97,7 @@ impl Dataset {
             true => Some(self.first_of_pack(entry, info)?),
             false => None,
         };
-        let wrong = |problem| DatasetError::Image {
-            place: None,
-            path: path.clone(),
-            problem,
-        };
+        let wrong = |problem| DatasetError::image(&path, problem);
         let (_, mut frame) = decode(&bytes, info.channel_order).map_err(wrong)?;
         if let Some(first) = first.filter(|first| first.info() == frame.info()) {
             frame = difference::plus(&frame, &first).map_err(|error| wrong(error.to_string()))?;

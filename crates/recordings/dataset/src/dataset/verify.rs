@@ -51,10 +51,8 @@ impl Dataset {
 
     /// Checks that header and table agree. Paths are checked here once, so that reading a frame only joins them.
     pub(super) fn check_consistency(&self) -> Result<(), DatasetError> {
-        let damaged = |name: &str, problem: String| DatasetError::Damaged {
-            path: self.path().join(name),
-            problem,
-        };
+        let damaged =
+            |name: &str, problem: String| DatasetError::damaged(&self.path().join(name), problem);
         let rows = self.table.rows() as u64;
         if rows != self.header.table.rows {
             let promised = self.header.table.rows;
@@ -126,12 +124,8 @@ pub(super) fn read_table(folder: &HeldFolder, header: &Header) -> Result<Table, 
     file.seek(SeekFrom::Start(0))
         .map_err(DatasetError::io("read", path))?;
     let views: Vec<&str> = header.views.iter().map(|view| view.name.as_str()).collect();
-    from_parquet(file, &header.channels, &header.attributes, &views).map_err(|problem| {
-        DatasetError::Damaged {
-            path: path.to_owned(),
-            problem,
-        }
-    })
+    from_parquet(file, &header.channels, &header.attributes, &views)
+        .map_err(|problem| DatasetError::damaged(path, problem))
 }
 
 pub(super) fn check_digest(

@@ -49,7 +49,7 @@ impl SignalsReader {
         }
         file.seek(SeekFrom::Start(0))
             .map_err(DatasetError::io("read", path))?;
-        let damaged = |problem| damaged(path, problem);
+        let damaged = |problem| DatasetError::damaged(path, problem);
         let opened = guarded(|| SerializedFileReader::new(file)).map_err(damaged)?;
         let file = opened.map_err(|error| damaged(error.to_string()))?;
         let starts = starts(&file, info, rows).map_err(damaged)?;
@@ -73,9 +73,9 @@ impl SignalsReader {
         let values = first
             .checked_mul(length)
             .and_then(|first| group.get(first..first.checked_add(length)?))
-            .ok_or_else(|| damaged(&self.path, format!("no row {row}")))?;
+            .ok_or_else(|| DatasetError::damaged(&self.path, format!("no row {row}")))?;
         let signals = Signals::new(self.info.spec.info, values.to_vec());
-        signals.map_err(|error| damaged(&self.path, format!("row {row}: {error}")))
+        signals.map_err(|error| DatasetError::damaged(&self.path, format!("row {row}: {error}")))
     }
 
     /// Reads every row, and compares them with the recorded digest, whatever their storage.
@@ -111,8 +111,8 @@ impl SignalsReader {
             let group = self.file.get_row_group(number)?;
             read_group(&*group, self.info.spec.info.len())
         });
-        let read = read.map_err(|problem| damaged(&self.path, problem))?;
-        let read = read.map_err(|error| damaged(&self.path, error.to_string()))?;
+        let read = read.map_err(|problem| DatasetError::damaged(&self.path, problem))?;
+        let read = read.map_err(|error| DatasetError::damaged(&self.path, error.to_string()))?;
         let read = Arc::new(read);
         if groups.len() >= GROUPS {
             groups.pop_front();
@@ -192,11 +192,4 @@ fn read_group(group: &dyn RowGroupReader, length: usize) -> Result<Vec<f32>, Par
             .for_each(|(place, value)| *place = *value);
     }
     Ok(values)
-}
-
-fn damaged(path: &Path, problem: String) -> DatasetError {
-    DatasetError::Damaged {
-        path: path.to_owned(),
-        problem,
-    }
 }

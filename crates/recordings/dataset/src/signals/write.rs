@@ -33,7 +33,7 @@ pub struct SignalsWriter {
 impl SignalsWriter {
     /// Creates the file at `path`; an existing one is overwritten.
     pub fn create(path: &Path, spec: &SignalsSpec) -> Result<SignalsWriter, DatasetError> {
-        let damaged = |problem| damaged(path, problem);
+        let damaged = |problem| DatasetError::damaged(path, problem);
         spec.check().map_err(damaged)?;
         let file = File::create(path).map_err(DatasetError::io("create", path))?;
         let writer = guarded(|| {
@@ -65,14 +65,14 @@ impl SignalsWriter {
         let row = self.rows;
         if values.len() != expected {
             let problem = format!("row {row}: {} signals, expected {expected}", values.len());
-            return Err(damaged(&self.path, problem));
+            return Err(DatasetError::damaged(&self.path, problem));
         }
         if let Some(position) = values.iter().position(|value| !value.is_finite()) {
             let problem = format!(
                 "row {row}: signal {position} is {}, expected a finite number",
                 values[position]
             );
-            return Err(damaged(&self.path, problem));
+            return Err(DatasetError::damaged(&self.path, problem));
         }
         for value in values {
             self.digest.fixed(&value.to_le_bytes());
@@ -88,7 +88,7 @@ impl SignalsWriter {
     /// Ends the file; its bytes are synced, its name is not.
     pub fn finish(mut self) -> Result<SignalsInfo, DatasetError> {
         let problem = self.spec.check_rest(self.rows);
-        problem.map_err(|problem| damaged(&self.path, problem))?;
+        problem.map_err(|problem| DatasetError::damaged(&self.path, problem))?;
         if !self.held.is_empty() {
             self.write_group()?;
         }
@@ -101,8 +101,8 @@ impl SignalsWriter {
             ..
         } = self;
         let written = guarded(|| writer.into_inner());
-        let written = written.map_err(|problem| damaged(&path, problem))?;
-        let written = written.map_err(|error| damaged(&path, error.to_string()))?;
+        let written = written.map_err(|problem| DatasetError::damaged(&path, problem))?;
+        let written = written.map_err(|error| DatasetError::damaged(&path, error.to_string()))?;
         let file = written.into_inner().map_err(|error| error.into_error());
         file.and_then(|file| file.sync_all())
             .map_err(DatasetError::io("write", &path))?;
@@ -135,8 +135,8 @@ impl SignalsWriter {
             Ok(())
         });
         self.held.clear();
-        let written = written.map_err(|problem| damaged(&self.path, problem))?;
-        written.map_err(|error| damaged(&self.path, error.to_string()))
+        let written = written.map_err(|problem| DatasetError::damaged(&self.path, problem))?;
+        written.map_err(|error| DatasetError::damaged(&self.path, error.to_string()))
     }
 }
 
@@ -170,11 +170,4 @@ fn properties(spec: &SignalsSpec) -> WriterProperties {
         .set_created_by("taceva".to_owned())
         .set_key_value_metadata(Some(vec![KeyValue::new("unit".to_owned(), unit)]))
         .build()
-}
-
-fn damaged(path: &Path, problem: String) -> DatasetError {
-    DatasetError::Damaged {
-        path: path.to_owned(),
-        problem,
-    }
 }

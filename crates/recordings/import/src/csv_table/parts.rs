@@ -271,10 +271,7 @@ pub(super) fn begin_of(file: &mut File) -> std::io::Result<u64> {
 }
 
 fn wrong(path: &Path, problem: String) -> DatasetError {
-    DatasetError::Table {
-        place: Place::file(path),
-        problem,
-    }
+    DatasetError::table(Place::file(path), problem)
 }
 
 #[cfg(test)]

@@ -185,10 +185,7 @@ fn fill(
 }
 
 fn wrong(path: &Path, line: u64, problem: String) -> DatasetError {
-    DatasetError::Table {
-        place: Place::line(path, line),
-        problem,
-    }
+    DatasetError::table(Place::line(path, line), problem)
 }
 
 #[cfg(test)]

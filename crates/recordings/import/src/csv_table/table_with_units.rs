@@ -57,10 +57,7 @@ fn hint(text: &str, form: &TextForm) -> Option<String> {
 }
 
 fn read_text(path: &Path, text: String, form: &TextForm) -> Result<TableWithUnits, DatasetError> {
-    let wrong = |line: u64, problem: String| DatasetError::Table {
-        place: Place::line(path, line),
-        problem,
-    };
+    let wrong = |line: u64, problem: String| DatasetError::table(Place::line(path, line), problem);
     let is_comment = |line: &str| {
         let mark = form.comment.as_deref();
         mark.is_some_and(|mark| line.trim_start().trim_start_matches('"').starts_with(mark))

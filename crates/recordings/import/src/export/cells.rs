@@ -68,10 +68,7 @@ pub(super) fn of_table(error: TableError) -> DatasetError {
             path,
             source,
         },
-        other => DatasetError::Damaged {
-            path: other.path().to_owned(),
-            problem: crate::foreign::said(other.path(), &other),
-        },
+        other => DatasetError::damaged(other.path(), crate::foreign::said(other.path(), &other)),
     }
 }
 

@@ -138,11 +138,8 @@ impl<'a> Pictures<'a> {
     }
 
     fn png(&self, frame: &Frame, path: &str) -> Result<Encoded, DatasetError> {
-        let bytes = encode_png(frame).map_err(|problem| DatasetError::Image {
-            place: None,
-            path: self.dataset.path().join(path),
-            problem,
-        })?;
+        let bytes = encode_png(frame)
+            .map_err(|problem| DatasetError::image(&self.dataset.path().join(path), problem))?;
         Ok(Encoded::of(bytes))
     }
 }

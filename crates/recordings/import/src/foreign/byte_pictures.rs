@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use taceva_tables::{ArrowTable, Cell, ColumnKind, LeRobot, ParquetTable, TableError};
 
-use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
+use super::pictures::{Ended, Picture, Pictures, Visit, guarded_visit};
 use super::said;
 use taceva_dataset::{ChannelOrder, DatasetError};
 
@@ -137,7 +137,7 @@ impl<T: ByteColumns> Pictures for EncodedPictures<T> {
             self.table.visit(&self.column, sorted, &mut |row, bytes| {
                 let bytes = bytes.ok_or_else(|| {
                     let problem = format!("row {row} has no bytes in `{}`", self.column);
-                    Ended::Picture(damaged(self.path(), problem))
+                    Ended::Picture(DatasetError::image(self.path(), problem))
                 })?;
                 each(row, Picture::Encoded(bytes)).map_err(Ended::Picture)
             })

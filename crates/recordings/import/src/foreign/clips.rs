@@ -6,7 +6,7 @@ use taceva_core::{Frame, FrameInfo, PixelFormat};
 use taceva_video::{Colours, Decoders, Video, VisitError};
 
 use super::depth_pixels::DepthPixels;
-use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
+use super::pictures::{Ended, Picture, Pictures, Visit, guarded_visit};
 use super::said;
 use taceva_dataset::internal::guarded;
 use taceva_dataset::{ChannelOrder, DatasetError, FrameCodec};
@@ -46,8 +46,8 @@ impl ClipPictures {
 
 fn open(path: &Path, decoders: &Decoders) -> Result<Video, DatasetError> {
     let opened = guarded(|| Video::open(path, decoders));
-    let opened = opened.map_err(|problem| damaged(path, problem))?;
-    opened.map_err(|error| damaged(path, said(path, &error)))
+    let opened = opened.map_err(|problem| DatasetError::image(path, problem))?;
+    opened.map_err(|error| DatasetError::image(path, said(path, &error)))
 }
 
 impl Pictures for ClipPictures {
@@ -74,7 +74,7 @@ impl Pictures for ClipPictures {
             ChannelOrder::Gray => (Colours::Luma, PixelFormat::Gray8),
             _ if self.depth.is_some() => {
                 let problem = "a depth map has no colours: `channel_order = \"gray\"`";
-                return Err(damaged(&self.path, problem.to_owned()));
+                return Err(DatasetError::image(&self.path, problem.to_owned()));
             }
             _ => (Colours::Rgb, PixelFormat::Rgb8),
         };
@@ -84,7 +84,10 @@ impl Pictures for ClipPictures {
                     None => kept(picture, format),
                     Some(depth) => of_depth(&picture, depth),
                 };
-                each(index, kept.map_err(|problem| damaged(&self.path, problem))?)
+                each(
+                    index,
+                    kept.map_err(|problem| DatasetError::image(&self.path, problem))?,
+                )
             });
             outcome.map_err(|ended| match ended {
                 VisitError::Video(error) => Ended::File(error),

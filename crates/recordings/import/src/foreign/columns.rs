@@ -300,8 +300,5 @@ impl ColumnTable {
 }
 
 fn wrong(path: &Path, problem: String) -> DatasetError {
-    DatasetError::Table {
-        place: Place::file(path),
-        problem,
-    }
+    DatasetError::table(Place::file(path), problem)
 }

@@ -7,7 +7,7 @@ use taceva_core::{Frame, FrameInfo, PixelFormat};
 use taceva_tables::{Cell, Recording, SampleForm, TopicTable};
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
-use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
+use super::pictures::{Ended, Picture, Pictures, Visit, guarded_visit};
 use super::said;
 use crate::frame_names::FrameNames;
 use taceva_dataset::internal::guarded;
@@ -214,7 +214,10 @@ impl Pictures for MessagePictures {
                 .visit_pictures(&self.field, sorted, &mut |row, picture| {
                     let picture = kept(picture, order);
                     let picture = picture.map_err(|problem| {
-                        Ended::Picture(damaged(self.path(), format!("message {row}: {problem}")))
+                        Ended::Picture(DatasetError::image(
+                            self.path(),
+                            format!("message {row}: {problem}"),
+                        ))
                     })?;
                     each(row, picture).map_err(Ended::Picture)
                 })

@@ -87,17 +87,8 @@ pub(super) fn guarded_visit<E: fmt::Display>(
     match guarded(visit) {
         Ok(Ok(())) => Ok(()),
         Ok(Err(Ended::Picture(error))) => Err(error),
-        Ok(Err(Ended::File(error))) => Err(damaged(path, said(path, &error))),
-        Err(problem) => Err(damaged(path, problem)),
-    }
-}
-
-/// Error for damaged pictures in the file at `path`.
-pub(super) fn damaged(path: &Path, problem: String) -> DatasetError {
-    DatasetError::Image {
-        place: None,
-        path: path.to_owned(),
-        problem,
+        Ok(Err(Ended::File(error))) => Err(DatasetError::image(path, said(path, &error))),
+        Err(problem) => Err(DatasetError::image(path, problem)),
     }
 }
 

@@ -1,8 +1,8 @@
 //! WebDataset shards: tar members with one name before the first dot are a sample. Pictures are read in place.
 
-use std::collections::{BTreeMap, BTreeSet};
+mod samples;
+
 use std::fs::File;
-use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,9 +11,9 @@ use taceva_arrays::ArrayFile;
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::json::json_problem;
-use super::pictures::{Picture, Pictures, Visit, damaged};
-use super::tar::{FileTape, Members, TarError};
+use super::pictures::{Picture, Pictures, Visit};
 use crate::frame_names::FrameNames;
+use samples::{Sample, bytes_at, samples};
 use taceva_dataset::internal::{ImageKind, limits};
 use taceva_dataset::{ChannelOrder, DatasetError};
 
@@ -31,13 +31,6 @@ const TEXTS: [&str; 4] = ["txt", "text", "cls", "id"];
 pub(super) struct Shard {
     path: PathBuf,
     samples: Arc<Vec<Sample>>,
-}
-
-#[derive(Debug, Default)]
-struct Sample {
-    key: String,
-    /// Offset and length, in bytes, of each member, by the name behind its first dot.
-    parts: BTreeMap<Arc<str>, (u64, u64)>,
 }
 
 impl Shard {
@@ -181,69 +174,6 @@ fn nested(shape: &[u64], numbers: &[f64]) -> String {
             let lists = numbers.chunks(length.max(1)).map(|own| nested(rest, own));
             format!("[{}]", lists.collect::<Vec<_>>().join(", "))
         }
-    }
-}
-
-/// Samples of a shard in file order.
-fn samples(path: &Path) -> Result<Vec<Sample>, TarError> {
-    let file = File::open(path)?;
-    let length = file.metadata()?.len();
-    let mut members = Members::new(FileTape {
-        file: BufReader::new(file),
-        length,
-    });
-    let mut samples: Vec<Sample> = Vec::new();
-    let mut endings: BTreeSet<Arc<str>> = BTreeSet::new();
-    while let Some(member) = members.next()? {
-        let (folder, name) = member.name.rsplit_once('/').unwrap_or(("", &member.name));
-        let Some((stem, ending)) = name.split_once('.').filter(|(stem, _)| !stem.is_empty()) else {
-            continue;
-        };
-        let key = match folder {
-            "" => stem.to_owned(),
-            folder => format!("{folder}/{stem}"),
-        };
-        let ending = ending.to_ascii_lowercase();
-        let ending = match endings.get(ending.as_str()) {
-            Some(known) => Arc::clone(known),
-            None => {
-                let ending: Arc<str> = ending.into();
-                endings.insert(Arc::clone(&ending));
-                ending
-            }
-        };
-        if samples.last().is_none_or(|last| last.key != key) {
-            samples.push(Sample {
-                key,
-                ..Sample::default()
-            });
-        }
-        if let Some(sample) = samples.last_mut()
-            && sample
-                .parts
-                .insert(ending, (member.at, member.size))
-                .is_some()
-        {
-            return Err(TarError::Twice(member.name));
-        }
-    }
-    Ok(samples)
-}
-
-fn bytes_at(file: &mut File, (at, size): (u64, u64), cap: u64) -> Result<Vec<u8>, String> {
-    if size > cap {
-        return Err(format!(
-            "{size} bytes, more than the {cap} that are accepted here"
-        ));
-    }
-    let mut bytes = Vec::new();
-    let read = file
-        .seek(SeekFrom::Start(at))
-        .and_then(|_| file.take(size).read_to_end(&mut bytes));
-    read.map_err(|error| error.to_string())?;
-    match bytes.len() as u64 == size {
-        true => Ok(bytes),
-        false => Err("the shard became shorter while it was read".to_owned()),
     }
 }
 
@@ -395,7 +325,7 @@ impl Pictures for ShardPictures {
         _order: ChannelOrder,
         each: Visit<'_>,
     ) -> Result<(), DatasetError> {
-        let wrong = |problem: String| damaged(&self.path, problem);
+        let wrong = |problem: String| DatasetError::image(&self.path, problem);
         let mut file = File::open(&self.path).map_err(DatasetError::io("open", &self.path))?;
         for index in sorted {
             let sample = usize::try_from(*index)

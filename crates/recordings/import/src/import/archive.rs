@@ -84,10 +84,7 @@ impl UnpackedArchive {
             ),
             false => unpack(FileTape { file, length }, &content),
         };
-        outcome.map_err(|error| DatasetError::Table {
-            place: Place::file(archive),
-            problem: error.to_string(),
-        })?;
+        outcome.map_err(|error| DatasetError::table(Place::file(archive), error.to_string()))?;
         Ok(UnpackedArchive {
             folder: innermost(&content)?,
             archive: archive.to_owned(),

@@ -1,9 +1,8 @@
 //! Adds rows to an imported dataset: writes a successor beside it that shares its files, then replaces it atomically.
 
 mod duplicates;
+mod successor;
 
-use std::collections::BTreeSet;
-use std::fs::{self, File};
 use std::num::NonZeroUsize;
 use std::path::Path;
 
@@ -12,16 +11,14 @@ use taceva_core::Progress;
 use super::copy::{CopiedFrames, ImportReport, copy_frames};
 use super::frame_plan::PlannedFrames;
 use super::plan::ImportPlan;
-use super::signals::PlannedSignals;
 use crate::source_sums::list_of;
 use duplicates::refuse_twice;
+use successor::{Written, share_files, write_header, write_signals};
 use taceva_dataset::internal::{
-    Beside, Difference, Misread, RowNames, SignalsWriter, differences_of_added, layout, limits,
-    read_capped, staging::Place, staging::StagedFolder, write_durable, write_table_and_header,
+    Difference, Misread, RowNames, differences_of_added, layout, limits, read_capped,
+    staging::Place, staging::StagedFolder, write_durable,
 };
-use taceva_dataset::{
-    Dataset, DatasetError, Digest, Extension, Header, SignalsInfo, SourcesInfo, Table,
-};
+use taceva_dataset::{Dataset, DatasetError, Digest, Header, SourcesInfo, Table};
 
 /// Date and source of added rows, as recorded in the header of the dataset.
 ///
@@ -154,10 +151,7 @@ impl ImportPlan {
         frames: Option<&CopiedFrames>,
     ) -> Result<(), DatasetError> {
         let header = before.header();
-        let refused = |problem: String| DatasetError::Request {
-            path: before.path().to_owned(),
-            problem,
-        };
+        let refused = |problem: String| DatasetError::request(before.path(), problem);
         if !header.presses.is_empty() || header.stream.is_some() {
             return Err(refused(
                 "recorded by a run or a capture, and only they can extend it; import these rows as a separate dataset, and name both when \
@@ -269,34 +263,6 @@ fn differs(key: &str, own: &str, other: &str) -> String {
     )
 }
 
-/// Hard-links the frames of `before` into the staged folder under the same paths. Returns their folders.
-fn share_files(before: &Dataset, staged: &StagedFolder) -> Result<BTreeSet<String>, DatasetError> {
-    let frames = before.table().frames().iter().flatten();
-    let views = before.table().views().iter();
-    let views = views.flat_map(|view| view.frames().iter().flatten());
-    let frames = frames.chain(views);
-    let mut files: BTreeSet<&str> = frames.map(|entry| entry.path.as_str()).collect();
-    let views = before.header().views.iter().map(|view| &view.frames);
-    let infos = before.header().frames.iter().chain(views);
-    files.extend(infos.filter_map(|frames| Some(frames.reference.as_ref()?.path.as_str())));
-    let mut folders = BTreeSet::new();
-    for relative in files {
-        for (at, _) in relative.match_indices('/') {
-            if folders.insert(relative[..at].to_owned()) {
-                staged.ensure_folder(&relative[..at])?;
-            }
-        }
-        let (from, to) = (before.path().join(relative), staged.path().join(relative));
-        if fs::hard_link(&from, &to).is_err() {
-            // On file systems without hard links.
-            fs::copy(&from, &to).map_err(DatasetError::io("copy", &from))?;
-            let copied = File::open(&to).and_then(|file| file.sync_all());
-            copied.map_err(DatasetError::io("write", &to))?;
-        }
-    }
-    Ok(folders)
-}
-
 /// Removes the picture without contact from `frames`. It must equal that of the dataset.
 fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), DatasetError> {
     let header = before.header();
@@ -325,106 +291,4 @@ fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), D
         path: before.path().to_owned(),
         problem: differs(&key, &word(known), &word(new)),
     })
-}
-
-/// Writes the signals of all rows, those of `before` first.
-fn write_signals(
-    before: &Dataset,
-    new: &PlannedSignals,
-    staged: &StagedFolder,
-    progress: &dyn Progress,
-) -> Result<SignalsInfo, DatasetError> {
-    let rows = before.table().rows();
-    let own = before.header().signals.iter();
-    let own = own.flat_map(|signals| signals.spec.rest.iter().copied());
-    let added = new.spec().rest.iter();
-    let added = added.map(|run| run.map(|row| row + rows as u64));
-    let spec = new.spec().clone().with_rest(own.chain(added));
-    let mut writer = SignalsWriter::create(&staged.path().join(layout::SIGNALS), &spec)?;
-    for row in 0..rows {
-        if progress.is_cancelled() {
-            return Err(DatasetError::Cancelled);
-        }
-        let signals = before.signals(row)?;
-        let signals = signals.ok_or_else(|| DatasetError::Damaged {
-            path: before.path().join(layout::SIGNALS),
-            problem: format!("no signals of row {row}"),
-        })?;
-        writer.push(signals.values())?;
-    }
-    new.write_to(&mut writer, progress)?;
-    writer.finish()
-}
-
-/// Files of the successor that are written before its header.
-struct Written {
-    frames: CopiedFrames,
-    signals: Option<SignalsInfo>,
-    sources: SourcesInfo,
-}
-
-fn write_header(
-    staged: &StagedFolder,
-    before: &Dataset,
-    table: &Table,
-    written: Written,
-    plan: &ImportPlan,
-    added: &Addition,
-) -> Result<Header, DatasetError> {
-    let Written {
-        frames,
-        signals,
-        sources,
-    } = written;
-    let header = before.header();
-    let all = header.frames.clone().map(|mut all| {
-        all.count += frames.frames.map_or(0, |new| new.count);
-        all
-    });
-    let mut views = header.views.clone();
-    for new in frames.views {
-        let mut known = views.iter_mut();
-        if let Some(known) = known.find(|known| known.name == new.name) {
-            known.frames.count += new.frames.count;
-        }
-    }
-    let mut unmentioned = header.unmentioned_columns.clone();
-    for column in plan.summary.columns_left_behind() {
-        if !unmentioned.contains(&column) {
-            unmentioned.push(column);
-        }
-    }
-    let mut warnings = header.warnings.clone();
-    for warning in plan.summary.warnings_in_words() {
-        if !warnings.contains(&warning) {
-            warnings.push(warning);
-        }
-    }
-    let mut extended = header.extended.clone();
-    extended.push(Extension::new(
-        header.table.rows,
-        header.digest,
-        added.date.clone(),
-        added.from.clone(),
-    ));
-    let facts = header.recording_facts();
-    write_table_and_header(
-        &staged.path().join(layout::SAMPLES),
-        &staged.path().join(layout::HEADER),
-        &facts,
-        table,
-        all,
-        Beside {
-            unmentioned_columns: unmentioned,
-            views,
-            signals,
-            extended,
-            mapping: header.mapping().and(&plan.mapping),
-            left_out: header.left_out.clone().and(plan.summary.left_out()),
-            warnings,
-            sources: Some(sources),
-            history: header.seal.history.clone(),
-            ..Beside::default()
-        },
-    )
 }

@@ -161,10 +161,7 @@ fn bristol(text: String, folder: &SourceFolder) -> Result<String, DatasetError> 
 /// Selects the file's first sensor, and the left-hand pictures if there are two.
 fn touchd(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
     let path = folder.file(folder.path(), "all_data_direction.json")?;
-    let wrong = |problem: &str| DatasetError::Table {
-        place: Place::file(&path),
-        problem: problem.to_owned(),
-    };
+    let wrong = |problem: &str| DatasetError::table(Place::file(&path), problem.to_owned());
     let bytes = read_capped(&path, limits::JSON_BYTES)?;
     let value: serde_json::Value =
         serde_json::from_slice(&bytes).map_err(|error| wrong(&format!("no JSON: {error}")))?;

@@ -230,7 +230,8 @@ mod tests {
             .collect();
         assert_eq!(kept, [("mae", "Pz"), ("r2", "Pz")]);
         assert!(
-            text.contains("no skill: ") && text.contains("\n# mae Fz, r2 Fz\n"),
+            text.contains("not better than predicting the mean: ")
+                && text.contains("\n# mae Fz, r2 Fz\n"),
             "{text}"
         );
     }

@@ -7,7 +7,7 @@ use taceva_core::Unit;
 use super::definition;
 use super::entry::{Kind, Sensor};
 use super::published::Published;
-use crate::results::{Made, PUBLISHED, Study, by_published_r2};
+use crate::results::{Fact, Made, PUBLISHED, Study, by_published_r2};
 use taceva_results::{Interval, Score};
 
 impl Sensor {
@@ -99,6 +99,7 @@ impl Sensor {
             gel: "unknown".to_owned(),
             source: "published".to_owned(),
             scores,
+            facts: self.facts(),
             skipped: Vec::new(),
             provenance: sources.collect(),
             made: Made::default(),
@@ -108,5 +109,46 @@ impl Sensor {
             over_seeds: None,
             samples: None,
         }
+    }
+
+    /// Numbers that no test compares: of other definitions, stated roughly, of size, price and limits; and ways to get a sensor.
+    fn facts(&self) -> Vec<Fact> {
+        let size = self.size.iter();
+        let mut facts: Vec<Fact> = size.map(|of| fact("size", of.shown(), "mm")).collect();
+        if let Some(of) = &self.intrinsic {
+            let thickness = of.thickness_mm.to_string();
+            facts.push(fact("intrinsic thickness", thickness, "mm"));
+        }
+        if let Some(of) = &self.limits {
+            let (depth, force) = (of.pz_max_mm.to_string(), of.fz_max_n.to_string());
+            facts.push(fact("greatest Pz", depth, "mm"));
+            facts.push(fact("greatest Fz", force, "N"));
+        }
+        // Variants of our metrics stand beside their metric on the page of the sensor.
+        let is_fact = |result: &&Published| {
+            let family = result.metric.split('.').next().unwrap_or_default();
+            !definition::is_ours(family) || result.bound.is_some()
+        };
+        let published = self.results.iter().filter(is_fact);
+        facts.extend(published.map(|of| {
+            let unit = match of.unit.as_str() {
+                "1" => "",
+                unit => unit,
+            };
+            fact(&format!("{} {}", of.metric, of.channel), of.shown(), unit)
+        }));
+        let prices = self.prices.iter();
+        facts.extend(prices.map(|of| fact("price", format!("{}, {}", of.shown(), of.seen), "")));
+        let ways = self.availability.iter();
+        facts.extend(ways.map(|of| fact("availability", of.way.word().to_owned(), "")));
+        facts
+    }
+}
+
+fn fact(name: &str, value: String, unit: &str) -> Fact {
+    Fact {
+        name: name.trim().to_owned(),
+        unit: unit.to_owned(),
+        value,
     }
 }

@@ -185,3 +185,16 @@ impl fmt::Display for Property {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_people_read() {
+        let shown = |value: f64| Property::Error("Fz").shown(value);
+        assert_eq!(shown(0.031_415_926_535_897_9), "0.03142 N");
+        assert_eq!(shown(25.0), "25 N");
+        assert_eq!(shown(0.0361), "0.0361 N");
+    }
+}

@@ -184,7 +184,7 @@ fn shown(step: &Step) -> String {
         || "not known".to_owned(),
         |value| step.property.shown(value),
     );
-    match step.standing.words().filter(|_| step.value.is_some()) {
+    match step.standing.phrase().filter(|_| step.value.is_some()) {
         Some(words) => format!("{number}, {words}"),
         None => number,
     }

@@ -8,7 +8,7 @@ use crate::names::listed;
 use crate::results::Study;
 use taceva_results::Score;
 
-/// Reason that two scores give no verdict, such as `ViTacTip: no skill: …`.
+/// Reason that two scores give no verdict, such as `ViTacTip: not better than predicting the mean: …`.
 pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String> {
     let sides = [(scores.a, names.a), (scores.b, names.b)];
     let reasons: Vec<String> = sides

@@ -8,6 +8,7 @@ use super::{Answer, Comparison, Remarks};
 use crate::names::listed;
 use crate::number::{at_most, numeral, spaced};
 use crate::tie::best;
+use crate::wrap::wrapped;
 
 /// Limit of lines in [`Comparison::overview`].
 pub const OVERVIEW_LINES: usize = 12;
@@ -92,6 +93,9 @@ impl Comparison {
     /// Counts of the answers, in one line.
     pub fn summary(&self) -> String {
         let all = self.answers.len();
+        if all == 0 {
+            return "Nothing can be compared: no score is in two of the results".to_owned();
+        }
         let shown = self
             .answers
             .iter()
@@ -136,12 +140,15 @@ impl Comparison {
         format!("{pairs} of scores: {shown}{others}{why} (5 %, by Holm over each metric)")
     }
 
-    /// First questions with their answers, in at most [`OVERVIEW_LINES`] lines. With a `width`, lines are cut between words to that many
+    /// First questions with their answers, in at most [`OVERVIEW_LINES`] lines. With a `width`, lines are wrapped between words to that many
     /// characters. Omitted questions are counted.
     pub fn overview(&self, width: Option<usize>) -> String {
         let line = |words: &str| {
             let words = crate::escape::terminal(words);
-            width.map_or_else(|| words.clone(), |width| cut(&words, width))
+            match width {
+                Some(width) => wrapped(&words, width, 0),
+                None => format!("{words}\n"),
+            }
         };
         let notes = self.notes.iter().take(2);
         let notes: Vec<String> = notes.map(|note| line(&format!("note: {note}"))).collect();
@@ -155,10 +162,11 @@ impl Comparison {
         let mut lines = vec![line(&self.summary())];
         lines.extend(decisions.iter().take(room).map(|of| line(&of.line())));
         lines.extend(notes);
-        lines.push(format!(
-            "{more}every pair, with both p values and its interval: --all"
-        ));
-        lines.join("\n") + "\n"
+        if !self.answers.is_empty() {
+            let every = "every pair, with both p values and its interval: --all";
+            lines.push(line(&format!("{more}{every}")));
+        }
+        lines.concat()
     }
 
     fn decision(&self, question: &str, metric: &str, channel: &str) -> Option<Decision> {
@@ -291,11 +299,11 @@ impl Answer {
         matches!(self.verdict, Verdict::Equivalent { .. })
     }
 
-    /// Short reason that the pair was not tested: `no skill`.
+    /// Short reason that the pair was not tested: `not better than predicting the mean`.
     fn cause(&self) -> &str {
         let sides = [self.standings.a, self.standings.b];
         let barred = sides.into_iter().find(|standing| !standing.takes_part());
-        let words = barred.and_then(Standing::words);
+        let words = barred.and_then(Standing::phrase);
         let words = words.or(self.reason.as_deref()).unwrap_or("no value");
         words.split(':').next().unwrap_or(words)
     }
@@ -341,11 +349,13 @@ fn values(answers: &[&Answer], is_wanted: impl Fn(&Answer) -> bool) -> Vec<(usiz
 /// Reason that nothing is decided.
 fn untested(answers: &[&Answer], valued: &[(usize, f64)], names: &[String]) -> String {
     let reason = answers.iter().find_map(|answer| answer.reason.as_deref());
-    let reason = reason.unwrap_or("no value");
     match valued {
-        [] => format!("no answer: {reason}"),
+        [] => format!("no answer: {}", reason.unwrap_or("no value")),
         [(at, _)] => format!("only {} has a value", names[*at]),
-        _ => format!("no winner: {reason}"),
+        _ => {
+            let reason = reason.unwrap_or("the score is neither good nor bad by itself");
+            format!("no winner: {reason}")
+        }
     }
 }
 
@@ -355,29 +365,5 @@ fn p_words(p: f64) -> String {
         "p < 0.001".to_owned()
     } else {
         format!("p ≤ {}", at_most(p))
-    }
-}
-
-/// Line of at most `width` characters, cut between words if possible, with a mark for the omission.
-fn cut(line: &str, width: usize) -> String {
-    if line.chars().count() <= width {
-        return line.to_owned();
-    }
-    let start: String = line.chars().take(width.saturating_sub(1)).collect();
-    let whole = start
-        .rsplit_once(' ')
-        .map_or(start.as_str(), |(whole, _)| whole);
-    format!("{}…", whole.trim_end())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_line_that_is_too_long_is_cut_between_words() {
-        assert_eq!(cut("no winner of these", 18), "no winner of these");
-        assert_eq!(cut("no winner of these", 14), "no winner of…");
-        assert_eq!(cut("unbroken", 5), "unbr…");
     }
 }

@@ -33,7 +33,7 @@ impl Remarks {
         let barred = scores.iter().filter_map(|(at, score)| {
             let mark = score
                 .standing
-                .words()
+                .phrase()
                 .filter(|_| !score.standing.takes_part())?;
             let is_low = score.standing == Standing::LowStimulus;
             let words = Light::of(score).low_stimulus().filter(|_| is_low);

@@ -8,6 +8,10 @@ use super::{Answer, Comparison, Decision};
 use crate::escape::terminal;
 use crate::number::{fixed, numeral, significant, spaced};
 use crate::table::{Column, Table};
+use crate::wrap::wrapped;
+
+/// Indent of answers, below the score that they are about.
+const INDENT: usize = 2;
 
 /// Schema of a comparison as JSON.
 pub const COMPARISON_SCHEMA: &str = "taceva.comparison/2";
@@ -93,9 +97,15 @@ impl Comparison {
 
     /// All questions and answers for a terminal, score by score, in lines of at most 100 characters.
     pub fn text(&self) -> String {
-        let mut out = format!("{}\n", self.summary());
+        self.text_within(OVERVIEW_WIDTH)
+    }
+
+    /// All questions and answers for a terminal, score by score, in lines of at most `width` characters.
+    pub fn text_within(&self, width: usize) -> String {
+        let below = |text: &str| wrapped(&terminal(text), width, INDENT);
+        let mut out = wrapped(&self.summary(), width, 0);
         for decision in self.decisions() {
-            out += &wrapped(&terminal(&decision.line()));
+            out += &below(&decision.line());
         }
         let mut last = String::new();
         for answer in &self.answers {
@@ -105,13 +115,13 @@ impl Comparison {
             };
             let heading = format!("{}{unit}", answer.named());
             if heading != last {
-                out += &format!("\n{}\n", terminal(&heading));
+                out += &format!("\n{}", wrapped(&terminal(&heading), width, 0));
                 last = heading;
             }
-            out += &wrapped(&terminal(&self.line(answer)));
+            out += &below(&self.line(answer));
         }
         for note in self.rules() {
-            out += &format!("\n{}", wrapped(&terminal(&note)));
+            out += &format!("\n{}", below(&note));
         }
         out
     }
@@ -199,23 +209,6 @@ fn end(end: f64) -> String {
     } else {
         "∞".to_owned()
     }
-}
-
-/// Wraps words at [`OVERVIEW_WIDTH`] characters, with a hanging indent.
-fn wrapped(text: &str) -> String {
-    let mut out = String::new();
-    let mut line = String::from(" ");
-    for word in text.split(' ').filter(|word| !word.is_empty()) {
-        let is_full = line.chars().count() + 1 + word.chars().count() > OVERVIEW_WIDTH;
-        if is_full && !line.trim().is_empty() {
-            out += line.trim_end();
-            out.push('\n');
-            line = String::from("     ");
-        }
-        line.push(' ');
-        line += word;
-    }
-    out + line.trim_end() + "\n"
 }
 
 /// Degrees of freedom of both intervals, for a test by intervals.

@@ -201,7 +201,7 @@ fn unproven(studies: &[Study], axes: &[Axis]) -> String {
         out += " Differences between published values were not tested.";
     }
     if any(|score| score.standing == Standing::SkillUnknown) {
-        out += " The skill of some models is unknown.";
+        out += " Some models were not tested against predicting the mean.";
     }
     out
 }
@@ -237,7 +237,7 @@ impl Axis {
         (score.value.number().is_some() && self.without_place(score).is_none()).then_some(score)
     }
 
-    /// Values that are not drawn because they take no part in verdicts: `spatial Pz of GelSightWM (no skill)`.
+    /// Values that are not drawn because they take no part in verdicts: `spatial Pz of GelSightWM (not above chance)`.
     fn barred(&self, studies: &[Study]) -> Vec<Barred> {
         let of_one = |(at, study): (usize, &Study)| {
             let score = study.score(self.metric, self.channel)?;
@@ -264,7 +264,7 @@ impl Axis {
             || !is_published && interval.is_some_and(|interval| interval.ends().is_none());
         let barred = score
             .standing
-            .words()
+            .phrase()
             .filter(|_| !score.standing.takes_part());
         barred.or_else(|| is_unsure().then_some("no interval"))
     }

@@ -12,7 +12,6 @@ use crate::results::Study;
 use crate::scores::{ScoreCell, ScoreRow, ScoreTable};
 use crate::spread;
 use crate::tie::{best, tie};
-use taceva_metrics::Standing;
 use taceva_results::Score;
 
 /// Subtitle.
@@ -74,23 +73,9 @@ fn alone(row: &ScoreRow) -> Option<Markup> {
     }
     Some(html! {
         (phrase(cell, row)) ", n = " (cell.n) "."
-        @if let Some(why) = cell.standing.reason() { " Not used in verdicts: " (why) "." (remedy(cell.standing)) }
+        @if let Some(why) = cell.standing.reason() { " Not used in verdicts: " (why) "." }
+        @if let Some(remedy) = cell.standing.remedy() { " " (remedy) }
     })
-}
-
-/// Way to a score of this standing that is used in verdicts; empty for one that is.
-fn remedy(standing: Standing) -> &'static str {
-    match standing {
-        Standing::NoSkill | Standing::NoInterval => {
-            " More contact points, or a score of every point (--split cv:5), would narrow this."
-        }
-        Standing::NotAboveConstant => " More presses of gratings would narrow this.",
-        Standing::NotAboveNoiseFloor => " More presses at each place would narrow this.",
-        Standing::Neighbours => " A split by groups or blocks (--split by-block) avoids this.",
-        Standing::LowStimulus => " Stronger light or more different presses avoid this.",
-        Standing::Bounded => " A model fitted on a wider range of labels avoids this.",
-        _ => "",
-    }
 }
 
 /// Verdict on the best of several sensors.
@@ -162,7 +147,7 @@ fn without(row: &ScoreRow, table: &ScoreTable) -> String {
     }
 }
 
-/// Sensors without a part in verdicts, with the reason: ` Excluded from verdicts: GelSightWM (no skill).`
+/// Sensors without a part in verdicts, with the reason: ` Excluded from verdicts: GelSightWM (not better than predicting the mean).`
 fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
     let barred = known.iter().filter(|known| !known.cell.takes_part());
     let barred: Vec<String> = barred

@@ -263,7 +263,7 @@ impl Sheet<'_> {
             );
         }
         if cells().any(|cell| cell.mark == BARRED) {
-            said.push("†: not shown to be better than a constant, or not above its noise floor.");
+            said.push("†: not better than predicting the mean, or not above chance.");
         }
         if !said.is_empty() {
             table.note(said.join(" "));

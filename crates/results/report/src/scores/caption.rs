@@ -46,9 +46,13 @@ impl ScoreTable {
             true => "Accuracy",
             false => "Scores",
         };
-        let samples = main.samples();
-        let intervals = main.intervals();
-        format!("{what} of {}{samples}{intervals}.", main.subjects())
+        main.captioned(what)
+    }
+
+    /// `Values of 2 sensors, as published, without intervals.`
+    pub(super) fn captioned(&self, what: &str) -> String {
+        let (samples, intervals) = (self.samples(), self.intervals());
+        format!("{what} of {}{samples}{intervals}.", self.subjects())
     }
 
     /// `GelSight (ridge)`, `4 sensors`, `3 models of GelSight`
@@ -82,6 +86,9 @@ impl ScoreTable {
         let sources: BTreeSet<&str> = self.sources.iter().map(String::as_str).collect();
         if sources.iter().all(|source| *source == "published") {
             return ", as published".to_owned();
+        }
+        if sources.contains("published") {
+            return ", some of them as published".to_owned();
         }
         let of = |source: &&str| matches!(*source, "simulated" | "synthetic" | "recorded");
         let is_plain = sources.iter().all(|source| *source == "recorded");

@@ -5,14 +5,13 @@ use std::collections::BTreeSet;
 use taceva_core::Unit;
 use taceva_metrics::Better;
 
+use super::mark::BARRED;
 use super::notation::metric;
 use super::{ScoreCell, ScoreRow, ScoreTable};
 use crate::number::FormattedValue;
 use crate::table::{Align, Cell, Column, Estimate, Row, Table, Words, latex_symbol, stacked};
 use crate::table::{COLUMN_PT, GAP_PT, letters_pt};
 
-/// Beside a value that takes no part in verdicts, where there is no room for the reason.
-const BARRED: &str = "†";
 /// Rows of one table: with its intervals it fills half a page.
 const MOST_ROWS: usize = 18;
 /// The widest name of a row, and of the head of a column, in points of TeX.
@@ -141,7 +140,7 @@ impl ScoreTable {
     }
 
     /// The numbers of samples of each study, where they differ between studies or scores.
-    fn counts(&self) -> Option<Vec<String>> {
+    pub(super) fn counts(&self) -> Option<Vec<String>> {
         let of = |at: usize| {
             let cells = self.rows.iter().filter_map(|row| row.cells[at].as_ref());
             counts(cells.filter(|cell| cell.value.is_some()))
@@ -161,16 +160,7 @@ impl ScoreTable {
         } else if self.names.len() > 1 {
             sentences.push("None is shown to be better than every other one at a level of 5 % after Holm's adjustment.".to_owned());
         }
-        let barred: BTreeSet<&str> = self
-            .valued()
-            .filter(|cell| !cell.takes_part())
-            .filter_map(|cell| cell.standing.words())
-            .collect();
-        if !barred.is_empty() {
-            let why: Vec<&str> = barred.into_iter().collect();
-            let why = why.join(", ");
-            sentences.push(format!("{BARRED}: takes no part in verdicts ({why})."));
-        }
+        sentences.extend(self.legend(BARRED));
         if self.rows.iter().any(|row| row.metric == "repeatability") {
             sentences.push("σ rep: repeatability.".to_owned());
         }
@@ -191,7 +181,7 @@ impl ScoreTable {
 
 impl ScoreRow {
     /// The channel with its unit; the metric stands above it in LaTeX, and before it elsewhere.
-    fn named(&self, channel: &Words) -> Words {
+    pub(super) fn named(&self, channel: &Words) -> Words {
         let plain = format!("{} {}", self.metric, channel.plain());
         let plain = Better::of(&self.metric).map_or(plain.clone(), |better| better.beside(&plain));
         Words::new(plain).latex(channel.in_latex())
@@ -280,7 +270,7 @@ fn numbered(caption: &str, at: usize, count: usize) -> String {
 }
 
 /// A channel with its unit: `$F_{z}$ (N)`.
-fn named(channel: &str, unit: Unit) -> Words {
+pub(super) fn named(channel: &str, unit: Unit) -> Words {
     let unit = match unit {
         Unit::One => String::new(),
         unit => format!(" ({unit})"),

@@ -3,6 +3,7 @@
 use taceva_core::Unit;
 use taceva_metrics::Better;
 
+use super::mark::{BARRED, UNPROVEN};
 use super::{ScoreCell, ScoreRow, ScoreTable};
 use crate::table::{Align, Cell, Column, Direction, Estimate, Row, Table, Words, latex_symbol};
 
@@ -87,7 +88,7 @@ impl ScoreTable {
             };
             let channel = Words::new(&row.channel).latex(latex_symbol(&row.channel));
             let words = [name, channel, Words::new(unit)];
-            let cells = row.cells.iter().map(|cell| without_reason(cell.as_ref()));
+            let cells = row.cells.iter().map(|cell| without_words(cell.as_ref()));
             table.rows.push(Row {
                 cells: words.map(Cell::Text).into_iter().chain(cells).collect(),
                 better: Better::of(&row.metric).filter(|_| is_new),
@@ -98,6 +99,12 @@ impl ScoreTable {
         }
         if self.names.len() > 1 {
             table.note(Words::new(BOLD[0]).latex(BOLD[1]));
+        }
+        for legend in [BARRED, UNPROVEN]
+            .into_iter()
+            .filter_map(|of| self.legend(of))
+        {
+            table.note(legend);
         }
         if let Some(spread) = &self.spread {
             table.note(Words::new(spread));
@@ -151,13 +158,17 @@ fn estimate(cell: Option<&ScoreCell>) -> Cell {
     }))
 }
 
-/// Value with its interval, without a reason for its absence, for lack of room in a paper.
-fn without_reason(cell: Option<&ScoreCell>) -> Cell {
-    match estimate(cell) {
-        Cell::Estimate(mut estimate) => {
-            estimate.formatted.reason = None;
-            Cell::Estimate(estimate)
+/// Value with its interval and the sign of its standing, without words, for lack of room in a paper.
+fn without_words(cell: Option<&ScoreCell>) -> Cell {
+    let valued = cell.filter(|cell| cell.value.is_some());
+    Cell::Estimate(valued.map_or_else(Estimate::default, |cell| {
+        let mut formatted = cell.formatted.clone();
+        formatted.reason = None;
+        Estimate {
+            formatted,
+            mark: cell.mark(),
+            is_best: cell.is_best,
+            ..Estimate::default()
         }
-        other => other,
-    }
+    }))
 }

@@ -31,6 +31,6 @@ impl ScoreTable {
     }
 }
 
-fn is_main(row: &ScoreRow) -> bool {
+pub(super) fn is_main(row: &ScoreRow) -> bool {
     METRICS.contains(&row.metric.as_str())
 }

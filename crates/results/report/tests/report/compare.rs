@@ -1,12 +1,14 @@
 //! Comparisons of drawn scores: the better sensor, the words, and lines and rows of readable length.
 
+mod pairs;
+mod variants;
+
 use crate::support;
 use serde_json::{Value, json};
 use taceva_report::{CompareRequest, Comparison, OVERVIEW_LINES, Study, compare, figures};
-use taceva_results::Samples;
 
 /// Score with the standard error `error` over twenty clusters.
-fn score(value: f64, error: f64, unit: &str) -> Value {
+pub(crate) fn score(value: f64, error: f64, unit: &str) -> Value {
     json!({
         "value": value, "unit": unit, "n": 80, "ci95": [value - 2.0 * error, value + 2.0 * error],
         "standard_error": error, "clusters": 20, "method": "drawn", "definition": "drawn/1"
@@ -14,7 +16,7 @@ fn score(value: f64, error: f64, unit: &str) -> Value {
 }
 
 /// A study of `scores` by metric and channel; that its model has skill on `channels` is known.
-fn study(sensor: &str, scores: &[(&str, &str, Value)], channels: &[&str]) -> Study {
+pub(crate) fn study(sensor: &str, scores: &[(&str, &str, Value)], channels: &[&str]) -> Study {
     let mut metrics = json!({});
     for (metric, channel, score) in scores {
         metrics[metric][channel] = score.clone();
@@ -31,7 +33,7 @@ fn study(sensor: &str, scores: &[(&str, &str, Value)], channels: &[&str]) -> Stu
 }
 
 /// Studies of one error of Fz with skill, from the worst to the best, far apart.
-fn errors(values: &[(&str, f64)]) -> Vec<Study> {
+pub(crate) fn errors(values: &[(&str, f64)]) -> Vec<Study> {
     let of = |&(sensor, value): &(&str, f64)| {
         study(sensor, &[("mae", "Fz", score(value, 0.01, "N"))], &["Fz"])
     };
@@ -145,13 +147,16 @@ fn unknown_skill_is_said_of_those_it_is_unknown_of_and_of_no_other() {
         comparison.answers[0].words(&comparison.names)
     };
     let said = words(&[known.clone(), unknown.clone()]);
-    assert!(said.ends_with("; unknown skill of unknown"), "{said}");
+    assert!(
+        said.ends_with("; not tested against predicting the mean: unknown"),
+        "{said}"
+    );
     let other = Study {
         sensor: "other".to_owned(),
         ..known.clone()
     };
     let said = words(&[known, other]);
-    assert!(!said.contains("skill"), "{said}");
+    assert!(!said.contains("not tested"), "{said}");
 }
 
 #[test]
@@ -174,14 +179,15 @@ fn a_score_without_skill_has_no_answer_but_its_reason() {
         .iter()
         .map(|answer| answer.reason.as_deref())
         .collect();
-    let reason = "none: no skill: the model is not shown to do better than a constant";
+    let reason =
+        "none: not better than predicting the mean: its skill is not shown to be above zero";
     assert_eq!(reasons, [None, Some(reason), Some(reason)]);
     assert!(comparison.answers[0].difference.is_some());
     let decision = &comparison.decisions()[0];
     assert_eq!(decision.winner, Some(0));
     assert_eq!(
         decision.words,
-        "one, 0.25 N, better than two (p < 0.001); none: no skill"
+        "one, 0.25 N, better than two (p < 0.001); none: not better than predicting the mean"
     );
 }
 
@@ -219,15 +225,15 @@ fn scores_that_no_question_names_are_at_most_two_lines_less_than_a_screen() {
 }
 
 #[test]
-fn long_names_are_cut_on_the_first_screen_and_wrapped_below_it() {
+fn long_names_are_wrapped_on_the_first_screen_and_below_it() {
     let long = "a sensor whose name alone is as long as half a line";
     let longer = "another one whose name is rather longer than half a line";
     let comparison = of_metric(&errors(&[(long, 0.25), (longer, 0.75)]), "mae");
     let overview = comparison.overview(Some(100));
-    let cut = overview.lines().nth(1).expect("a line");
+    let first = overview.lines().nth(1).expect("a line");
     assert!(
-        cut.starts_with("Normal force (mae Fz ↓): a sensor") && cut.ends_with('…'),
-        "{cut}"
+        first.starts_with("Normal force (mae Fz ↓): a sensor"),
+        "{first}"
     );
     let text = comparison.text();
     assert!(text.contains("\nmae Fz ↓, in N\n"), "{text}");
@@ -235,9 +241,14 @@ fn long_names_are_cut_on_the_first_screen_and_wrapped_below_it() {
         assert!(line.chars().count() <= 100, "{line}");
     }
     // Nothing is lost where lines are wrapped, and no line is broken that has room for the next word.
-    let joined = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let joined = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let words = comparison.answers[0].words(&comparison.names);
-    assert!(joined.contains(&words), "{text}");
+    assert!(joined(&text).contains(&words), "{text}");
+    let words = &comparison.decisions()[0].words;
+    assert!(joined(&overview).contains(words), "{overview}");
+    for line in comparison.overview(Some(40)).lines() {
+        assert!(line.chars().count() <= 40, "{line}");
+    }
     let lines: Vec<&str> = text.lines().collect();
     for pair in lines
         .windows(2)
@@ -283,157 +294,6 @@ fn a_page_says_who_is_better_and_has_radars_only_if_some_are_drawn() {
     assert!(!has_radars(&studies) && !page.contains("Side by side"));
 }
 
-/// A study with a table of samples, of which the first truth is `first` and every error about `error`.
-fn sampled(sensor: &str, first: f64, error: f64) -> Study {
-    let mut table = String::from("id,point_id,Fz,Fz_predicted\n");
-    let (mut sum, rows) = (0.0, 48);
-    for row in 0..rows {
-        let truth = if row == 0 { first } else { f64::from(row) };
-        let missed = error * (1.0 + f64::from(row % 5) / 8.0);
-        sum += missed;
-        table += &format!("s{row},p{},{truth},{}\n", row % 12, truth + missed);
-    }
-    let mut mae = score(sum / f64::from(rows), 0.01, "N");
-    mae["n"] = rows.into();
-    let mut study = study(sensor, &[("mae", "Fz", mae)], &["Fz"]);
-    study.samples = Some(Samples::read(&table).expect("samples"));
-    study
-}
-
-#[test]
-fn errors_are_compared_sample_by_sample_if_both_tables_are_of_the_same_samples_and_of_their_scores()
-{
-    let test = |a: Study, b: Study| {
-        let comparison = of_metric(&[a, b], "mae");
-        let difference = comparison.answers[0].difference.clone();
-        difference.expect("tested").test.to_string()
-    };
-    let same = test(sampled("a", 0.0, 0.25), sampled("b", 0.0, 0.5));
-    let other_truth = test(sampled("a", 0.0, 0.25), sampled("b", 0.5, 0.5));
-    assert!(same.contains("sign"), "{same}");
-    assert!(
-        other_truth.contains("by the intervals of both"),
-        "{other_truth}"
-    );
-    // Two sensors that press one plan have ids and commanded places in common.
-    let of = |name: &str, error, dataset: &str| {
-        let mut study = sampled(name, 0.0, error);
-        let entry = ("dataset".to_owned(), dataset.to_owned());
-        study.provenance.push(entry);
-        study
-    };
-    let same_plan = test(of("a", 0.25, "sha256:1"), of("b", 0.5, "sha256:2"));
-    assert_eq!(same_plan, other_truth);
-    let same_dataset = test(of("a", 0.25, "sha256:1"), of("b", 0.5, "sha256:1"));
-    assert_eq!(same_dataset, same);
-    // A table whose errors have another mean than the score belongs to something else.
-    let mut stranger = sampled("b", 0.0, 0.5);
-    stranger.samples = sampled("b", 0.0, 0.75).samples;
-    let strange = test(sampled("a", 0.0, 0.25), stranger);
-    assert_eq!(strange, other_truth);
-}
-
-/// The test and the notes of two studies whose results name these tables of truth.
-fn of_tables(mut a: Study, mut b: Study, truths: [&str; 2]) -> (String, Vec<String>) {
-    a.made.truth = Some(truths[0].to_owned());
-    b.made.truth = Some(truths[1].to_owned());
-    let comparison = of_metric(&[a, b], "mae");
-    let difference = comparison.answers[0].difference.clone();
-    (
-        difference.expect("tested").test.to_string(),
-        comparison.notes,
-    )
-}
-
-#[test]
-fn two_results_of_one_table_of_truth_are_compared_in_pairs_and_those_of_two_tables_are_not() {
-    let [one, other] = ["sha256:1", "sha256:2"];
-    let both = || (sampled("a", 0.0, 0.25), sampled("b", 0.0, 0.5));
-    let (a, b) = both();
-    let (test, notes) = of_tables(a, b, [one, one]);
-    assert!(test.contains("sign"), "{test}");
-    assert!(
-        !notes.iter().any(|note| note.contains("pairs")),
-        "{notes:?}"
-    );
-    // Two sensors have commanded places in common, bit by bit, in two tables.
-    let (a, b) = both();
-    let (test, notes) = of_tables(a, b, [one, other]);
-    assert!(test.contains("by the intervals of both"), "{test}");
-    assert!(
-        !notes.iter().any(|note| note.contains("pairs")),
-        "{notes:?}"
-    );
-}
-
-#[test]
-fn samples_of_one_truth_that_cannot_be_paired_are_said_to_be_none() {
-    let lost = |mut study: Study| {
-        study.samples = None;
-        study
-    };
-    let without_points = |mut study: Study| {
-        let table = "id,Fz,Fz_predicted\n";
-        let rows = (0..48).map(|row| format!("s{row},{row},{}\n", f64::from(row) + 0.5));
-        let table = format!("{table}{}", rows.collect::<String>());
-        study.samples = Some(Samples::read(&table).expect("samples"));
-        study
-    };
-    let twice = |mut study: Study| {
-        let table = "id,point_id,Fz,Fz_predicted\n";
-        let rows = (0..48).map(|row| format!("s{},p,{row},{}\n", row / 2, f64::from(row) + 0.5));
-        let table = format!("{table}{}", rows.collect::<String>());
-        study.samples = Some(Samples::read(&table).expect("samples"));
-        study
-    };
-    let b = || sampled("b", 0.0, 0.5);
-    for (b, reason) in [
-        (
-            lost(b()),
-            "a table of samples is missing beside the result of b",
-        ),
-        (
-            without_points(b()),
-            "contact points are missing in the table of samples of b",
-        ),
-        (
-            twice(b()),
-            "a sample occurs twice in the table of samples of b",
-        ),
-        (
-            sampled("b", 0.5, 0.5),
-            "they did not predict the same samples",
-        ),
-    ] {
-        let (test, notes) = of_tables(sampled("a", 0.0, 0.25), b, ["sha256:1"; 2]);
-        assert!(test.contains("by the intervals of both"), "{test}");
-        let expected = format!(
-            "a and b predict the same truth but are not compared sample by sample: {reason}"
-        );
-        assert!(notes.contains(&expected), "{notes:?}");
-    }
-}
-
-#[test]
-fn samples_that_are_taken_as_independent_are_paired_one_by_one() {
-    let alone = |sensor: &str, error: f64| {
-        let mut table = String::from("id,Fz,Fz_predicted\n");
-        for row in 0..48 {
-            let missed = error * (1.0 + f64::from(row % 5) / 8.0);
-            table += &format!("s{row},{row},{}\n", f64::from(row) + missed);
-        }
-        let mut study = sampled(sensor, 0.0, error);
-        let mut mae = score(study.scores[0].value.number().expect("a number"), 0.01, "N");
-        mae["n"] = 48.into();
-        mae["method"] = json!("jackknife, samples taken as independent, G=48, logarithmic");
-        study.scores = self::study(sensor, &[("mae", "Fz", mae)], &["Fz"]).scores;
-        study.samples = Some(Samples::read(&table).expect("samples"));
-        study
-    };
-    let (test, _) = of_tables(alone("a", 0.25), alone("b", 0.5), ["sha256:1"; 2]);
-    assert!(test.contains("sign"), "{test}");
-}
-
 #[test]
 fn a_difference_of_one_training_of_a_model_that_draws_says_so() {
     let compared = |settings: [&[(&str, &str)]; 2], seeds: bool| {
@@ -468,62 +328,6 @@ fn a_difference_of_one_training_of_a_model_that_draws_says_so() {
         let (words, note) = compared(settings, seeds);
         assert!(!words.contains("training") && note.is_none(), "{words}");
     }
-}
-
-/// A study of one score of Fz whose variant `name` has another value and interval.
-fn with_variant(sensor: &str, metric: &str, value: f64, name: &str, variant: f64) -> Study {
-    let mut drawn = score(value, 0.001, "N");
-    drawn[name] = score(variant, 0.01, "N");
-    study(sensor, &[(metric, "Fz", drawn)], &["Fz"])
-}
-
-#[test]
-fn equal_sensors_that_were_pressed_twice_and_ten_times_have_no_winner() {
-    // The mean of deviations of two repeats is low by a fifth; pooled they are equal.
-    let studies = [
-        with_variant("Twice", "repeatability", 0.0807, "pooled", 0.1004),
-        with_variant("Ten", "repeatability", 0.0980, "pooled", 0.0996),
-    ];
-    let comparison = of_metric(&studies, "repeatability");
-    let decision = &comparison.decisions()[0];
-    assert_eq!((decision.winner, decision.tied.len()), (None, 0));
-    assert_eq!(
-        decision.asked(),
-        "repeatability.pooled Fz ↓",
-        "what was compared is said"
-    );
-    assert_eq!(
-        decision.words,
-        "no winner; the best value, Ten, 0.0996 N, is not shown to be better"
-    );
-    // A result that does not hold the variant is compared by what it has.
-    let mut without = studies.clone();
-    for score in without.iter_mut().flat_map(|study| &mut study.scores) {
-        score.variants.clear();
-    }
-    let comparison = of_metric(&without, "repeatability");
-    assert_eq!(comparison.decisions()[0].winner, Some(0));
-}
-
-#[test]
-fn an_unevenness_that_is_no_more_than_chance_gives_no_verdict_and_says_why() {
-    let mut studies = [
-        with_variant("Few", "r_spatial", 0.3, "excess", 0.02),
-        with_variant("Many", "r_spatial", 0.1, "excess", 0.08),
-    ];
-    let mut scores = studies[0].scores.iter_mut();
-    let spatial = scores.find(|score| score.metric == "r_spatial");
-    spatial.expect("drawn").standing = taceva_metrics::Standing::NotAboveNoiseFloor;
-    let comparison = of_metric(&studies, "r_spatial");
-    let decision = &comparison.decisions()[0];
-    assert_eq!(decision.winner, None);
-    assert!(
-        decision.words.contains("Few: not above its noise floor"),
-        "{}",
-        decision.words
-    );
-    let reason = comparison.answers[0].reason.as_deref().unwrap_or_default();
-    assert!(reason.contains("not above its noise floor"), "{reason}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod accept;
 mod browser;
 mod compare;
+mod glossary;
 mod golden;
 mod hostile;
 mod latex;
@@ -14,4 +15,5 @@ mod pdf_file;
 mod reports;
 #[path = "../support/mod.rs"]
 mod support;
+mod values;
 mod verdicts;

@@ -179,8 +179,7 @@ fn figures_three_to_eight_are_drawn_with_the_quantities_of_the_study() {
         robustness.svg().contains("position† ↓"),
         "the mark of the noise floor"
     );
-    let caption =
-        "† Not above its noise floor, so that it supports no claim: spatial position of GelSight";
+    let caption = "† Not above chance, so that it supports no claim: spatial position of GelSight";
     assert!(
         robustness.caption.contains(caption),
         "{}",

@@ -1,5 +1,7 @@
 //! Reports of drawn results: nothing is missing, nothing is obeyed, and size and time keep to what is promised.
 
+mod methods;
+
 use std::time::{Duration, Instant};
 
 use crate::support::{self, drawn};
@@ -299,94 +301,6 @@ fn samples_that_are_shown_are_of_different_contact_points() {
 }
 
 #[test]
-fn methods_say_how_it_was_done_and_nothing_that_is_not_known() {
-    let page = page(&[drawn("one", 60, 1.0), drawn("two", 60, 1.2)]);
-    let text = page
-        .split("<p id=\"methods-text\">")
-        .nth(1)
-        .expect("a paragraph");
-    let text = text.split("</p>").next().expect("an end");
-    for part in [
-        "We evaluated 2 tactile sensors (one and two) with TacEva 0.1.0.",
-        "none was measured on hardware",
-        "Intervals are of 95 % (jackknife by point_id)",
-        "Holm's method",
-        "the model one for one",
-    ] {
-        assert!(text.contains(part), "{part}: {text}");
-    }
-    let empty = support::read(
-        &serde_json::json!({"schema": "taceva.evaluation/1.0", "subject": {"sensor": "x"}, "metrics": {}}),
-    );
-    let page = report(&Report {
-        title: "empty",
-        studies: &empty.expect("a result"),
-        pictures: &[],
-        triples: &[],
-    });
-    assert!(
-        page.contains("We evaluated 1 tactile sensor (x) with TacEva of an unknown version.</p>")
-    );
-}
-
-#[test]
-fn methods_are_true_of_every_part_dataset_and_sensor() {
-    let parts = ["train", "validation", "test", "all"];
-    let cases = parts.iter().flat_map(|part| {
-        let bits = 0..8_u8;
-        bits.map(move |bits| (*part, bits & 1 > 0, bits & 2 > 0, bits & 4 > 0))
-    });
-    for (part, is_own, is_same_sensor, is_pressed) in cases {
-        let mut result = support::results("one", 1.0);
-        result["provenance"]["part"] = part.into();
-        result["provenance"]["dataset"] = "sha256:a".into();
-        let fitted_on = if is_own { "sha256:a" } else { "sha256:b" };
-        result["provenance"]["model"]["fitted_on"] = fitted_on.into();
-        let presses = serde_json::json!({"sha256:a": {"complete": 12}});
-        result["provenance"]["presses"] = if is_pressed {
-            presses
-        } else {
-            serde_json::json!({})
-        };
-        let mut other = result.clone();
-        if !is_same_sensor {
-            other["subject"]["sensor"] = "two".into();
-        }
-        let page = page(&[support::study(&result), support::study(&other)]);
-        let case = format!("{part} {is_own} {is_same_sensor} {is_pressed}");
-        let is_seen = is_own && part != "test";
-        assert_eq!(page.contains("so they are not a test;"), is_seen, "{case}");
-        assert_eq!(
-            page.contains("samples that the model had not seen; scores"),
-            !is_seen,
-            "{case}"
-        );
-        let counted = "We evaluated 2 results of 1 tactile sensor";
-        assert_eq!(page.contains(counted), is_same_sensor, "{case}");
-        assert_eq!(
-            page.contains("A protocol made 12 presses"),
-            is_pressed,
-            "{case}"
-        );
-    }
-}
-
-#[test]
-fn the_study_is_cited_with_all_of_its_authors() {
-    let page = page(&[drawn("one", 30, 1.0)]);
-    let entry = page
-        .split("@article{taceva-study")
-        .nth(1)
-        .expect("an entry");
-    let authors = entry
-        .lines()
-        .find(|line| line.contains("author"))
-        .expect("they are named");
-    assert_eq!(authors.matches(" and ").count(), 5, "{authors}");
-    assert!(!page.contains("others}"));
-}
-
-#[test]
 fn scores_over_seeds_stand_on_the_page_where_there_are_any() {
     let mut result = support::results("seeded", 1.0);
     let without = support::read(&result).expect("a result");
@@ -407,18 +321,6 @@ fn scores_over_seeds_stand_on_the_page_where_there_are_any() {
     let error = support::read(&result).expect_err("one end");
     let place = "over_seeds.scores[0].interval";
     assert!(error.to_string().starts_with(place), "{error}");
-}
-
-#[test]
-fn methods_say_that_only_scores_with_skill_are_compared_and_which_marks_there_are() {
-    let mut studies = [drawn("one", 30, 1.0), drawn("two", 30, 1.5)];
-    let unmarked = page(&studies);
-    assert!(unmarked.contains("Scores of predictions are compared only where the model has skill"));
-    assert!(unmarked.contains("No score here is excluded"));
-    studies[0].scores[0].standing = taceva_metrics::Standing::NoSkill;
-    let marked = page(&studies);
-    assert!(marked.contains("are marked “no skill” (the model is not shown to do better than a constant) and are excluded from \
-        comparisons"));
 }
 
 #[test]

@@ -77,9 +77,9 @@ fn a_score_in_too_little_light_is_never_called_the_best() {
     });
     let page = summary(&studies);
     for words in [
-        "dim: errors of unbounded predictions become 1.25 to 22 times as large in the lit scenes; light changed by 0.009 % to 10 %: low stimulus.",
+        "dim: errors of unbounded predictions become 1.25 to 22 times as large in the lit scenes; light changed by 0.009 % to 10 %: stimulus hardly changed.",
         "lit is shown to be better than every other sensor that takes part",
-        "Excluded from verdicts: dim (low stimulus).",
+        "Excluded from verdicts: dim (stimulus hardly changed).",
     ] {
         assert!(page.contains(words), "{words}: {page}");
     }
@@ -94,7 +94,7 @@ fn a_score_in_too_little_light_is_never_called_the_best() {
         .filter(|of| of.metric == "r_light");
     let mut won = won.filter(|of| of.channel == "Fz" && of.sides.a == 0);
     assert!(won.all(|answer| answer.better().is_none()));
-    let low = "; dim: light changed by 0.009 % to 10 %: low stimulus";
+    let low = "; dim: light changed by 0.009 % to 10 %: stimulus hardly changed";
     assert!(light.words.ends_with(low), "{}", light.words);
 }
 
@@ -114,7 +114,10 @@ fn what_light_does_is_said_of_a_score_that_is_barred_as_bounded() {
     let words =
         "lit: errors of unbounded predictions become 66 to 325 times as large in the lit scenes.";
     assert!(page.contains(words), "{page}");
-    assert!(page.contains("lit (bounded)"), "{page}");
+    assert!(
+        page.contains("lit (predictions beyond the trained range)"),
+        "{page}"
+    );
 }
 
 #[test]
@@ -223,7 +226,7 @@ fn a_value_that_takes_no_part_is_marked_where_a_column_has_no_room_for_the_reaso
         .find(|row| row.plain()[0].starts_with("mae Fz"));
     let row = row.expect("a row").plain();
     assert!(row[1].contains('†') && !row[2].contains('†'), "{row:?}");
-    let note = "†: takes no part in verdicts (bounded).";
+    let note = "†: takes no part in verdicts (predictions beyond the trained range).";
     assert!(table.text().contains(note), "{}", table.text());
 }
 
@@ -334,7 +337,7 @@ fn a_radar_places_nothing_without_an_interval_or_of_light_that_hardly_changed() 
     }
     let robustness = caption("radar-robustness");
     assert!(
-        robustness.contains("lighting Fz of dim (low stimulus)"),
+        robustness.contains("lighting Fz of dim (stimulus hardly changed)"),
         "{robustness}"
     );
     assert!(!robustness.contains("lighting Fz of other"), "{robustness}");
@@ -350,9 +353,9 @@ fn a_limit_on_light_that_hardly_changed_is_not_kept_and_no_template_has_one() {
     let found = accept(&studies[0], &limits);
     let reason = found[0].reason.as_deref();
     assert!(
-        reason.is_some_and(|reason| reason.starts_with("low stimulus")),
+        reason.is_some_and(|reason| reason.starts_with("stimulus hardly changed: ")),
         "{reason:?}"
     );
     let template = limits_template(&studies[0]);
-    assert!(template.contains("low stimulus"), "{template}");
+    assert!(template.contains("stimulus hardly changed"), "{template}");
 }

@@ -1,8 +1,10 @@
 //! Cross-validation: each group of samples, or each recording, is predicted by a model fitted on others.
 
+mod common_model;
+
 use std::collections::BTreeSet;
 
-use taceva_dataset::{Dataset, Digest};
+use taceva_dataset::Dataset;
 use taceva_models::{FoldGroups, FoldSpec, Fractions, Split, SplitError, SplitKind, SplitSpec};
 
 use super::request::{EvaluateRequest, Evaluated};
@@ -18,7 +20,7 @@ use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
 use crate::rows::{DataPart, Divided};
 use crate::work::Work;
-use taceva_results::ModelProvenance;
+use common_model::together;
 
 /// Default number of folds.
 const COUNT: usize = 5;
@@ -379,37 +381,5 @@ impl<'a> Folds<'a> {
             Recipe::of(request)?,
             fold.divided.clone(),
         )
-    }
-}
-
-/// Combines the models of all folds: their common settings, and the digest of their digests.
-fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
-    let mut digests = String::new();
-    let mut settings = models[0].1.model.settings.clone();
-    let mut notes = Vec::new();
-    for (_, behind) in &models {
-        digests.push_str(&behind.model.digest);
-        settings.retain(|key, value| behind.model.settings.get(key) == Some(value));
-    }
-    let name = models[0].1.model.name.clone();
-    for (left_out, behind) in models {
-        notes.extend(behind.notes.into_iter().map(|note| match note {
-            Note::Chosen { choice, .. } => Note::Chosen {
-                fold: Some(left_out.to_owned()),
-                choice,
-            },
-            note => note,
-        }));
-    }
-    Behind {
-        model: ModelProvenance {
-            name,
-            settings,
-            digest: Digest::of(digests.as_bytes()).to_string(),
-            fitted_on: dataset.digest().to_string(),
-            origin: None,
-        },
-        notes,
-        fit: FitFacts::default(),
     }
 }

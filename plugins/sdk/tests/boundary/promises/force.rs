@@ -31,7 +31,7 @@ fn a_wrench_arrives_in_newton_and_newton_metres_and_a_tare_calls_it_zero() {
         read(),
         Wrench {
             force_n: [0.0, 0.0, 4.0],
-            torque_nm: [0.0125, 0.0, 0.0]
+            torque_n_mm: [12.5, 0.0, 0.0]
         }
     );
     let tare = force.extension::<TareCalls>(TARE).expect("it can");

@@ -8,7 +8,7 @@ use taceva_arrays::{ArrayFile, ArrayFormat};
 
 use super::attributes::{absent_chunks, problem};
 use super::form::{Form, READ_BYTES, form_of};
-use crate::foreign::pictures::{Pictures, Visit, damaged};
+use crate::foreign::pictures::{Pictures, Visit};
 use crate::frame_names::{ArrayFrames, FrameNames};
 use taceva_dataset::internal::{guarded, listed};
 use taceva_dataset::{ChannelOrder, DatasetError};
@@ -56,7 +56,7 @@ impl ArrayPictures {
         });
         opened
             .and_then(|opened| opened)
-            .map_err(|problem| damaged(path, problem))
+            .map_err(|problem| DatasetError::image(path, problem))
     }
 
     pub(super) fn new(
@@ -109,12 +109,12 @@ impl ArrayPictures {
             let read = guarded(|| self.file.read(&array.name, next..end).map_err(problem));
             let read = read
                 .and_then(|read| read)
-                .map_err(|problem| damaged(self.path(), problem))?;
+                .map_err(|problem| DatasetError::image(self.path(), problem))?;
             for row in next..end {
                 let at = as_size(row - next);
                 let number = array.first + row;
                 let picture = array.form.picture(&read.values, at).map_err(|problem| {
-                    damaged(self.path(), format!("frame {number}: {problem}"))
+                    DatasetError::image(self.path(), format!("frame {number}: {problem}"))
                 })?;
                 each(number, picture)?;
             }
@@ -137,7 +137,7 @@ impl Pictures for ArrayPictures {
     fn absent_chunks(&self) -> Result<Vec<(String, u64)>, DatasetError> {
         let names = self.arrays.iter().map(|array| array.name.as_str());
         let counted = guarded(|| absent_chunks(&self.file, names)).and_then(|counted| counted);
-        counted.map_err(|problem| damaged(&self.path, problem))
+        counted.map_err(|problem| DatasetError::image(&self.path, problem))
     }
 
     fn visit(

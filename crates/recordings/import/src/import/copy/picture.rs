@@ -45,7 +45,8 @@ impl Copied {
         place: impl FnOnce(&str) -> String,
     ) -> Result<Copied, DatasetError> {
         let bytes = read_capped(path, limits::IMAGE_BYTES)?;
-        let (kind, frame) = whole(&bytes, order).map_err(|problem| wrong(path, problem))?;
+        let (kind, frame) =
+            whole(&bytes, order).map_err(|problem| DatasetError::image(path, problem))?;
         let extension = path
             .extension()
             .and_then(|extension| extension.to_str())
@@ -64,7 +65,8 @@ impl Copied {
     ) -> Result<Copied, DatasetError> {
         match picture {
             Picture::Encoded(bytes) => {
-                let (kind, frame) = whole(bytes, order).map_err(|problem| wrong(path, problem))?;
+                let (kind, frame) =
+                    whole(bytes, order).map_err(|problem| DatasetError::image(path, problem))?;
                 let relative = place(kind.extension());
                 Copied::write(staged, relative, bytes, kind, &frame)
             }
@@ -76,9 +78,10 @@ impl Copied {
                         order.name(),
                         frame.info()
                     );
-                    return Err(wrong(path, problem));
+                    return Err(DatasetError::image(path, problem));
                 }
-                let bytes = encode_png(frame).map_err(|problem| wrong(path, problem))?;
+                let bytes =
+                    encode_png(frame).map_err(|problem| DatasetError::image(path, problem))?;
                 let relative = place(ImageKind::Png.extension());
                 Copied::write(staged, relative, &bytes, ImageKind::Png, frame)
             }
@@ -91,12 +94,4 @@ fn whole(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String
     let (kind, frame) = decode(bytes, order)?;
     check_to_the_end(bytes, kind)?;
     Ok((kind, frame))
-}
-
-fn wrong(path: &Path, problem: String) -> DatasetError {
-    DatasetError::Image {
-        place: None,
-        path: path.to_owned(),
-        problem,
-    }
 }

@@ -19,10 +19,7 @@ pub(super) fn refuse_twice(
     signals: Option<&SignalsInfo>,
     folder: &Path,
 ) -> Result<(), DatasetError> {
-    let refused = |problem: String| DatasetError::Request {
-        path: before.path().to_owned(),
-        problem,
-    };
+    let refused = |problem: String| DatasetError::request(before.path(), problem);
     let old = before.table().rows();
     let known = table.samples()[..old].iter().enumerate();
     let known: HashMap<&str, usize> = known.map(|(row, name)| (name.as_str(), row)).collect();

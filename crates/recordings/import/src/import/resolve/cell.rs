@@ -26,8 +26,5 @@ pub(super) fn cell_of(
             ForeignTable::Columns(_) | ForeignTable::Json(_) if found.is_null() => String::new(),
             _ => found.text.into_owned(),
         })
-        .map_err(|problem| DatasetError::Table {
-            place: table.place(row, base),
-            problem,
-        })
+        .map_err(|problem| DatasetError::table(table.place(row, base), problem))
 }

@@ -76,9 +76,6 @@ fn of_file(
     let rows = rows?;
     match map.problem(&rows) {
         None => Ok(rows),
-        Some(problem) => Err(DatasetError::Table {
-            place: Place::file(&path),
-            problem,
-        }),
+        Some(problem) => Err(DatasetError::table(Place::file(&path), problem)),
     }
 }

@@ -66,10 +66,7 @@ pub(in crate::import) struct ColumnSignals {
 
 impl Sources<'_> {
     fn wrong_signals(&self, row: usize, name: &str, problem: &str) -> DatasetError {
-        DatasetError::Table {
-            place: self.main.place(row, name),
-            problem: format!("[signals]: {problem}"),
-        }
+        DatasetError::table(self.main.place(row, name), format!("[signals]: {problem}"))
     }
 }
 

@@ -61,52 +61,50 @@ impl MappedTable<'_> {
     }
 
     pub(super) fn phase(&self, row: usize) -> Result<Option<Phase>, DatasetError> {
-        let Some(column) = self.phase else {
-            return Ok(None);
-        };
-        match self.table.cell(row, column) {
-            "" => Ok(None),
-            name => Phase::from_name(name)
-                .map(Some)
-                .ok_or_else(|| self.wrong(row, column, "expected `load` or `unload`")),
-        }
+        self.value(row, self.phase, Phase::from_name, || {
+            "expected `load` or `unload`".to_owned()
+        })
     }
 
     pub(super) fn limited_by(&self, row: usize) -> Result<Option<Limit>, DatasetError> {
-        let Some(column) = self.limited_by else {
-            return Ok(None);
-        };
-        match self.table.cell(row, column) {
-            "" => Ok(None),
-            name => Limit::from_name(name).map(Some).ok_or_else(|| {
-                let known = Limit::ALL.map(Limit::name).join("`, `");
-                self.wrong(row, column, &format!("expected one of `{known}`"))
-            }),
-        }
+        self.value(row, self.limited_by, Limit::from_name, || {
+            let known = Limit::ALL.map(Limit::name).join("`, `");
+            format!("expected one of `{known}`")
+        })
     }
 
     pub(super) fn kind(&self, row: usize) -> Result<Option<GratingKind>, DatasetError> {
-        let Some(column) = self.kind else {
-            return Ok(None);
-        };
-        match self.table.cell(row, column) {
-            "" => Ok(None),
-            name => GratingKind::from_name(name)
-                .map(Some)
-                .ok_or_else(|| self.wrong(row, column, "expected `line` or `dot`")),
-        }
+        self.value(row, self.kind, GratingKind::from_name, || {
+            "expected `line` or `dot`".to_owned()
+        })
     }
 
     pub(super) fn spacing(&self, row: usize) -> Result<Option<Nanometre>, DatasetError> {
-        let Some(column) = self.spacing else {
+        let positive = |text: &str| {
+            let spacing = text.parse::<Nanometre>().ok();
+            spacing.filter(|spacing| *spacing > Nanometre(0))
+        };
+        self.value(row, self.spacing, positive, || {
+            "expected a spacing in mm, such as 0.35".to_owned()
+        })
+    }
+
+    /// Value of a cell; `None` without the column or without a text. Texts that `from` does not know are refused.
+    fn value<T>(
+        &self,
+        row: usize,
+        column: Option<usize>,
+        from: impl Fn(&str) -> Option<T>,
+        expected: impl Fn() -> String,
+    ) -> Result<Option<T>, DatasetError> {
+        let Some(column) = column else {
             return Ok(None);
         };
         match self.table.cell(row, column) {
             "" => Ok(None),
-            text => match text.parse::<Nanometre>() {
-                Ok(spacing) if spacing > Nanometre(0) => Ok(Some(spacing)),
-                _ => Err(self.wrong(row, column, "expected a spacing in mm, such as 0.35")),
-            },
+            text => from(text)
+                .map(Some)
+                .ok_or_else(|| self.wrong(row, column, &expected())),
         }
     }
 

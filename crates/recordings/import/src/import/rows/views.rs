@@ -49,10 +49,7 @@ impl MappedView {
                         shown(&video.file)
                     )),
                 };
-                depth.map_err(|problem| DatasetError::Table {
-                    place: Place::file(path),
-                    problem,
-                })?
+                depth.map_err(|problem| DatasetError::table(Place::file(path), problem))?
             }
             _ => None,
         };

@@ -112,10 +112,7 @@ impl MappedTable<'_> {
         block: &[(usize, bool)],
     ) -> Result<Vec<f64>, DatasetError> {
         let place = self.place(block[0].0);
-        let refused = |problem: String| DatasetError::Table {
-            place: place.clone(),
-            problem,
-        };
+        let refused = |problem: String| DatasetError::table(place.clone(), problem);
         let whose = match name {
             "" => "this table".to_owned(),
             name => format!("block `{}`", shown(name)),
@@ -182,13 +179,9 @@ impl MappedTable<'_> {
             };
             cells.push(number);
         }
-        let orientation =
-            map.orientation
-                .orientation(&cells)
-                .ok_or_else(|| DatasetError::Table {
-                    place: self.place(row),
-                    problem: RotationMap::no_rotation(&cells),
-                })?;
+        let orientation = map.orientation.orientation(&cells).ok_or_else(|| {
+            DatasetError::table(self.place(row), RotationMap::no_rotation(&cells))
+        })?;
         let weight = orientation.into_body([0.0, 0.0, -map.mass * FREE_FALL]);
         let [x, y, z] = map.centre;
         let [a, b, c] = weight;

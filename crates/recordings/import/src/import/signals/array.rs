@@ -211,8 +211,5 @@ fn kept(value: f64, map: &SignalsMap) -> f32 {
 }
 
 fn wrong(path: &Path, problem: String) -> DatasetError {
-    DatasetError::Table {
-        place: Place::file(path),
-        problem,
-    }
+    DatasetError::table(Place::file(path), problem)
 }

@@ -93,7 +93,7 @@ fn draw(studies: &[Study], quantities: &[Quantity], title: &str) -> Option<Figur
     let floor = match floor.is_empty() {
         true => String::new(),
         false => format!(
-            " † Not above its noise floor, so that it supports no claim: {}.",
+            " † Not above chance, so that it supports no claim: {}.",
             listed(&floor)
         ),
     };

@@ -64,13 +64,13 @@ fn skill(studies: &[Study]) -> String {
     if !scores.any(is_predicted) {
         return String::new();
     }
-    let marks: BTreeSet<&str> = studies
+    let marks: BTreeSet<Standing> = studies
         .iter()
         .flat_map(|study| &study.scores)
         .filter(|score| score.value.number().is_some() && !score.standing.takes_part())
-        .filter_map(|score| score.standing.words())
+        .map(|score| score.standing)
         .collect();
-    let marks: Vec<String> = marks.into_iter().map(explained).collect();
+    let marks: Vec<String> = marks.into_iter().filter_map(explained).collect();
     let marked = match marks.is_empty() {
         true => "No score here is excluded".to_owned(),
         false => format!(
@@ -83,13 +83,10 @@ fn skill(studies: &[Study]) -> String {
     )
 }
 
-/// Mark with its meaning: `“no skill” (the model is not shown to do better than a constant)`.
-fn explained(mark: &str) -> String {
-    let reason = Standing::from_words(mark).and_then(Standing::reason);
-    match reason.and_then(|reason| reason.split_once(": ")) {
-        Some((_, reason)) => format!("“{mark}” ({reason})"),
-        None => format!("“{mark}”"),
-    }
+/// Mark with its meaning: `“not better than predicting the mean” (its skill is not shown to be above zero)`.
+fn explained(standing: Standing) -> Option<String> {
+    let (mark, reason) = standing.reason()?.split_once(": ")?;
+    Some(format!("“{mark}” ({reason})"))
 }
 
 /// Sentence on the seeds of models fitted with several.

@@ -38,10 +38,8 @@ pub(super) fn seconds(
     time: &TimeMap,
     place: impl Fn() -> Place,
 ) -> Result<Option<f64>, DatasetError> {
-    number::number_in_unit(cell, &time.unit).map_err(|problem| DatasetError::Table {
-        place: place(),
-        problem: format!("`{}`: {problem}", shown(cell)),
-    })
+    number::number_in_unit(cell, &time.unit)
+        .map_err(|problem| DatasetError::table(place(), format!("`{}`: {problem}", shown(cell))))
 }
 
 /// Match of `instant` in `times`, which are sorted, with its distance, s.

@@ -1,0 +1,117 @@
+//! Ids and attributes of samples, from columns and parts of paths.
+
+use super::sections::Lines;
+use crate::draft::path_parts::PathParts;
+use crate::draft::roles::candidate::{Candidate, Named};
+use crate::draft::roles::words;
+use crate::draft::tables::{SeenColumn, SeenTable};
+use taceva_dataset::internal::is_attribute_name;
+
+/// Words of columns whose equal values mark rows that belong together.
+const SHARED: [&str; 12] = [
+    "episode", "session", "trial", "object", "video", "clip", "take", "press", "run", "repeat",
+    "grasp", "sequence",
+];
+
+/// Line of the shared point of repeats: active for episodes, commented out for others.
+pub(super) fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {
+    let is_shared = |name: &str| {
+        let words = words(name);
+        words.iter().any(|word| SHARED.contains(&word.as_str()))
+    };
+    let several = |column: &&SeenColumn| {
+        let mut values: Vec<&String> = column
+            .cells
+            .iter()
+            .filter(|cell| !cell.is_empty())
+            .collect();
+        let filled = values.len();
+        values.sort_unstable();
+        values.dedup();
+        values.len() * 2 <= filled
+    };
+    let mut columns = main.columns.iter().filter(|column| is_shared(&column.name));
+    if let Some(episode) = columns
+        .clone()
+        .find(|column| column.name == "episode_index")
+    {
+        return format!(
+            "point_id = {:?}   # a guess: groups the rows of an episode, for intervals and --split by-point\n",
+            episode.name
+        );
+    }
+    if let Some(column) = columns.find(several) {
+        return format!(
+            "# point_id = {:?}   # groups repeats, for intervals and --split by-point\n",
+            column.name
+        );
+    }
+    let Some(parts) = parts.filter(|_| main.rows > 1) else {
+        return String::new();
+    };
+    let names: Vec<String> = parts
+        .names
+        .iter()
+        .map(|(name, _)| format!("\"path.{name}\""))
+        .collect();
+    match names.is_empty() {
+        true => String::new(),
+        false => format!(
+            "# point_id = [{}]   # groups the rows of a file if they share a contact or a session, for intervals and --split by-point\n",
+            names.join(", ")
+        ),
+    }
+}
+
+/// Sorts the parts of a path into ids and attributes. Returns the channels among them.
+pub(super) fn add_parts(
+    parts: &PathParts,
+    ids: &mut Lines,
+    attributes: &mut Lines,
+) -> Vec<(String, Candidate)> {
+    let mut candidates = Vec::new();
+    for (name, is_number) in &parts.names {
+        let from = format!("path.{name}");
+        let named = match parts.letters_behind(name) {
+            Some(letters) => Named::new(&format!("{name} ({letters})")),
+            None => Named::new(name),
+        };
+        match (is_number, named.candidate(String::new())) {
+            (true, Some(Ok(candidate))) => candidates.push((from, candidate)),
+            (true, _) if name.eq_ignore_ascii_case("unit") => {
+                ids.add("unit_id", &format!("{from:?}"))
+            }
+            (true, _)
+                if ["repeat", "rep", "trial"].contains(&name.to_ascii_lowercase().as_str()) =>
+            {
+                ids.add("repeat", &format!("{from:?}"))
+            }
+            (true, _) if name.starts_with("number") => {}
+            _ => attributes.add(&attribute_name(name), &format!("{from:?}")),
+        }
+    }
+    candidates
+}
+
+pub(super) fn attribute_name(column: &str) -> String {
+    // `/object/name` becomes `object`, as `path.object` does.
+    let mut parts = column
+        .trim_start_matches('@')
+        .rsplit(['/', '.'])
+        .filter(|part| !["", "name", "id", "value", "text"].contains(part));
+    let last = parts.next().unwrap_or(column);
+    let name: String = last
+        .chars()
+        .map(|letter| {
+            if letter.is_ascii_alphanumeric() {
+                letter
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    match is_attribute_name(&name) {
+        true => name,
+        false => format!("text_{name}"),
+    }
+}

@@ -1,0 +1,37 @@
+//! Notes of a draft on files that it does not read.
+
+use super::survey::FileGroup;
+use super::tables::SeenTable;
+use crate::import::converter;
+
+/// Note on an unreadable file, with a converter for it.
+pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
+    let remedy = converter(group.first())?;
+    Some(format!("{} is not read: {remedy}", group.first()))
+}
+
+/// Advice for clips without a table.
+pub(super) fn bare_clips(clips: &FileGroup) -> String {
+    let clip = clips.first();
+    format!(
+        "{clip} has frames, but no file here has labels: write a table beside it, such as labels.csv with the columns `frame` (from 0) \
+         and `Fz`, and draft again (`video = {clip:?}`, `index = \"frame\"`); or write its frames as pictures, which need no table: \
+         `ffmpeg -i {clip} %06d.png`"
+    )
+}
+
+/// Note that a preset matches the folder.
+pub(super) fn known_layout(preset: &str) -> String {
+    format!(
+        "This looks like the layout of `--preset {preset}`, which needs no map: `taceva import --presets` says what it reads."
+    )
+}
+
+/// Comment on an array that is beside pictures but not a table of them.
+pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
+    format!(
+        "{} ({} rows) is no table of the pictures: if it is the picture without contact, save it as PNG and name it as `reference`.",
+        table.group.pattern(),
+        table.rows
+    )
+}

@@ -1,0 +1,104 @@
+//! Numbers of all considered sensors side by side.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{Choice, Property, Step};
+use crate::catalogue::Sensor;
+use crate::number::numeral;
+use crate::table::{Cell, Column, Direction, Table};
+
+impl Choice {
+    /// Values of all sensors with a requested number side by side: one row per sensor, one column per number, the ranked ones first.
+    ///
+    /// ```
+    /// use taceva_report::{Need, catalogue, choose};
+    /// let choice = choose(&catalogue::all(), &Need::parse("accurate shear, rate >= 20 Hz")?);
+    /// let best = choice.values().rows[0].plain();
+    /// assert_eq!(best[..2], ["ViTacTip", "1"]);
+    /// # Ok::<(), taceva_report::NeedError>(())
+    /// ```
+    pub fn values(&self) -> Table {
+        let all = || self.ranked.iter().chain(&self.others);
+        let mut properties: Vec<Property> = Vec::new();
+        for step in all().flat_map(|candidate| &candidate.steps) {
+            if !properties.contains(&step.property) {
+                properties.push(step.property);
+            }
+        }
+        let heads = properties.iter().map(|property| {
+            let direction = Direction::Is(property.better());
+            Column::new(property.to_string()).direction(direction)
+        });
+        let first = ["sensor", "place"].map(Column::new).into_iter();
+        let known = self.ranked.len() + self.others.len();
+        let caption = format!(
+            "Values side by side: {known} of {} sensors have a requested number",
+            known + self.unknown.len()
+        );
+        let mut table = Table::new(caption, first.chain(heads));
+        let mut marks: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+        for candidate in all() {
+            let mut cells = vec![candidate.name.clone(), self.place_of(&candidate.name)];
+            for property in &properties {
+                let mut steps = candidate.steps.iter();
+                let step = steps.find(|step| step.property == *property);
+                let mark = step.map_or("", mark);
+                let reason = step.and_then(|step| step.standing.phrase());
+                if let Some(reason) = reason.filter(|_| !mark.is_empty()) {
+                    marks.entry(mark).or_default().insert(reason);
+                }
+                cells.push(step.map_or_else(String::new, |step| cell(step, mark)));
+            }
+            table.push(cells.into_iter().map(Cell::text));
+        }
+        for (mark, reasons) in marks {
+            let reasons: Vec<&str> = reasons.into_iter().collect();
+            table.note(format!("{mark}: {}.", reasons.join(", ")));
+        }
+        table
+    }
+
+    /// `1`, `2 (tie)`; or the reason in a word that the sensor has no place.
+    fn place_of(&self, name: &str) -> String {
+        let mut ranked = self.ranked.iter().zip(self.places()).enumerate();
+        let found = ranked.find(|(_, (candidate, _))| candidate.name == name);
+        let is_open = self.open.iter().any(|open| open.name == name);
+        let is_dropped = self.dropped.iter().any(|dropped| dropped.name == name);
+        match found {
+            Some((at, (_, place))) if self.is_tied(at) => format!("{place} (tie)"),
+            Some((_, (_, place))) => place.to_string(),
+            None if is_open => "open".to_owned(),
+            None if is_dropped => "dropped".to_owned(),
+            None => "not ranked".to_owned(),
+        }
+    }
+
+    /// True for a sensor whose numbers were considered and which is not ranked.
+    pub(super) fn sets_aside(&self, sensor: &Sensor) -> bool {
+        let dropped = self.dropped.iter().chain(&self.barred);
+        let names = dropped.map(|dropped| &dropped.name);
+        let mut names = names.chain(self.open.iter().map(|open| &open.name));
+        names.any(|name| *name == sensor.name)
+    }
+}
+
+/// Sign of the standing of a number; empty if it counts without remark or is unknown.
+fn mark(step: &Step) -> &'static str {
+    match step.standing.phrase().filter(|_| step.value.is_some()) {
+        None => "",
+        Some(_) if step.standing.takes_part() => "‡",
+        Some(_) => "†",
+    }
+}
+
+/// `0.0361 N† (0.034 … 0.038)`, or `unknown`.
+fn cell(step: &Step, mark: &str) -> String {
+    let Some(value) = step.value else {
+        return "unknown".to_owned();
+    };
+    let value = step.property.shown(value);
+    match step.interval {
+        Some([low, high]) => format!("{value}{mark} ({} … {})", numeral(low), numeral(high)),
+        None => format!("{value}{mark}"),
+    }
+}

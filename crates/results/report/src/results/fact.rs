@@ -1,0 +1,19 @@
+//! Properties of a sensor that are no scores.
+
+/// Published property of a sensor that is no score, such as its size or price: shown beside scores and never compared.
+///
+/// ```
+/// let digit = taceva_report::catalogue::find("DIGIT").expect("there").as_study();
+/// let size = digit.facts.iter().find(|fact| fact.name == "size").expect("known");
+/// assert_eq!((size.value.as_str(), size.unit.as_str()), ("20 × 27 × 18", "mm"));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Fact {
+    /// Name: `size`, `price`, `intrinsic thickness`.
+    pub name: String,
+    /// Unit; empty if the value states it, or for words.
+    pub unit: String,
+    /// Value as published, with `≈`, `>` or `<` where it is not exact.
+    pub value: String,
+}

@@ -1,0 +1,253 @@
+//! Values side by side for people: scores, published facts, and short words for absent ones.
+
+use taceva_metrics::Better;
+
+use super::column::named;
+use super::main::is_main;
+use super::mark::{BARRED, UNPROVEN};
+use super::{ScoreCell, ScoreRow, ScoreTable};
+use crate::compare::{CompareRequest, QUESTIONS};
+use crate::results::Study;
+use crate::table::{Align, Cell, Column, Estimate, Table, Words};
+
+/// Words and marks whose places the table shows, so that their note names none.
+const SEEN: [&str; 4] = [UNPROVEN, "not published", "not scored", "unknown"];
+
+/// A score or a fact of each study.
+struct Line<'a> {
+    name: Words,
+    /// Name and unit without a direction: `mae Fz (N)`.
+    key: String,
+    /// The score; `None` for a fact.
+    row: Option<&'a ScoreRow>,
+    cells: Vec<Option<Cell>>,
+}
+
+/// Explanation of a word or a mark.
+struct Note {
+    word: &'static str,
+    reason: String,
+    /// Scores with that word, by study.
+    places: Vec<(String, Vec<String>)>,
+}
+
+#[derive(Default)]
+struct Notes(Vec<Note>);
+
+impl ScoreTable {
+    /// Values of `studies` side by side: one row for each score or published fact, one column for each study.
+    ///
+    /// The rows are the main scores and those of the first questions, with `is_all` every score without its variants. If `request` names
+    /// metrics, they are the scores of these alone. A short word stands for an absent value, and a note says why it is absent.
+    ///
+    /// ```
+    /// use taceva_report::{CompareRequest, ScoreTable, catalogue};
+    /// let sensors = ["GelSight", "MagicTac"];
+    /// let sensors = sensors.map(|name| catalogue::find(name).expect("there").as_study());
+    /// let request = CompareRequest::default();
+    /// let table = ScoreTable::compared(&sensors, &request).side_by_side(&sensors, &request, false);
+    /// let row = table.rows.iter().map(|row| row.plain()).find(|row| row[0] == "mae Fz (N) ↓");
+    /// assert_eq!(row.expect("there")[1..], ["0.0361", "0.0544"]);
+    /// ```
+    pub fn side_by_side(&self, studies: &[Study], request: &CompareRequest, is_all: bool) -> Table {
+        let asked = self.asked(request, is_all);
+        let mut notes = Notes::default();
+        let rows = asked.rows.iter();
+        let mut lines: Vec<Line<'_>> = rows.map(|row| asked.line(row, &mut notes)).collect();
+        if let Some(counts) = asked.counts() {
+            let cells = counts.into_iter().map(|count| Some(Cell::text(count)));
+            lines.push(fact_line("samples".to_owned(), cells.collect()));
+        }
+        if request.metrics.is_empty() {
+            enter_facts(studies, &mut lines);
+        }
+        let studies_of = || studies.iter().zip(&self.names).enumerate();
+        for line in &mut lines {
+            for (at, (study, name)) in studies_of() {
+                if line.cells[at].is_none() {
+                    let (word, reason) = absence(study, line.row, at);
+                    notes.add(word, &reason, name, &line.key);
+                    line.cells[at] = Some(Cell::text(word));
+                }
+            }
+        }
+        let columns = self.names.iter();
+        let columns = columns.map(|name| Column::new(name.as_str()).align(Align::Right));
+        let first = [Column::new("quantity").align(Align::Left)].into_iter();
+        let mut table = Table::new(asked.captioned("Values"), first.chain(columns));
+        for line in lines {
+            let name = [Cell::Text(line.name)].into_iter();
+            table.push(name.chain(line.cells.into_iter().flatten()));
+        }
+        for note in &notes.0 {
+            table.note(note.sentence());
+        }
+        if studies.iter().any(|study| study.source == "published") {
+            table.note(
+                "Source, conditions and date of each published number: taceva catalogue show NAME.",
+            );
+        }
+        table
+    }
+
+    /// The rows that `request` asks for.
+    fn asked(&self, request: &CompareRequest, is_all: bool) -> ScoreTable {
+        let headlines = self.headlines();
+        if is_all || !request.metrics.is_empty() {
+            return headlines;
+        }
+        let rows = headlines.rows.iter().filter(|row| is_asked_first(row));
+        let rows: Vec<ScoreRow> = rows.cloned().collect();
+        match rows.is_empty() {
+            true => headlines,
+            false => ScoreTable { rows, ..headlines },
+        }
+    }
+
+    /// The line of a score, with notes on the marks of its values.
+    fn line<'a>(&self, row: &'a ScoreRow, notes: &mut Notes) -> Line<'a> {
+        let channel = named(&row.channel, row.unit);
+        let key = format!("{} {}", row.metric, channel.plain());
+        let mut cells = Vec::new();
+        for (at, cell) in row.cells.iter().enumerate() {
+            let cell = cell.as_ref().filter(|cell| cell.value.is_some());
+            cells.push(cell.map(|cell| {
+                let mark = cell.mark();
+                if let Some(reason) = cell.standing.phrase() {
+                    notes.add(mark, reason, &self.names[at], &key);
+                }
+                value(cell, &self.sources[at], mark)
+            }));
+        }
+        Line {
+            name: row.named(&channel),
+            key,
+            row: Some(row),
+            cells,
+        }
+    }
+}
+
+impl Notes {
+    /// Adds the score `key` of the study `name` to the explanation of `word`.
+    fn add(&mut self, word: &'static str, reason: &str, name: &str, key: &str) {
+        let mut notes = self.0.iter();
+        let found = notes.position(|note| note.word == word && note.reason == reason);
+        let found = found.unwrap_or_else(|| {
+            self.0.push(Note {
+                word,
+                reason: reason.to_owned(),
+                places: Vec::new(),
+            });
+            self.0.len() - 1
+        });
+        let places = &mut self.0[found].places;
+        match places.iter().position(|(known, _)| known == name) {
+            Some(at) => places[at].1.push(key.to_owned()),
+            None => places.push((name.to_owned(), vec![key.to_owned()])),
+        }
+    }
+}
+
+impl Note {
+    /// `skipped: the sensor keeps light out (GelSight: r_light Fz).`
+    fn sentence(&self) -> String {
+        let word = match self.word {
+            BARRED => "†, excluded from verdicts",
+            UNPROVEN => "‡, in verdicts with a mark",
+            word => word,
+        };
+        let reason = &self.reason;
+        if SEEN.contains(&self.word) {
+            return format!("{word}: {reason}.");
+        }
+        let places = self.places.iter();
+        let places = places.map(|(name, scores)| format!("{name}: {}", scores.join(", ")));
+        let places: Vec<String> = places.collect();
+        format!("{word}: {reason} ({}).", places.join("; "))
+    }
+}
+
+/// True for the main scores and those of the first questions.
+fn is_asked_first(row: &ScoreRow) -> bool {
+    let mut questions = QUESTIONS.iter();
+    let is_question = questions.any(|(metric, ..)| *metric == row.metric);
+    is_main(row) || is_question || row.metric == "intrinsic"
+}
+
+/// Value with its interval. Published values keep their digits.
+fn value(cell: &ScoreCell, source: &str, mark: &'static str) -> Cell {
+    let mut formatted = cell.formatted.clone();
+    if let Some(value) = cell.value.filter(|_| source == "published") {
+        formatted.value = value.to_string();
+    }
+    Cell::Estimate(Estimate {
+        formatted,
+        mark,
+        ..Estimate::default()
+    })
+}
+
+/// A line that is no score.
+fn fact_line(key: String, cells: Vec<Option<Cell>>) -> Line<'static> {
+    let metric = key.split(' ').next().unwrap_or_default();
+    let name = Better::of(metric).map_or_else(|| key.clone(), |better| better.beside(&key));
+    Line {
+        name: Words::new(name),
+        key,
+        row: None,
+        cells,
+    }
+}
+
+/// Enters the facts of `studies` into the lines, several of one name in one cell.
+fn enter_facts(studies: &[Study], lines: &mut Vec<Line<'_>>) {
+    for (at, study) in studies.iter().enumerate() {
+        for fact in &study.facts {
+            let key = match fact.unit.as_str() {
+                "" => fact.name.clone(),
+                unit => format!("{} ({unit})", fact.name),
+            };
+            let found = lines.iter().position(|line| line.key == key);
+            let found = found.unwrap_or_else(|| {
+                lines.push(fact_line(key, vec![None; studies.len()]));
+                lines.len() - 1
+            });
+            let line = &mut lines[found];
+            let known = line.cells[at].take();
+            line.cells[at] = Some(match known {
+                None => Cell::text(fact.value.as_str()),
+                Some(score) if line.row.is_some() => score,
+                Some(known) => Cell::text(format!("{}; {}", known.plain(), fact.value)),
+            });
+        }
+    }
+}
+
+/// Short word for an absent value, and the reason of its absence.
+fn absence(study: &Study, row: Option<&ScoreRow>, at: usize) -> (&'static str, String) {
+    let Some(row) = row else {
+        let reason = "neither the result nor the catalogue states it";
+        return ("unknown", reason.to_owned());
+    };
+    let cell = row.cells.get(at).and_then(Option::as_ref);
+    if let Some(reason) = cell.and_then(|cell| cell.formatted.reason.as_deref()) {
+        return match reason.split_once(": ") {
+            Some(("undefined", reason)) => ("undefined", reason.to_owned()),
+            Some(("not applicable", reason)) => ("not applicable", reason.to_owned()),
+            _ => ("in JSON", reason.to_owned()),
+        };
+    }
+    let what = format!("metric:{}", row.metric);
+    let skip = study.skipped.iter().find(|skip| skip.what == what);
+    if let Some(skip) = skip {
+        return ("skipped", skip.reason.clone());
+    }
+    match study.source.as_str() {
+        "published" => (
+            "not published",
+            "the catalogue has no such number".to_owned(),
+        ),
+        _ => ("not scored", "the result has no such score".to_owned()),
+    }
+}

@@ -1,0 +1,107 @@
+//! Tables as plain text in the width of a terminal.
+
+use super::{Row, Table, Words};
+use crate::escape;
+use crate::wrap::wrapped;
+
+/// Gap between two columns of plain text.
+const GAP: usize = 2;
+
+impl Table {
+    /// Text in lines of at most `width` characters: the columns that fit beside the first one, then the others below.
+    ///
+    /// If no column fits beside the first one, each column is a list: its head, and a line for each row.
+    ///
+    /// ```
+    /// use taceva_report::{Column, Table};
+    /// let mut table = Table::new("", [Column::new("score"), Column::new("GelSight"), Column::new("MagicTac")]);
+    /// table.push(["mae Fz (N)", "0.0361", "0.0544"]);
+    /// assert_eq!(table.text_within(40), table.text());
+    /// let narrow = "score       GelSight\nmae Fz (N)    0.0361\n\nscore       MagicTac\nmae Fz (N)    0.0544\n";
+    /// assert_eq!(table.text_within(20), narrow);
+    /// assert!(table.text_within(18).starts_with("GelSight\n  mae Fz (N):\n"));
+    /// ```
+    pub fn text_within(&self, width: usize) -> String {
+        let widths = self.widths();
+        let Some((first, others)) = widths.split_first() else {
+            return self.text();
+        };
+        let fits = others.iter().all(|column| first + GAP + column <= width);
+        let mut parts: Vec<String> = match self.caption.as_str() {
+            "" => Vec::new(),
+            caption => vec![wrapped(&escape::terminal(caption), width, 0)],
+        };
+        match fits {
+            true => parts.extend(
+                self.groups(&widths, width)
+                    .iter()
+                    .map(|of| self.part(of).text()),
+            ),
+            false => parts.extend((1..widths.len()).map(|column| self.list(column, width))),
+        }
+        let notes = self.notes.iter();
+        parts.extend(notes.map(|note| wrapped(&escape::terminal(note.plain()), width, 0)));
+        parts.join("\n")
+    }
+
+    /// Widest cell or head of each column, in characters.
+    fn widths(&self) -> Vec<usize> {
+        let count = |words: &Words| escape::terminal(words.plain()).chars().count();
+        let mut widths: Vec<usize> = self.columns.iter().map(|of| count(&of.head())).collect();
+        for row in &self.rows {
+            for (width, words) in widths.iter_mut().zip(self.words_of(row)) {
+                *width = (*width).max(count(&words));
+            }
+        }
+        widths
+    }
+
+    /// Columns behind the first one, in groups that fit beside it.
+    fn groups(&self, widths: &[usize], width: usize) -> Vec<Vec<usize>> {
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        let mut used = 0;
+        for (column, of_column) in widths.iter().enumerate().skip(1) {
+            let more = GAP + of_column;
+            match groups.last_mut() {
+                Some(group) if used + more <= width => {
+                    group.push(column);
+                    used += more;
+                }
+                _ => {
+                    groups.push(vec![column]);
+                    used = widths[0] + more;
+                }
+            }
+        }
+        if groups.is_empty() {
+            groups.push(Vec::new());
+        }
+        groups
+    }
+
+    /// The first column and some others, without caption and notes.
+    fn part(&self, columns: &[usize]) -> Table {
+        let shown = || [0].into_iter().chain(columns.iter().copied());
+        let row = |row: &Row| Row {
+            cells: shown().map(|column| row.cells[column].clone()).collect(),
+            ..row.clone()
+        };
+        Table {
+            columns: shown().map(|column| self.columns[column].clone()).collect(),
+            rows: self.rows.iter().map(row).collect(),
+            ..Table::default()
+        }
+    }
+
+    /// One column as a list.
+    fn list(&self, column: usize, width: usize) -> String {
+        let head = self.columns[column].head();
+        let mut out = wrapped(&escape::terminal(head.plain()), width, 0);
+        for row in &self.rows {
+            let words = self.words_of(row);
+            let [name, value] = [0, column].map(|at| escape::terminal(words[at].plain()));
+            out += &wrapped(&format!("{name}: {value}"), width, 2);
+        }
+        out
+    }
+}

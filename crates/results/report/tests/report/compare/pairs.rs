@@ -1,0 +1,157 @@
+//! Errors compared sample by sample, and the reasons for which they are not.
+
+use super::{of_metric, score, study};
+use serde_json::json;
+use taceva_report::Study;
+use taceva_results::Samples;
+
+/// A study with a table of samples, of which the first truth is `first` and every error about `error`.
+fn sampled(sensor: &str, first: f64, error: f64) -> Study {
+    let mut table = String::from("id,point_id,Fz,Fz_predicted\n");
+    let (mut sum, rows) = (0.0, 48);
+    for row in 0..rows {
+        let truth = if row == 0 { first } else { f64::from(row) };
+        let missed = error * (1.0 + f64::from(row % 5) / 8.0);
+        sum += missed;
+        table += &format!("s{row},p{},{truth},{}\n", row % 12, truth + missed);
+    }
+    let mut mae = score(sum / f64::from(rows), 0.01, "N");
+    mae["n"] = rows.into();
+    let mut study = study(sensor, &[("mae", "Fz", mae)], &["Fz"]);
+    study.samples = Some(Samples::read(&table).expect("samples"));
+    study
+}
+
+#[test]
+fn errors_are_compared_sample_by_sample_if_both_tables_are_of_the_same_samples_and_of_their_scores()
+{
+    let test = |a: Study, b: Study| {
+        let comparison = of_metric(&[a, b], "mae");
+        let difference = comparison.answers[0].difference.clone();
+        difference.expect("tested").test.to_string()
+    };
+    let same = test(sampled("a", 0.0, 0.25), sampled("b", 0.0, 0.5));
+    let other_truth = test(sampled("a", 0.0, 0.25), sampled("b", 0.5, 0.5));
+    assert!(same.contains("sign"), "{same}");
+    assert!(
+        other_truth.contains("by the intervals of both"),
+        "{other_truth}"
+    );
+    // Two sensors that press one plan have ids and commanded places in common.
+    let of = |name: &str, error, dataset: &str| {
+        let mut study = sampled(name, 0.0, error);
+        let entry = ("dataset".to_owned(), dataset.to_owned());
+        study.provenance.push(entry);
+        study
+    };
+    let same_plan = test(of("a", 0.25, "sha256:1"), of("b", 0.5, "sha256:2"));
+    assert_eq!(same_plan, other_truth);
+    let same_dataset = test(of("a", 0.25, "sha256:1"), of("b", 0.5, "sha256:1"));
+    assert_eq!(same_dataset, same);
+    // A table whose errors have another mean than the score belongs to something else.
+    let mut stranger = sampled("b", 0.0, 0.5);
+    stranger.samples = sampled("b", 0.0, 0.75).samples;
+    let strange = test(sampled("a", 0.0, 0.25), stranger);
+    assert_eq!(strange, other_truth);
+}
+
+/// The test and the notes of two studies whose results name these tables of truth.
+fn of_tables(mut a: Study, mut b: Study, truths: [&str; 2]) -> (String, Vec<String>) {
+    a.made.truth = Some(truths[0].to_owned());
+    b.made.truth = Some(truths[1].to_owned());
+    let comparison = of_metric(&[a, b], "mae");
+    let difference = comparison.answers[0].difference.clone();
+    (
+        difference.expect("tested").test.to_string(),
+        comparison.notes,
+    )
+}
+
+#[test]
+fn two_results_of_one_table_of_truth_are_compared_in_pairs_and_those_of_two_tables_are_not() {
+    let [one, other] = ["sha256:1", "sha256:2"];
+    let both = || (sampled("a", 0.0, 0.25), sampled("b", 0.0, 0.5));
+    let (a, b) = both();
+    let (test, notes) = of_tables(a, b, [one, one]);
+    assert!(test.contains("sign"), "{test}");
+    assert!(
+        !notes.iter().any(|note| note.contains("pairs")),
+        "{notes:?}"
+    );
+    // Two sensors have commanded places in common, bit by bit, in two tables.
+    let (a, b) = both();
+    let (test, notes) = of_tables(a, b, [one, other]);
+    assert!(test.contains("by the intervals of both"), "{test}");
+    assert!(
+        !notes.iter().any(|note| note.contains("pairs")),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn samples_of_one_truth_that_cannot_be_paired_are_said_to_be_none() {
+    let lost = |mut study: Study| {
+        study.samples = None;
+        study
+    };
+    let without_points = |mut study: Study| {
+        let table = "id,Fz,Fz_predicted\n";
+        let rows = (0..48).map(|row| format!("s{row},{row},{}\n", f64::from(row) + 0.5));
+        let table = format!("{table}{}", rows.collect::<String>());
+        study.samples = Some(Samples::read(&table).expect("samples"));
+        study
+    };
+    let twice = |mut study: Study| {
+        let table = "id,point_id,Fz,Fz_predicted\n";
+        let rows = (0..48).map(|row| format!("s{},p,{row},{}\n", row / 2, f64::from(row) + 0.5));
+        let table = format!("{table}{}", rows.collect::<String>());
+        study.samples = Some(Samples::read(&table).expect("samples"));
+        study
+    };
+    let b = || sampled("b", 0.0, 0.5);
+    for (b, reason) in [
+        (
+            lost(b()),
+            "a table of samples is missing beside the result of b",
+        ),
+        (
+            without_points(b()),
+            "contact points are missing in the table of samples of b",
+        ),
+        (
+            twice(b()),
+            "a sample occurs twice in the table of samples of b",
+        ),
+        (
+            sampled("b", 0.5, 0.5),
+            "they did not predict the same samples",
+        ),
+    ] {
+        let (test, notes) = of_tables(sampled("a", 0.0, 0.25), b, ["sha256:1"; 2]);
+        assert!(test.contains("by the intervals of both"), "{test}");
+        let expected = format!(
+            "a and b predict the same truth but are not compared sample by sample: {reason}"
+        );
+        assert!(notes.contains(&expected), "{notes:?}");
+    }
+}
+
+#[test]
+fn samples_that_are_taken_as_independent_are_paired_one_by_one() {
+    let alone = |sensor: &str, error: f64| {
+        let mut table = String::from("id,Fz,Fz_predicted\n");
+        for row in 0..48 {
+            let missed = error * (1.0 + f64::from(row % 5) / 8.0);
+            table += &format!("s{row},{row},{}\n", f64::from(row) + missed);
+        }
+        let mut study = sampled(sensor, 0.0, error);
+        let mut mae = score(study.scores[0].value.number().expect("a number"), 0.01, "N");
+        mae["n"] = 48.into();
+        mae["method"] = json!("jackknife, samples taken as independent, G=48, logarithmic");
+        study.scores = self::study(sensor, &[("mae", "Fz", mae)], &["Fz"]).scores;
+        study.samples = Some(Samples::read(&table).expect("samples"));
+        study
+    };
+    let (test, _) = of_tables(alone("a", 0.25), alone("b", 0.5), ["sha256:1"; 2]);
+    assert!(test.contains("sign"), "{test}");
+}

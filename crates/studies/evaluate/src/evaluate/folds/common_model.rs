@@ -1,0 +1,40 @@
+//! Model of a cross-validation, as a reader of its scores sees it.
+
+use taceva_dataset::{Dataset, Digest};
+use taceva_results::ModelProvenance;
+
+use crate::assess::FitFacts;
+use crate::evaluate::scores::Behind;
+use crate::note::Note;
+
+/// Combines the models of all folds: their common settings, and the digest of their digests.
+pub(super) fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
+    let mut digests = String::new();
+    let mut settings = models[0].1.model.settings.clone();
+    let mut notes = Vec::new();
+    for (_, behind) in &models {
+        digests.push_str(&behind.model.digest);
+        settings.retain(|key, value| behind.model.settings.get(key) == Some(value));
+    }
+    let name = models[0].1.model.name.clone();
+    for (left_out, behind) in models {
+        notes.extend(behind.notes.into_iter().map(|note| match note {
+            Note::Chosen { choice, .. } => Note::Chosen {
+                fold: Some(left_out.to_owned()),
+                choice,
+            },
+            note => note,
+        }));
+    }
+    Behind {
+        model: ModelProvenance {
+            name,
+            settings,
+            digest: Digest::of(digests.as_bytes()).to_string(),
+            fitted_on: dataset.digest().to_string(),
+            origin: None,
+        },
+        notes,
+        fit: FitFacts::default(),
+    }
+}

@@ -1,0 +1,218 @@
+//! Sentence of each note, for a reader of scores.
+
+use std::fmt;
+
+use taceva_core::shown;
+use taceva_results::OPTIMISTIC;
+
+use super::{Independence, Learning, Note, division};
+
+/// Number of recordings below which an interval by recording states that number: Student's t has too few degrees of freedom to be narrow.
+const CLUSTERS_MANY: usize = 10;
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Note::Split(words) | Note::Sessions(words) => f.write_str(words),
+            Note::Neighbours { found, division } => division::write(found, division, f),
+            Note::Independent(Independence::Stated) => f.write_str(
+                "the caller declared the samples independent, so each counts as one contact point; intervals are too narrow if samples \
+                 depend on each other",
+            ),
+            Note::Independent(Independence::Found) => f.write_str(
+                "each sample counts as one contact point: no point_id repeats, and neighbouring samples are dissimilar",
+            ),
+            Note::Clusters {
+                recordings,
+                points,
+                least,
+            } => clusters(*recordings, *points, *least, f),
+            Note::FewPoints(points) => write!(
+                f,
+                "scored on {points} contact points, too few for intervals; test on more of them: --split 'by-point 50/10/40'"
+            ),
+            Note::Extended {
+                recording,
+                added,
+                extension,
+            } => write!(
+                f,
+                "{}{added} samples were added to {} on {} from {}; each sample before kept its part",
+                of(recording),
+                extension.rows,
+                extension.date,
+                shown(&extension.from)
+            ),
+            Note::Reduced { recording, frames } => {
+                write!(f, "{}frames were kept as {}", of(recording), frames.info)?;
+                match &frames.reduced {
+                    Some(reduced) => write!(f, ": {}, of {}", shown(&reduced.by), reduced.from),
+                    None => Ok(()),
+                }
+            }
+            Note::View {
+                recording,
+                view,
+                of: all,
+            } => write!(
+                f,
+                "{}each sample has several pictures ({}); the model sees those of {}{}",
+                of(recording),
+                shown(all),
+                shown(view),
+                if view.contains('+') { ", side by side" } else { "" }
+            ),
+            Note::Imported { recording, words } => {
+                write!(f, "{}import: {}", of(recording), shown(words))
+            }
+            Note::Rotation {
+                channels,
+                samples,
+                mean,
+                most,
+            } => write!(
+                f,
+                "rotation {}: mean angle between predictions and truth {mean:.2} degrees over {samples} samples, 95 % below {most:.2}; \
+                 scores of single components depend on how the rotation is written",
+                channels.join(", ")
+            ),
+            Note::Seen(part) => write!(
+                f,
+                "scored on the part `{part}`, which the model was fitted on: this is not a test"
+            ),
+            Note::FittedElsewhere(digest) => write!(
+                f,
+                "every sample is scored, because the model was fitted on other data, {digest}; samples that are in both, as after an \
+                 export or a second import, are not detected"
+            ),
+            Note::Copies { copies, of } => write!(
+                f,
+                "{copies} of {of} pictures of the test part are byte for byte in the fit too: {OPTIMISTIC} (taceva check, \
+                 TAC002 and TAC007)"
+            ),
+            Note::FittedBefore { rows, now } => write!(
+                f,
+                "the model was fitted when the dataset had {rows} of its {now} samples; the parts are those of the dataset as it is now"
+            ),
+            Note::LeftOut { part, count } => write!(
+                f,
+                "{count} samples of the part {part} lack a label or a frame and were left out"
+            ),
+            Note::Bounded(shares) => {
+                let shares: Vec<String> = shares
+                    .iter()
+                    .map(|(channel, share)| format!("{channel} {:.1} %", 100.0 * share))
+                    .collect();
+                write!(
+                    f,
+                    "shares of all predictions outside the bounds of the model (the range of labels, extended by a quarter on each side): \
+                     {}; a score marked `bounded` gives the share among its own samples; robustness uses predictions as they are, every \
+                     other score uses clipped predictions",
+                    shares.join(", ")
+                )
+            }
+            Note::Calibration(channels) => {
+                let shares: Vec<String> = channels.iter().map(ToString::to_string).collect();
+                write!(
+                    f,
+                    "share of samples within 1.96 predicted standard deviations of the truth: {}; calibrated deviations give 95 %",
+                    shares.join(", ")
+                )
+            }
+            Note::Chosen { fold: None, choice } => f.write_str(choice),
+            Note::Chosen {
+                fold: Some(fold),
+                choice,
+            } => write!(f, "without {fold}: {choice}"),
+            Note::EveryRow { metrics, rows } => write!(
+                f,
+                "no predictions are used for {}: computed over all {rows} samples, of every part",
+                metrics.join(", ")
+            ),
+            Note::CallersModel(learning) => f.write_str(match learning {
+                Learning::Here => {
+                    "the model is the caller's own, fitted here on the training part only"
+                }
+                Learning::Stated => {
+                    "the model is the caller's own; the caller states that it was fitted on the training part of this split only"
+                }
+                Learning::Unknown => {
+                    "the model is the caller's own; its training data are unknown and may include these samples"
+                }
+            }),
+            Note::Unbounded => f.write_str(
+                "predictions were not clipped to the bounds of the training labels, as those of other models are",
+            ),
+            Note::States(count) => write!(f, "{count} states merged"),
+            Note::Shards([own, all]) => write!(
+                f,
+                "{own} of {all} rows: the others are in shards that were not merged"
+            ),
+            Note::Shard {
+                shard,
+                rows: [first, end],
+                of,
+            } => write!(f, "shard {shard}: rows {first} (from 0) up to but excluding {end}, of {of}"),
+            Note::Paired(by) => write!(f, "rows were paired {by}"),
+            Note::SameBytes => f.write_str(
+                "truth and predictions are byte-identical files: every error is 0, which no sensor reaches",
+            ),
+            Note::NotPlanned { what, reason } => write!(f, "{what}: {reason}"),
+            Note::Untaken { count, of } => write!(
+                f,
+                "{count} of {of} planned samples were not recorded: their presses reached a limit of the gel, or missed it"
+            ),
+            Note::MeasuredUnit { unit, metrics, of } => write!(
+                f,
+                "every score is for unit {}, except {} for units {}",
+                shown(unit),
+                metrics.join(", "),
+                shown(&of.join(", "))
+            ),
+            Note::DetectionLimit => f.write_str(
+                "detection limit: not verified; noise_equivalent_force uses untouched frames only; light presses at many places would \
+                 verify a limit",
+            ),
+            Note::Spacings(way) => f.write_str(way),
+            Note::FramesRetried(count) => write!(
+                f,
+                "{count} frames were lost, damaged or older than their contact, and were recorded again"
+            ),
+        }
+    }
+}
+
+/// The name of a recording, as the prefix of a note on it.
+fn of(recording: &Option<String>) -> String {
+    recording
+        .as_ref()
+        .map_or_else(String::new, |name| format!("{name}: "))
+}
+
+fn clusters(
+    recordings: usize,
+    points: usize,
+    least: usize,
+    f: &mut fmt::Formatter<'_>,
+) -> fmt::Result {
+    if recordings < least {
+        return write!(
+            f,
+            "scored on {points} contact points of {recordings} recordings; intervals by contact point do not show how scores vary between \
+             recordings; that takes {least} recordings with scored samples"
+        );
+    }
+    write!(
+        f,
+        "intervals of errors, R² and skill are by recording ({recordings} recordings with {points} contact points): they show how scores \
+         vary between recordings"
+    )?;
+    if recordings < CLUSTERS_MANY {
+        write!(
+            f,
+            "; {recordings} are few: one more recording may change an interval much, since it has only {} degrees of freedom",
+            recordings - 1
+        )?;
+    }
+    Ok(())
+}

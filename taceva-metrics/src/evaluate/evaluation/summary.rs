@@ -1,0 +1,58 @@
+//! Scores as a short table for people: one line per channel.
+
+use taceva_core::Unit;
+
+use super::Evaluation;
+use crate::evaluate::metric::Metric;
+use crate::score::Score;
+use crate::score::value::Value;
+
+/// Metrics of the short table, one column each.
+const COLUMNS: [&str; 5] = ["mae", "rmse", "bias", "r2", "skill"];
+
+/// Lines of the short table, headings first; `None` if the evaluation has none of its metrics.
+pub(super) fn lines(evaluation: &Evaluation) -> Option<Vec<Vec<String>>> {
+    let computed = |id: &&str| {
+        let mut metrics = evaluation.entries.iter().map(|entry| entry.metric);
+        metrics.find(|metric| metric.id == *id)
+    };
+    let columns: Vec<&'static Metric> = COLUMNS.iter().filter_map(computed).collect();
+    if columns.is_empty() {
+        return None;
+    }
+    let mut channels: Vec<&str> = Vec::new();
+    for (metric, channel, _) in evaluation.scores() {
+        if COLUMNS.contains(&metric.id) && !channels.contains(&channel) {
+            channels.push(channel);
+        }
+    }
+    let mut headings = vec!["channel".to_owned()];
+    headings.extend(columns.iter().map(|metric| metric.better.beside(metric.id)));
+    headings.push("n".to_owned());
+    let mut lines = vec![headings];
+    for channel in channels {
+        let scores: Vec<Option<&Score>> = columns
+            .iter()
+            .map(|metric| evaluation.score(metric.id, channel))
+            .collect();
+        let n = scores.iter().flatten().map(|score| score.n).max();
+        let mut line = vec![channel.to_owned()];
+        line.extend(scores.into_iter().map(cell));
+        line.push(n.unwrap_or_default().to_string());
+        lines.push(line);
+    }
+    Some(lines)
+}
+
+/// The value with its unit, if it has one; empty if the metric does not apply to the channel.
+fn cell(score: Option<&Score>) -> String {
+    let Some(score) = score else {
+        return String::new();
+    };
+    match &score.value {
+        value @ Value::Scalar(_) if score.unit == Unit::One => value.to_string(),
+        value @ Value::Scalar(_) => format!("{value} {}", score.unit),
+        Value::Undefined(_) => "undefined".to_owned(),
+        _ => String::new(),
+    }
+}

@@ -1,0 +1,43 @@
+//! Digits of printed numbers.
+
+/// Digits of a printed number; the report has all of them.
+const SIGNIFICANT_DIGITS: i32 = 4;
+
+/// `value` to four digits: plain if that is short, else with an exponent.
+pub(crate) fn significant(value: f64) -> String {
+    let scientific = format!("{value:.*e}", usize_of(SIGNIFICANT_DIGITS - 1));
+    let exponent: i32 = scientific
+        .rsplit('e')
+        .next()
+        .and_then(|exponent| exponent.parse().ok())
+        .unwrap_or_default();
+    match SIGNIFICANT_DIGITS - 1 - exponent {
+        decimals @ 0..=7 => format!("{value:.*}", usize_of(decimals)),
+        _ => scientific,
+    }
+}
+
+fn usize_of(digits: i32) -> usize {
+    usize::try_from(digits).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits_whatever_their_size() {
+        let written = [0.0361, -12.5, 9999.6, 0.0, 0.000_123_456, 1.0e-9].map(significant);
+        assert_eq!(
+            written,
+            [
+                "0.03610",
+                "-12.50",
+                "1.000e4",
+                "0.000",
+                "0.0001235",
+                "1.000e-9"
+            ]
+        );
+    }
+}
