@@ -78,11 +78,11 @@ def updates(rows):
     names = [slice(first, first + 1000) for first in range(0, rows, 1000)]
 
     def whole(points=None):
-        metrics = taceva.TactileMetrics()
+        metrics = taceva.TactileMetrics(metrics="accuracy")
         metrics.update(truth, prediction, points)
 
     def by_thousand():
-        metrics = taceva.TactileMetrics()
+        metrics = taceva.TactileMetrics(metrics="accuracy")
         for part in names:
             metrics.update(truth[part], prediction[part])
         return metrics.compute()
@@ -151,7 +151,7 @@ def other_thread(rows):
     import taceva
 
     truth = np.random.default_rng(3).uniform(size=(rows, 6))
-    metrics = taceva.TactileMetrics()
+    metrics = taceva.TactileMetrics(metrics="accuracy")
 
     def spun(work):
         """Turns a second of a thread that counts while `work` is done again and again."""

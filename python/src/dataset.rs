@@ -8,7 +8,7 @@ use pyo3::types::{PyBytes, PyCapsule};
 use taceva_check::CheckRequest;
 use taceva_core::FrameInfo;
 use taceva_dataset::{Dataset, Pass};
-use taceva_evaluate::{Divided, subject_of};
+use taceva_evaluate::{Divided, fold_divisions, subject_of};
 use taceva_import::{ExportForm, ExportPlan};
 use taceva_models::Models;
 
@@ -222,6 +222,19 @@ impl Recording {
             Divided::of(&self.dataset, split, seed).map_err(|error| study_error(&error))?;
         let parts = [Train, Validation, Test].map(|part| divided.rows(part));
         Ok((parts, divided.spec.to_string()))
+    }
+
+    /// Rows by part of each fold of the cross-validation `split`, and the name of the division.
+    #[pyo3(signature = (split, seed))]
+    fn folds(&self, split: &str, seed: u64) -> PyResult<(Vec<[Vec<usize>; 3]>, String)> {
+        use taceva_evaluate::DataPart::{Test, Train, Validation};
+        let divided =
+            fold_divisions(&self.dataset, split, seed).map_err(|error| study_error(&error))?;
+        let name = divided.first().map(|fold| fold.spec.to_string());
+        let parts = divided
+            .iter()
+            .map(|fold| [Train, Validation, Test].map(|part| fold.rows(part)));
+        Ok((parts.collect(), name.unwrap_or_default()))
     }
 
     /// Writes the folder `out` in a format of other programs, as `taceva export` does, and returns the data that the format cannot express.

@@ -7,10 +7,11 @@ use taceva_evaluate::{
     DataPart, EvaluateError, EvaluateRequest, FitRequest, ModelChoice, RowKey, ScoreRequest,
     Scoring, Work,
 };
-use taceva_models::ModelSettings;
+use taceva_models::{ModelSettings, Models};
 
 use crate::dataset::{Recording, jobs_of, models};
 use crate::errors::{ModelError, study_error, value_error};
+use crate::inventory::host;
 use crate::{results, watched};
 
 /// The results file of two tables, as `taceva score` writes it.
@@ -62,18 +63,29 @@ pub(crate) fn evaluate_named(
     bar: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let part = part.map(part_of).transpose()?;
-    let known = models();
+    let mut known = models();
     let path = PathBuf::from(&model);
-    // A name of an existing file is a path; any other is the name of a model.
-    let fitted = match path.is_file() {
-        true => Some(
-            known
-                .open(&path)
-                .map_err(|error| ModelError::new_err(error.to_string()))?,
-        ),
-        false => None,
+    let open = |known: &Models| {
+        let opened = py.detach(|| known.open(&path));
+        opened.map_err(|error| ModelError::new_err(error.to_string()))
     };
-    let work = |progress: &dyn taceva_core::Progress| {
+    // A name of an existing file is a path; any other is the name of a model. Only a name or a file that is not ours needs the plugins.
+    let fitted = match path.is_file() {
+        true => match open(&known) {
+            Ok(fitted) => Some(fitted),
+            Err(_) => {
+                known = known.with(host(py)?.models());
+                Some(open(&known)?)
+            }
+        },
+        false => {
+            if model.contains('/') && known.find(&model).is_err() {
+                known = known.with(host(py)?.models());
+            }
+            None
+        }
+    };
+    let work = move |progress: &dyn taceva_core::Progress| {
         let model = match fitted {
             Some(fitted) => ModelChoice::Fitted(Box::new(fitted)),
             None => {

@@ -11,6 +11,7 @@ mod dataset;
 mod errors;
 mod evaluate;
 mod given;
+mod inventory;
 mod metrics;
 mod plugin;
 mod record;
@@ -35,6 +36,8 @@ mod _taceva {
     use super::evaluate::{evaluate_named, score_tables};
     #[pymodule_export]
     use super::given::{Given, features};
+    #[pymodule_export]
+    use super::inventory::{found_plugins, metric_titles, model_names};
     #[pymodule_export]
     use super::metrics::{Sums, unit_of};
     #[pymodule_export]

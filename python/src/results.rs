@@ -77,15 +77,42 @@ pub(crate) fn read_result(text: &str) -> PyResult<ReadResult> {
     })
 }
 
-/// A table of the scores in `texts` of results files; `form` is `text`, `csv`, `md`, `tex` or `html`.
+/// A table of the scores in `texts` of results files; `form` is `text`, `csv`, `md`, `tex` or `html`. A note names what is left out.
 #[pyfunction]
 pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     let scores = ScoreTable::of(&studies(&texts)?);
+    let shown = scores.headlines();
     match form {
         "csv" => Ok(scores.every_number().csv()),
-        "tex" => Ok(scores.headlines().for_papers("Scores").latex(Layout::Float)),
-        form => rendered(&scores.headlines().for_pages(), form),
+        "tex" => Ok(shown.for_papers("Scores").latex(Layout::Float)),
+        form => {
+            let mut table = shown.for_pages();
+            if let Some(note) = left_out(&scores, &shown) {
+                table.note(note);
+            }
+            rendered(&table, form)
+        }
     }
+}
+
+/// A sentence on the channels whose scores only `scores` has, since `shown` has those of their planes; `None` if there are none.
+fn left_out(scores: &ScoreTable, shown: &ScoreTable) -> Option<String> {
+    let mut channels: Vec<&str> = Vec::new();
+    for row in scores.rows.iter().filter(|row| row.is_headline) {
+        let is_shown = shown
+            .rows
+            .iter()
+            .any(|kept| kept.metric == row.metric && kept.channel == row.channel);
+        if !is_shown && !channels.contains(&row.channel.as_str()) {
+            channels.push(&row.channel);
+        }
+    }
+    (!channels.is_empty()).then(|| {
+        format!(
+            "Left out, since scores of their planes are shown: {}. All scores: scores(), to_frame().",
+            channels.join(", ")
+        )
+    })
 }
 
 /// A figure as an SVG file, with notes for the reader.

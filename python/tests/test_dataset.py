@@ -45,8 +45,10 @@ def test_rows_that_are_none_are_refused(recording: Path) -> None:
     dataset = taceva.open(recording)
     with pytest.raises(IndexError, match=f"row {len(dataset)} of a recording of {len(dataset)}"):
         dataset.frames([len(dataset)])
-    with pytest.raises(IndexError, match="row -1"):
-        dataset.frame(-1)
+    with pytest.raises(IndexError, match=f"row -{len(dataset) + 1} of a recording"):
+        dataset.frame(-len(dataset) - 1)
+    with pytest.raises(IndexError, match=f"a mask of 2 rows for a recording of {len(dataset)}"):
+        dataset.frames([True, False])
     with pytest.raises(TypeError, match="float64"):
         dataset.frames(np.array([0.5]))
     with pytest.raises(KeyError, match="no column 'colour'"):
@@ -91,7 +93,7 @@ def test_a_recording_travels_and_refuses_to_arrive_as_another(recording: Path) -
     dataset = taceva.open(recording)
     assert pickle.loads(pickle.dumps(dataset)).digest == dataset.digest
     with pytest.raises(taceva.DatasetError, match="not the pickled recording"):
-        taceva._dataset._arrived(1, str(recording), "sha256:0")
+        taceva._dataset._arrived(2, str(recording), "sha256:0")
     with multiprocessing.get_context("fork").Pool(2) as pool:
         assert pool.map(len, [dataset, dataset]) == [len(dataset)] * 2
 

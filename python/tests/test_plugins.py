@@ -6,8 +6,10 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -155,6 +157,10 @@ def test_what_the_user_of_the_sandbox_may_not_read_is_refused_with_the_folder_th
     assert done.returncode != 0
     assert f"{tmp_path / 'closed'} denies it" in done.stderr, done.stderr
     assert "runs as user 65534" in done.stderr
+    listed = program.run("plugin", "list", "--plugin-dir", str(made)).stdout
+    assert f"runs not at all: let every user read {tmp_path / 'closed'} (`chmod o+rx`)" in listed, listed
+    trusted = program.run("plugin", "check", KEY, "--plugin-dir", str(made), "--trust", KEY, "--only", "library/loads,force/reads")
+    assert trusted.returncode == 0, trusted.stdout + trusted.stderr
 
 
 def test_home_sockets_processes_and_programs_are_closed_to_a_plugin(tmp_path: Path, program: Program) -> None:
@@ -349,16 +355,110 @@ def test_an_estimator_in_python_is_evaluated_by_the_command(tmp_path: Path, prog
     assert f"model {key}" in done.stdout and "Fz" in done.stdout, done.stdout
 
 
-SCENE = """scene_version = 1
-name = "eye"
-seed = 7
-robot = { driver = "sim/robot:gel=gelsight" }
-force = { driver = "sim/force-transducer" }
-model = { name = "ridge", set = { size = "8x6" } }
-sensor = { driver = "org.example.my-eye/my-eye:brightness=180" }
-protocol = { calibration = { points = 6, indentations = 2 } }
-metrics = { want = ["mae", "intrinsic"] }
+def silent_fit(folder: Path, seconds: float) -> tuple[str, list[str]]:
+    """A recording and an estimator that prints, says that it begins, and then is silent for so long; the words that evaluate it."""
+    made = new(folder, "estimator", "my-plane")
+    code = made / "__init__.py"
+    begins = f"""        import time
+        print("a printed line")
+        tp.log("the fit begins", "warn")
+        time.sleep({seconds})
+        progress.begin("solve", 1)
 """
+    text = code.read_text()
+    assert text.count('        progress.begin("solve", 1)\n') == 1
+    code.write_text(text.replace('        progress.begin("solve", 1)\n', begins))
+    force = np.linspace(0, 5, 40)
+    frames = np.zeros((40, 32, 32), np.uint8) + (20 + 40 * force).astype(np.uint8)[:, None, None]
+    taceva.from_arrays(folder / "recording", force, frames, channels=["Fz"], points=np.arange(40) // 2, sensor="plate", source="synthetic")
+    key = "org.example.my-plane/my-plane"
+    words = ["evaluate", str(folder / "recording"), "--model", key, "--split", "by-point", "--metrics", "mae", "--no-cache", "--plugin-dir", str(made)]
+    return key, words
+
+
+def test_torch_is_told_to_write_no_code_and_its_error_names_the_remedy(tmp_path: Path, program: Program) -> None:
+    head = """
+import sys, types
+flags = []
+library = types.SimpleNamespace(set_flags=flags.append)
+sys.modules["torch"] = types.ModuleType("torch")
+sys.modules["torch"].backends = types.SimpleNamespace(mkldnn=library, nnpack=library)
+"""
+    told = SCALE.replace("self.readings += 1", "self.readings += 1; assert flags == [False, False], flags")
+    done = program.check(KEY, package(tmp_path / "told", head + told), "--only", "force/reads")
+    assert done["failed"] == [] and done["passed"], done
+    fails = SCALE.replace("self.readings += 1", "raise RuntimeError('could not create a primitive')")
+    why = failure(program, package(tmp_path / "fails", fails), "force/reads")
+    assert "oneDNN writes code: import torch" in why and "torch.backends.mkldnn.set_flags(False)" in why, why
+
+
+def test_a_new_network_of_torch_is_that_of_the_examples(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "taceva", "plugin", "new"]
+    words = ["estimator", "my-network", "--language", "python", "--with", "torch"]
+    subprocess.run([*command, *words], cwd=tmp_path, check=True, capture_output=True)
+    example = Path(__file__).parents[2] / "examples/python-plugins/torch-estimator/src/torch_estimator"
+    made = tmp_path / "my-network/src/my_network"
+    network = [(folder / "__init__.py").read_text().split("FILTERS = ")[1].split("plugin = ")[0] for folder in (made, example)]
+    assert network[0] == network[1] and "torch.nn.Conv2d" in network[0]
+    assert 'dependencies = ["taceva", "torch"]' in (tmp_path / "my-network/pyproject.toml").read_text()
+    refused = subprocess.run([*command, "force", "my-scale", *words[2:]], cwd=tmp_path, check=False, capture_output=True, text=True)
+    assert refused.returncode != 0 and "expected `taceva plugin new estimator NAME --language python --with torch`" in refused.stderr
+
+
+def test_what_a_plugin_prints_is_told_where_details_are_asked_for(tmp_path: Path, program: Program) -> None:
+    _, words = silent_fit(tmp_path, 0)
+    quiet, loud = program.run(*words), program.run(*words, "-v")
+    assert quiet.returncode == loud.returncode == 0, quiet.stderr + loud.stderr
+    assert "org.example.my-plane: printed: a printed line" in loud.stderr, loud.stderr
+    assert "a printed line" not in quiet.stderr and "the fit begins" in quiet.stderr, quiet.stderr
+
+
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_against_a_silent_fit_is_answered_at_once_and_ends_it_in_seconds(tmp_path: Path, program: Program, sent: signal.Signals) -> None:
+    key, words = silent_fit(tmp_path, 1000)
+    command = [sys.executable, "-m", "taceva", *words, "--python", str(program.python)]
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=program.variables) as running:
+        assert running.stderr is not None
+        try:
+            before = next((line for line in running.stderr if "the fit begins" in line), None)
+            assert before is not None
+            running.send_signal(sent)
+            begun = time.monotonic()
+            answered = next((line for line in running.stderr if f"stopping the fit of {key}" in line), None)
+            assert answered is not None and time.monotonic() - begun < 5, answered
+            assert running.wait(timeout=30) != 0
+            # Five seconds; the bound is wide, since the machine may be busy, but far from the thirty of other calls.
+            assert time.monotonic() - begun < 20
+        finally:
+            running.kill()
+
+
+def test_harmless_checks_share_a_process_and_run_alone_where_that_fails(tmp_path: Path, program: Program) -> None:
+    made = new(tmp_path, "estimator", "my-plane")
+    code, key = made / "__init__.py", "org.example.my-plane"
+    text = code.read_text().replace('        progress.begin("solve", 1)', '        Model.fits += 1\n        progress.begin("solve", 1)')
+    text = text.replace("    def save(self) -> bytes:", "    fits = 0\n\n    def save(self) -> bytes:")
+    # A model that only the third fit of a process can save: it keeps its promise in company alone.
+    code.write_text(text.replace("        return self.weights.astype", "        assert Model.fits >= 3\n        return self.weights.astype"))
+    assert program.check(key, made, "--only", "estimator/keeps")["failed"]
+    done = program.check(key, made, "--only", "estimator/fits,estimator/keeps")
+    assert done["failed"] == [] and len(done["passed"]) == 3, done
+    # Three fits in one process are too many for this one, and alone each check needs two at most.
+    code.write_text(text.replace("        Model.fits += 1\n", "        Model.fits += 1\n        assert Model.fits <= 2\n"))
+    done = program.check(key, made, "--only", "estimator/fits,estimator/keeps,estimator/predicts")
+    assert done["failed"] == [] and len(done["passed"]) == 5, done
+
+
+def test_complex_predictions_of_a_plugin_are_refused_as_those_of_any_model(tmp_path: Path, program: Program) -> None:
+    made = new(tmp_path, "estimator", "my-plane")
+    code = made / "__init__.py"
+    code.write_text(code.read_text().replace("return np.einsum(", "return 1j + np.einsum("))
+    done = program.check("org.example.my-plane", made, "--only", "estimator/fits")
+    assert "what the model predicted: expected numbers, found an array of complex128" in "\n".join(done["failed"]), done
+
+
+# The study of the guide.
+SCENE = re.findall(r"^```toml eye.toml\n(.*?)^```$", (Path(__file__).parents[2] / "docs/python-plugins.md").read_text(), re.MULTILINE | re.DOTALL)[0]
 
 
 def test_a_sensor_in_python_is_measured_by_a_whole_run_of_the_command(tmp_path: Path, program: Program) -> None:

@@ -109,7 +109,7 @@ def of_another_version(sent: Any) -> bytes:
 def test_a_pickle_of_another_version_is_refused_in_words(drawn: str) -> None:
     result = taceva.evaluate(drawn, "ridge", split="random 60/0/40", settings={"size": "8x6"})
     for sent in (result, taceva.open(drawn)):
-        with pytest.raises(ValueError, match="a pickle of version 99, this taceva reads version 1: use the same taceva on both sides"):
+        with pytest.raises(ValueError, match="a pickle of version 99, this taceva reads version 2: use the same taceva on both sides"):
             pickle.loads(of_another_version(sent))
     metrics = shard(0)
     state = {**metrics.__getstate__(), "version": 99}
@@ -125,6 +125,22 @@ def test_states_of_other_metrics_or_none_are_refused_and_nothing_is_taken_over()
         with pytest.raises(ValueError):
             metrics.merge_states(states)
     assert metrics.compute()["mae", "Fz"].n == 0
+
+
+def test_states_with_any_changed_byte_are_refused() -> None:
+    states, metrics = shard(0).states(), taceva.TactileMetrics()
+    for at in (*range(100), *range(100, len(states), max(1, len(states) // 300))):
+        changed = bytearray(states)
+        changed[at] ^= 1 << at % 8
+        with pytest.raises(ValueError, match="states"):
+            metrics.merge_states(bytes(changed))
+    state = metrics.__getstate__()
+    state["states"] = state["states"][:-1] + b" "
+    with pytest.raises(ValueError, match="changed after states"):
+        metrics.__setstate__(state)
+    metrics = taceva.TactileMetrics()
+    metrics.merge_states(states)
+    assert metrics.compute() == shard(0).compute()
 
 
 def test_a_cluster_of_ray_on_two_nodes_merges_to_the_same_bytes() -> None:

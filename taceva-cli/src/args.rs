@@ -27,9 +27,9 @@ pub(crate) use self::init::{Init, InitSubject, InitTarget};
 pub(crate) use self::live::{Capture, LiveArgs, Preview};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
 pub(crate) use self::plugin::{
-    Language, Plugin, PluginAllow, PluginArgs, PluginCheck, PluginDeny, PluginHeaders, PluginInfo,
-    PluginInstall, PluginList, PluginManifest, PluginNew, PluginPack, PluginRelease,
-    PluginUninstall,
+    Language, NewKind, NewLibrary, Plugin, PluginAllow, PluginArgs, PluginCheck, PluginDeny,
+    PluginHeaders, PluginInfo, PluginInstall, PluginList, PluginManifest, PluginNew, PluginPack,
+    PluginRelease, PluginUninstall,
 };
 pub(crate) use self::results::{
     Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare, Like,

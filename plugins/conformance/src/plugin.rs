@@ -1,4 +1,5 @@
-//! Promises of a plugin, each checked in a confined process of its own with a time limit.
+//! Promises of a plugin, each checked in a confined process of its own with a time limit. One process tries the harmless ones together
+//! first, since a start may take seconds; if it fails, they run alone.
 //!
 //! A check runs beside the plugin, in the child, and calls the functions of its tables as a host would, and as no host should. Whatever it
 //! does to its process, the other checks continue. A trusted plugin is checked as it runs: in an unconfined process.
@@ -12,6 +13,7 @@ mod probe;
 mod robot_table;
 mod run;
 mod sensor_table;
+mod shared_process;
 mod subject;
 mod surroundings;
 
@@ -33,6 +35,7 @@ use taceva_host::{
 
 use self::probe::Probe;
 use self::run::run;
+use self::shared_process::held_together;
 use self::subject::Subject;
 use crate::promise::Unmet;
 use crate::report::Outcome;
@@ -221,20 +224,19 @@ pub fn check(
     };
     // First check by driver and cause of a failure or skip, so that each cause is reported once.
     let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
-    for check in checks().into_iter().filter(is_wanted) {
+    let wanted: Vec<Check> = checks().into_iter().filter(is_wanted).collect();
+    let held = held_together(&examination, request, &wanted, plugin);
+    for check in wanted {
         for key in subjects(&check, plugin) {
-            let probe = Probe {
-                check: check.name.to_owned(),
-                driver: key.map(ToString::to_string).unwrap_or_default(),
-                arguments: key
-                    .and_then(|key| request.arguments.get(key))
-                    .cloned()
-                    .unwrap_or_default(),
-                seed: request.seed,
-                moves: request.moves,
-            };
             let begun = Instant::now();
-            let mut outcome = made(&examination, &probe, request.limit);
+            let (mut outcome, took_s) = match held.get(&(key, check.name)) {
+                Some(took_s) => (Outcome::Passed, *took_s),
+                None => {
+                    let probe = Probe::of(request, check.name, key);
+                    let outcome = made(&examination, &probe, request.limit);
+                    (outcome, begun.elapsed().as_secs_f64())
+                }
+            };
             let cause = match &outcome {
                 Outcome::Failed(why) => Some((why.clone(), "failed")),
                 Outcome::Skipped(why) => Some((why.clone(), "was skipped")),
@@ -255,7 +257,7 @@ pub fn check(
                 check: check.name,
                 subject: key.map(ToString::to_string),
                 outcome,
-                took_s: begun.elapsed().as_secs_f64(),
+                took_s,
             });
         }
     }

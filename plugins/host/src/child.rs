@@ -10,6 +10,7 @@
 //! | calls of a device | one socket pair per device, served by its own thread: a call blocks its device alone |
 //! | interrupt, halt | a second socket pair per device, served by another thread: bypasses the call queue |
 //! | log lines | one socket per child, read by its own thread |
+//! | printed output | one pipe per child, read by its keeper; lines go to the log by their own thread |
 //! | frames | memory of a sealed size, written in place by the child, copied once by the host |
 //!
 //! The host checks every length and number that a child sends ([`wire`]). Every call has a timeout after which the child is killed
@@ -31,6 +32,7 @@ mod memory;
 mod model;
 mod plain;
 mod plugin;
+mod printed_lines;
 mod quarantine;
 mod reply;
 mod sandbox;

@@ -59,7 +59,8 @@ impl PluginHost {
     pub fn examination<'a>(&'a self, plugin: &'a Plugin) -> Result<Examination<'a>, DriverError> {
         let whole = plugin.id().as_driver();
         let code = plugin.read(&whole)?;
-        plugin.child(&code, &whole, self.children())?;
+        let is_trusted = self.config().trust(plugin).is_some();
+        plugin.child(&code, &whole, self.children(), is_trusted)?;
         Ok(Examination {
             host: self,
             plugin,
@@ -117,7 +118,9 @@ impl Examination<'_> {
             .grant_of(self.plugin, order.driver, order.arguments);
         let (grant, arguments) = granted.map_err(|error| unready(&error))?;
         let whole = self.plugin.id().as_driver();
-        let spec = self.plugin.child(&self.code, &whole, self.host.children());
+        let is_trusted = self.host.config().trust(self.plugin).is_some();
+        let children = self.host.children();
+        let spec = self.plugin.child(&self.code, &whole, children, is_trusted);
         let mut spec = spec.map_err(|error| unready(&error))?;
         spec.files
             .push(in_memory(&encode(arguments)).map_err(|error| unready(&error))?);
@@ -127,7 +130,6 @@ impl Examination<'_> {
         if let Some(why) = no_port(&spec.confinement.needs) {
             return Err(ExaminationError::Unready(why));
         }
-        spec.confinement.is_trusted = self.host.config().trust(self.plugin).is_some();
         spec.log = Some(order.log);
         spec.patience.start = order.limit;
         let child = Child::start(spec).map_err(|error| ExaminationError::Child {

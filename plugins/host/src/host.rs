@@ -272,9 +272,9 @@ impl PluginHost {
     ) -> Result<Started, DriverError> {
         const DOING: &str = "load the plugin";
         let code = plugin.read(driver)?;
-        let mut spec = plugin.child(&code, driver, &self.children)?;
         // A trusted plugin that is not a library runs in a separate process too.
-        spec.confinement.is_trusted = self.config.trust(plugin).is_some();
+        let is_trusted = self.config.trust(plugin).is_some();
+        let mut spec = plugin.child(&code, driver, &self.children, is_trusted)?;
         spec.log = Some(self.log_of(plugin));
         if let Some(limit) = limit {
             (spec.patience.start, spec.patience.open) = (limit, limit);

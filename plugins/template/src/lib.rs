@@ -8,4 +8,4 @@ mod python;
 pub use kind::Kind;
 pub use name::{Name, NameError};
 pub use project::{File, Sources, headers, project};
-pub use python::python_project;
+pub use python::{python_project, torch_project};

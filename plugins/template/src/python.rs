@@ -27,13 +27,27 @@ fn module(kind: Kind) -> (&'static str, &'static str) {
 /// The files of a new plugin in Python with one driver of `kind`.
 pub fn python_project(kind: Kind, name: &Name) -> Vec<File> {
     let (module, provides) = module(kind);
+    let manifest = [include_str!("../project/python/plugin.toml.in"), provides].concat();
+    files(kind, name, module, &manifest, "\"taceva\"")
+}
+
+/// The files of a new estimator in Python that is a network of PyTorch.
+pub fn torch_project(name: &Name) -> Vec<File> {
+    let module = include_str!("../project/python/torch/__init__.py.in");
+    let manifest = include_str!("../project/python/torch/plugin.toml.in");
+    let dependencies = "\"taceva\", \"torch\"";
+    files(Kind::Estimator, name, module, manifest, dependencies)
+}
+
+/// The files of a package with this module and manifest.
+fn files(kind: Kind, name: &Name, module: &str, manifest: &str, dependencies: &str) -> Vec<File> {
     let fill = |text: &str| {
         text.replace("@name@", name.as_str())
             .replace("@crate@", &name.as_crate())
             .replace("@kind@", kind.noun())
+            .replace("@dependencies@", dependencies)
     };
     let package = format!("src/{}", name.as_crate());
-    let manifest = [include_str!("../project/python/plugin.toml.in"), provides].concat();
     let files = [
         (
             "pyproject.toml".to_owned(),
@@ -48,7 +62,7 @@ pub fn python_project(kind: Kind, name: &Name) -> Vec<File> {
             include_str!("../project/python/gitignore.in"),
         ),
         (format!("{package}/__init__.py"), module),
-        (format!("{package}/plugin.toml"), manifest.as_str()),
+        (format!("{package}/plugin.toml"), manifest),
     ];
     let files = files.map(|(path, text)| File {
         path,
@@ -64,12 +78,12 @@ mod tests {
     #[test]
     fn a_project_in_python_is_a_package_with_its_manifest_in_it() {
         let name: Name = "my-device".parse().expect("a name");
-        for kind in Kind::ALL {
-            let files = python_project(kind, &name);
+        let projects = Kind::ALL.map(|kind| python_project(kind, &name));
+        for files in projects.into_iter().chain([torch_project(&name)]) {
             let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
             assert!(paths.contains(&"src/my_device/plugin.toml"), "{paths:?}");
             for file in &files {
-                for left in ["@name@", "@crate@", "@kind@"] {
+                for left in ["@name@", "@crate@", "@kind@", "@dependencies@"] {
                     assert!(!file.text.contains(left), "{}: {left}", file.path);
                 }
             }

@@ -5,16 +5,18 @@ Exact metrics with intervals over arrays, recordings on disk, and models, fitted
 >>> import numpy as np
 >>> import taceva
 >>> truth = np.array([0.25, 0.50, 1.00])
->>> result = taceva.score(truth, truth + 0.125, channels=["Fz"])
+>>> result = taceva.score(truth, truth + 0.125, channels=["Fz"], independent=True)
 >>> result["mae", "Fz"].value
 0.125
 """
 
 from taceva._bar import progress
 from taceva._compare import Comparison, compare
-from taceva._dataset import Dataset, Rows, open
+from taceva._dataset import Dataset, Rows, Samples, open
 from taceva._evaluate import evaluate
 from taceva._figure import Figure
+from taceva._function_score import score_function
+from taceva._inventory import FoundPlugin, metrics, models, plugins
 from taceva._metrics import SIX, TactileMetrics, score, score_tables
 from taceva._onnx import OnnxModel, onnx
 from taceva._record import from_arrays, import_recording
@@ -30,11 +32,13 @@ __all__ = [
     "Dataset",
     "DatasetError",
     "Figure",
+    "FoundPlugin",
     "Interval",
     "ModelError",
     "OnnxModel",
     "Result",
     "Rows",
+    "Samples",
     "Score",
     "TactileMetrics",
     "compare",
@@ -42,9 +46,13 @@ __all__ = [
     "from_arrays",
     "import_recording",
     "load",
+    "metrics",
+    "models",
     "onnx",
     "open",
+    "plugins",
     "progress",
     "score",
+    "score_function",
     "score_tables",
 ]

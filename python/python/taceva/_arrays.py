@@ -90,7 +90,7 @@ def points(names: Any, name: str = "points") -> npt.NDArray[np.int64] | list[str
         if found.dtype.kind == "u" and found.dtype.itemsize == 8 and found.size and int(found.max()) >= 2**63:
             return [str(number) for number in found.tolist()]
         return np.ascontiguousarray(found, dtype=np.int64)
-    if found.dtype.kind in "UO" and all(isinstance(text, str) for text in found.tolist()):
+    if found.dtype.kind in "UOT" and all(isinstance(text, str) for text in found.tolist()):
         return [str(text) for text in found.tolist()]
     raise TypeError(f"{name}: expected whole numbers or texts, found an array of {found.dtype}")
 

@@ -1,4 +1,4 @@
-"""Arrays whose columns or rows have names: pandas, polars, Arrow, structured arrays of numpy and dicts of arrays.
+"""Arrays whose columns or rows have names: pandas, polars, Arrow, xarray, structured arrays of numpy and dicts of arrays.
 
 Columns are matched by name and rows by key, as ``taceva score`` does with files; what disagrees is refused.
 """
@@ -90,6 +90,8 @@ def named_columns(table: Any, name: str) -> NamedColumns | None:
         return _of_pandas(table, name)
     if hasattr(table, "get_column") and hasattr(table, "columns"):
         return NamedColumns({str(key): table.get_column(key).to_numpy() for key in table.columns})
+    if hasattr(table, "dims") and hasattr(table, "coords"):
+        return _of_xarray(table, name)
     if hasattr(table, "column_names") and hasattr(table, "column"):
         return NamedColumns({str(key): np.asarray(table.column(key)) for key in table.column_names})
     return None
@@ -111,6 +113,23 @@ def _of_pandas(table: Any, name: str) -> NamedColumns:
         if names.count(key) > 1:
             raise ValueError(f"{name}: the column {key!r} occurs twice")
     return NamedColumns({key: _of_extension(table[key]) for key in names}, rows, is_counted)
+
+
+def _of_xarray(table: Any, name: str) -> NamedColumns | None:
+    """Return the columns of an array of two dimensions of which the second has names; ``None`` of any other array."""
+    if table.ndim != 2 or table.dims[1] not in table.coords:
+        return None
+    rows, columns = table.dims
+    names = [str(key) for key in table.coords[columns].values.tolist()]
+    for key in names:
+        if names.count(key) > 1:
+            raise ValueError(f"{name}: the column {key!r} occurs twice")
+    values = np.asarray(table.values)
+    by_name = {key: values[:, at] for at, key in enumerate(names)}
+    if rows not in table.coords:
+        return NamedColumns(by_name)
+    index = np.asarray(table.coords[rows].values)
+    return NamedColumns(by_name, index, index.dtype.kind in "iu" and bool(np.array_equal(index, np.arange(len(index)))))
 
 
 def _of_extension(column: Any) -> npt.NDArray[Any]:

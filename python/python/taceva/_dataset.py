@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,9 @@ from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._settings import setting_words
 
 IntArray = npt.NDArray[np.intp]
+
+#: Rows as numpy takes them: whole numbers, of which negative ones count from the end, a mask of truth values, or a slice.
+RowIndex = Sequence[int] | Sequence[bool] | npt.NDArray[Any] | slice
 
 
 @dataclass(frozen=True)
@@ -31,14 +34,27 @@ class Rows:
     split: str
 
 
+class Samples(NamedTuple):
+    """What the sensor gave in some rows, and their labels. One row has no axis of rows."""
+
+    #: Frames ``[rows, height, width, samples]``, else signals ``[rows, values]``; ``None`` in a recording of labels alone.
+    seen: npt.NDArray[Any] | None
+    #: ``[rows, channels]``; NaN for an absent label.
+    labels: npt.NDArray[np.float64]
+
+
 class Dataset:
     """A recording: labels of every sample, and frames or signals.
+
+    ``dataset[3]``, ``dataset[-1]``, ``dataset[10:20]`` and ``dataset[mask]`` are `Samples`; ``frames``, ``features`` and the other methods take
+    the same kinds of rows.
 
     It is pickled as its path and its digest; unpickling raises `DatasetError` if the recording at that path has another digest.
     """
 
     def __init__(self, path: str | os.PathLike[str], view: str | None = None) -> None:
         self._inner = _taceva.Recording(os.fspath(path), view)
+        self._labels: npt.NDArray[np.float64] | None = None
 
     @property
     def path(self) -> str:
@@ -88,6 +104,18 @@ class Dataset:
     def __len__(self) -> int:
         return self._inner.rows()
 
+    def __getitem__(self, rows: int | np.integer[Any] | RowIndex) -> Samples:
+        if isinstance(rows, int | np.integer):
+            seen, labels = self[[int(rows)]]
+            return Samples(None if seen is None else seen[0], labels[0])
+        wanted = self._rows(rows)
+        if self._labels is None:
+            self._labels = self.labels()
+        if self.frame_shape is not None:
+            return Samples(np.asarray(self._inner.frames(wanted, 0, None)), self._labels[wanted])
+        has_signals = self._inner.signal_values() is not None
+        return Samples(np.asarray(self._inner.signals(wanted)) if has_signals else None, self._labels[wanted])
+
     def labels(self) -> npt.NDArray[np.float64]:
         """Return ``[rows, channels]``, read-only; NaN for an absent label."""
         return np.asarray(self._inner.labels())
@@ -115,7 +143,7 @@ class Dataset:
         found: npt.NDArray[Any] = self.frames([row], jobs=1)[0]
         return found
 
-    def frames(self, rows: Sequence[int] | IntArray | None = None, *, jobs: int = 0) -> npt.NDArray[Any]:
+    def frames(self, rows: RowIndex | None = None, *, jobs: int = 0) -> npt.NDArray[Any]:
         """Return ``[rows, height, width, samples]`` of some rows, in their order, or of all: uint8 or uint16, read-only, decoded on ``jobs`` threads.
 
         Raises
@@ -125,7 +153,7 @@ class Dataset:
         """
         return np.asarray(self._inner.frames(self._rows(rows), jobs, bar()))
 
-    def batches(self, rows: Sequence[int] | IntArray | None = None, *, size: int = 64, jobs: int = 0) -> Iterator[npt.NDArray[Any]]:
+    def batches(self, rows: RowIndex | None = None, *, size: int = 64, jobs: int = 0) -> Iterator[npt.NDArray[Any]]:
         """Yield frames in batches of at most ``size`` rows; only one batch is in memory."""
         if size < 1:
             raise ValueError(f"size {size}: expected at least 1")
@@ -140,7 +168,7 @@ class Dataset:
 
     def features(
         self,
-        rows: Sequence[int] | IntArray | None = None,
+        rows: RowIndex | None = None,
         *,
         settings: Mapping[str, Any] | None = None,
         jobs: int = 0,
@@ -153,15 +181,27 @@ class Dataset:
         found, _, _ = _taceva.features(self._inner, words, self._rows(rows), jobs, bar())
         return np.asarray(found)
 
-    def signals(self, rows: Sequence[int] | IntArray | None = None) -> npt.NDArray[np.float32]:
+    def signals(self, rows: RowIndex | None = None) -> npt.NDArray[np.float32]:
         """Return ``[rows, values]`` of the signals of some rows, taxel by taxel, read-only."""
         return np.asarray(self._inner.signals(self._rows(rows)))
 
     def split(self, split: str | None = None, seed: int = 0) -> Rows:
         """Divide the rows as ``taceva evaluate --split`` does: ``by-point 70/15/15``, ``random 80/0/20``, ``chronological 90/0/10`` and others."""
         parts, name = self._inner.split(split, seed)
-        train, validation, test = (np.asarray(part, dtype=np.intp) for part in parts)
-        return Rows(train, validation, test, name)
+        return _rows_by_part(parts, name)
+
+    def folds(self, split: str = "cv:5", seed: int = 0) -> list[Rows]:
+        """Divide the rows once for each fold of a cross-validation, as ``taceva evaluate --split cv:5`` does; each row is tested in one fold.
+
+        ``split`` may be ``cv:10``, ``cv:5 by-point``, ``loo by-column:object``, ``leave-one-recording-out`` and others.
+
+        Raises
+        ------
+        ValueError
+            For a split that makes one division, and for more folds than groups.
+        """
+        folds, name = self._inner.folds(split, seed)
+        return [_rows_by_part(parts, name) for parts in folds]
 
     def check(self, *, jobs: int = 0) -> dict[str, Any]:
         """Return the findings of ``taceva check --format json``: defects of the recording and notes."""
@@ -182,6 +222,21 @@ class Dataset:
             frame[name] = self.column(name)
         frame.attrs.update(units=self._units_of(list(frame.columns)), source=self.source, sensor=self.sensor)
         return frame
+
+    def to_xarray(self) -> Any:
+        """Return the labels as an ``xarray.DataArray`` of ``sample`` and ``channel``, with the names of both, units and contact points as coordinates."""
+        import xarray
+
+        points = self._inner.column("point_id")
+        coordinates: dict[str, Any] = {
+            "sample": self.column("sample"),
+            "channel": list(self.channels),
+            "unit": ("channel", list(self.units.values())),
+        }
+        if points is not None:
+            coordinates["point"] = ("sample", points)
+        facts = {"sensor": self.sensor, "source": self.source, "digest": self.digest}
+        return xarray.DataArray(np.array(self.labels()), dims=("sample", "channel"), coords=coordinates, name="labels", attrs=facts)
 
     def _units_of(self, columns: Sequence[str]) -> dict[str, str]:
         units = {"t_s": "s", "spacing_mm": "mm", **self.units}
@@ -219,7 +274,7 @@ class Dataset:
         found.info.description = json.dumps(said)
         return found
 
-    def torch(self, rows: Sequence[int] | IntArray | None = None) -> Any:
+    def torch(self, rows: RowIndex | None = None) -> Any:
         """Return a ``torch.utils.data.Dataset`` of ``(frame, labels)``: the frame ``[samples, height, width]`` in float32 from 0 to 1, labels in float32.
 
         For a recording of taxels the items are ``(signals, labels)``: ``[values]``, taxel by taxel, as from `signals`.
@@ -239,24 +294,37 @@ class Dataset:
 
         return Frames(self, wanted) if has_frames else Signals(self, wanted)
 
-    def _rows(self, rows: Sequence[int] | IntArray | None) -> list[int]:
+    def _rows(self, rows: RowIndex | None) -> list[int]:
         if rows is None:
             return list(range(len(self)))
+        if isinstance(rows, slice):
+            return list(range(*rows.indices(len(self))))
         wanted = np.asarray(rows)
         if wanted.size == 0:
             return []
-        if wanted.ndim != 1 or wanted.dtype.kind not in "iu":
-            raise TypeError(f"rows: expected whole numbers, found an array of {wanted.dtype} of the shape {list(wanted.shape)}")
-        beyond = wanted[(wanted < 0) | (wanted >= len(self))]
+        if wanted.ndim != 1 or wanted.dtype.kind not in "iub":
+            raise TypeError(
+                f"rows: expected whole numbers, a mask or a slice, found an array of {wanted.dtype} of the shape {list(wanted.shape)}"
+            )
+        if wanted.dtype.kind == "b":
+            if len(wanted) != len(self):
+                raise IndexError(f"a mask of {len(wanted)} rows for a recording of {len(self)}")
+            return [int(row) for row in np.flatnonzero(wanted).tolist()]
+        beyond = wanted[(wanted < -len(self)) | (wanted >= len(self))]
         if beyond.size:
             raise IndexError(f"row {int(beyond[0])} of a recording of {len(self)}")
-        return [int(row) for row in wanted.tolist()]
+        return [int(row) + len(self) if row < 0 else int(row) for row in wanted.tolist()]
 
     def __repr__(self) -> str:
         return f"<taceva.Dataset {self.path!r}: {len(self)} rows of {self.sensor}, {self.source}>"
 
     def __reduce__(self) -> tuple[Any, tuple[int, str, str, str | None]]:
         return _arrived, (PICKLE_VERSION, self.path, self.digest, self.view)
+
+
+def _rows_by_part(parts: list[list[int]], split: str) -> Rows:
+    train, validation, test = (np.asarray(part, dtype=np.intp) for part in parts)
+    return Rows(train, validation, test, split)
 
 
 def open(path: str | os.PathLike[str], view: str | None = None) -> Dataset:

@@ -10,13 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from taceva import _taceva
-from taceva._arrays import numbers
 from taceva._bar import bar
 from taceva._dataset import Dataset
-from taceva._column_names import predicted
 from taceva._onnx import OnnxModel
+from taceva._predictions import prediction_rows
 from taceva._result import Result
-from taceva._settings import setting_words
+from taceva._settings import metric_names, setting_words
 
 
 def evaluate(
@@ -40,13 +39,13 @@ def evaluate(
     model
         One of
 
-        - a name, such as ``"ridge"``, ``"fast"``, ``"cnn"``, ``"auto"`` or ``"linfa/elastic-net"``: fitted here;
+        - a name, such as ``"ridge"``, ``"fast"``, ``"cnn"``, ``"auto"`` or ``"linfa/elastic-net"``, or the key of a plugin: fitted here; see `models`;
         - the file of a model that ``taceva fit`` wrote, which brings its own split;
         - an object with ``fit(X, y)`` and ``predict(X)``, as scikit-learn's: fitted here on ``X``, float32 ``[rows, features]`` (see
           `Dataset.features`, 32×32 gray by default), and ``y``, float64 ``[rows, channels]`` in their units; ``fit`` changes it;
         - `onnx` of a file;
-        - a ``torch.nn.Module``: called in ``eval`` mode without gradients, on its own device, with float32 ``[rows, samples, height, width]``
-          from 0 to 1;
+        - a ``torch.nn.Module``: called in ``eval`` mode without gradients, on its own device and in its own precision, with
+          ``[rows, samples, height, width]`` from 0 to 1;
         - any other callable: called with frames ``[rows, height, width, samples]``, uint8 or uint16.
 
         Modules and callables are used without fitting and return ``[rows, channels]`` in the units of the channels. Give the ``split`` that they
@@ -79,7 +78,7 @@ def evaluate(
         your model are raised unchanged.
     """
     recording = dataset if isinstance(dataset, Dataset) else Dataset(dataset)
-    wanted = [metrics] if isinstance(metrics, str) else list(metrics)
+    wanted = metric_names(metrics)
     words = setting_words(settings)
     if isinstance(model, str | os.PathLike):
         if not bounded:
@@ -109,7 +108,7 @@ def evaluate(
         predictions = _fitted(recording, model, given, words, described, jobs)
     else:
         predictions = _called(recording, model, given, batch, jobs)
-    found = _as_rows(predictions, _name_of(model), len(given.target()), given.channels())
+    found = prediction_rows(predictions, _name_of(model), len(given.target()), given.channels())
     text = given.score(recording._inner, _name_of(model), described, found, wanted, jobs)
     return Result(text)
 
@@ -138,7 +137,7 @@ def _called(recording: Dataset, model: Any, given: Any, batch: int, jobs: int) -
         for first in range(0, len(rows), batch):
             own = rows[first : first + batch]
             frames = np.asarray(recording._inner.frames(own, jobs, None))
-            predictions.append(_as_rows(call(frames), _name_of(model), len(own), names))
+            predictions.append(prediction_rows(call(frames), _name_of(model), len(own), names))
             if shown is not None:
                 shown.advance(len(own))
     finally:
@@ -160,6 +159,8 @@ def _module(model: Any) -> Callable[[npt.NDArray[Any]], Any]:
 
     weights = next(iter(model.parameters()), None)
     device = torch.device("cpu") if weights is None else weights.device
+    # A module of double or half precision takes pictures of its own precision.
+    number = weights.dtype if weights is not None and weights.is_floating_point() else torch.float32
 
     def call(frames: npt.NDArray[Any]) -> Any:
         scale = np.float32(np.iinfo(frames.dtype).max)
@@ -168,22 +169,11 @@ def _module(model: Any) -> Callable[[npt.NDArray[Any]], Any]:
         model.eval()
         try:
             with torch.inference_mode():
-                return model(torch.from_numpy(pictures).to(device))
+                return model(torch.from_numpy(pictures).to(device, number))
         finally:
             model.train(was_training)
 
     return call
-
-
-def _as_rows(predictions: Any, name: str, rows: int, channels: list[str]) -> Any:
-    """Return predictions as an array of ``[rows, channels]``; named columns are matched by name."""
-    width = len(channels)
-    found = numbers(predicted(predictions, channels, f"what {name} predicted"), f"what {name} predicted", allow_invalid=True)
-    if found.ndim == 1 and width == 1:
-        found = found[:, np.newaxis]
-    if found.shape != (rows, width):
-        raise ValueError(f"{name} predicted an array of the shape {list(found.shape)}, expected {[rows, width]}: one row per sample, one column per channel")
-    return np.ascontiguousarray(found)
 
 
 def _name_of(model: Any) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ def columns(fields: Mapping[str, Any], expected: Sequence[str], rows: int) -> li
     TypeError
         For counts that are no whole numbers.
     """
+    require_unweighted(fields)
     for name in expected:
         if name not in fields:
             raise ValueError(f"{name} is missing: every row needs {', '.join(expected)}, as declared in fields")
@@ -41,6 +42,19 @@ def columns(fields: Mapping[str, Any], expected: Sequence[str], rows: int) -> li
                 raise ValueError(f"phase {other[0]!r}: expected load or unload")
         found.append((name, column))
     return found
+
+
+def require_unweighted(fields: Iterable[str]) -> None:
+    """Refuse weights, which no metric has.
+
+    >>> require_unweighted(["weights"])
+    Traceback (most recent call last):
+        ...
+    TypeError: weights: every sample counts once here; score each part by itself, or your own function with taceva.score_function
+    """
+    for name in fields:
+        if name in ("weight", "weights", "sample_weight"):
+            raise TypeError(f"{name}: every sample counts once here; score each part by itself, or your own function with taceva.score_function")
 
 
 def _numbers(column: Any, name: str) -> Any:

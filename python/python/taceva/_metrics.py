@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
 from taceva._arrays import BLOCK_ROWS, native, real, require_finite
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
-from taceva._fields import columns
+from taceva._fields import columns, require_unweighted
 from taceva._column_names import beside, pair
 from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._result import Result
+from taceva._settings import metric_names
+from taceva._states import gathered, opened, sealed
 
 #: The channels of the TacEva paper: place and depth in mm, forces in N.
 SIX = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
+
+#: The metrics of arrays by default: MAE, R² and sMAPE, which are the group ``accuracy`` of the command, with RMSE and bias.
+DEFAULT_METRICS = ("accuracy", "rmse", "bias")
 
 
 class TactileMetrics:
@@ -30,7 +36,7 @@ class TactileMetrics:
     channels
         Names of the columns of the arrays.
     metrics
-        Metrics and groups by name: ``accuracy`` is every metric of truth and prediction.
+        Metrics and groups by name; by default MAE, RMSE, bias, R² and sMAPE. ``accuracy`` is MAE, R² and sMAPE, ``all`` is every metric.
     units
         Units of channels besides the six, such as ``{"Mz": "N mm"}``; ``1`` by default.
     periods
@@ -54,7 +60,7 @@ class TactileMetrics:
     def __init__(
         self,
         channels: Sequence[str] = SIX,
-        metrics: str | Sequence[str] = "accuracy",
+        metrics: str | Sequence[str] = DEFAULT_METRICS,
         *,
         units: Mapping[str, str] | None = None,
         periods: Mapping[str, int] | None = None,
@@ -74,8 +80,7 @@ class TactileMetrics:
                 raise ValueError(f"{said} of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
         units = dict.fromkeys(periods, "deg") | units
         with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
-        wanted = [metrics] if isinstance(metrics, str) else list(metrics)
-        self._asked = (with_units, wanted, independent, list(fields), periods)
+        self._asked = (with_units, metric_names(metrics), independent, list(fields), periods)
         self._sums = _taceva.Sums(*self._asked)
         self._paired: set[str] = set()
 
@@ -147,6 +152,52 @@ class TactileMetrics:
         if both.paired_by is not None:
             self._paired.add(both.paired_by)
 
+    def forward(
+        self,
+        truth: Any,
+        prediction: Any,
+        points: Any = None,
+        *,
+        allow_invalid: bool = False,
+        **fields: Any,
+    ) -> Result:
+        """Add samples as `update` does, and return the scores of these samples alone. An object that is called does the same.
+
+        >>> import taceva
+        >>> metrics = taceva.TactileMetrics(["Fz"])
+        >>> [float(metrics([[0.0]], [[error]])["mae", "Fz"]) for error in (0.5, 0.25)], float(metrics.compute()["mae", "Fz"])
+        ([0.5, 0.25], 0.375)
+        """
+        batch = self._emptied()
+        batch.update(truth, prediction, points, allow_invalid=allow_invalid, **fields)
+        self.merge(batch)
+        return batch.compute()
+
+    __call__ = forward
+
+    def sync(self, gather: Callable[[bytes], Sequence[bytes]] | None = None) -> TactileMetrics:
+        """Return the samples of every process in a new object, the same in each process; this object keeps its own samples alone.
+
+        ``gather`` passes bytes to every process and returns those of all, as ``allgather`` of mpi4py. The default is that of ``torch.distributed``,
+        if it was initialised. Every process calls this method, and all have the same channels and metrics.
+        """
+        # A list of keys has no line break.
+        own = json.dumps(sorted(self._paired)).encode() + b"\n" + self.states()
+        whole = self._emptied()
+        for sent in (gather or gathered)(own):
+            paired, _, states = sent.partition(b"\n")
+            whole.merge_states(states)
+            whole._paired |= set(json.loads(paired))
+        return whole
+
+    def _emptied(self) -> TactileMetrics:
+        """Return an object of the same channels and metrics without samples."""
+        found = TactileMetrics.__new__(TactileMetrics)
+        found._asked = self._asked
+        found._sums = _taceva.Sums(*self._asked)
+        found._paired = set()
+        return found
+
     def compute(self) -> Result:
         """Return the scores of all samples so far; more samples may follow."""
         return Result(self._sums.compute(sorted(self._paired)))
@@ -162,12 +213,12 @@ class TactileMetrics:
         self._paired.clear()
 
     def states(self) -> bytes:
-        """Return the sums of all samples, a few kB, for ``merge_states`` in another process."""
-        return bytes(self._sums.states_bytes())
+        """Return the sums of all samples with a digest, a few kB, for ``merge_states`` in another process."""
+        return sealed(self._sums.states_bytes())
 
     def merge_states(self, states: bytes) -> None:
-        """Add the samples behind the ``states`` of another process."""
-        self._sums.merge_bytes(states)
+        """Add the samples behind the ``states`` of another process; changed bytes are refused."""
+        self._sums.merge_bytes(opened(states))
 
     def __getstate__(self) -> dict[str, Any]:
         return {"version": PICKLE_VERSION, "asked": self._asked, "states": self.states(), "paired": sorted(self._paired)}
@@ -176,7 +227,7 @@ class TactileMetrics:
         require_version(state.get("version"))
         self._asked = state["asked"]
         self._sums = _taceva.Sums(*self._asked)
-        self._sums.merge_bytes(state["states"])
+        self._sums.merge_bytes(opened(state["states"]))
         self._paired = set(state.get("paired", ()))
 
     def __repr__(self) -> str:
@@ -189,7 +240,7 @@ def score(
     *,
     points: Any = None,
     channels: Sequence[str] | None = None,
-    metrics: str | Sequence[str] = "accuracy",
+    metrics: str | Sequence[str] = DEFAULT_METRICS,
     units: Mapping[str, str] | None = None,
     periods: Mapping[str, int] | None = None,
     independent: bool = False,
@@ -207,6 +258,7 @@ def score(
     >>> taceva.score(truth, truth + 0.5)["mae", "Pz"].value
     0.5
     """
+    require_unweighted(fields)
     channels, both = pair(truth, prediction, channels)
     wanted = SIX if channels is None else channels
     found = TactileMetrics(wanted, metrics, units=units, periods=periods, independent=independent, fields=list(fields))
@@ -233,11 +285,10 @@ def score_tables(
     Rows are paired by the column ``key`` of both, or by ``"order"``; by default by a key of a known name.
     ``jobs`` is the number of threads, all cores if 0; results do not depend on it.
     """
-    wanted = [metrics] if isinstance(metrics, str) else list(metrics)
     text = _taceva.score_tables(
         os.fspath(truth),
         os.fspath(prediction),
-        wanted,
+        metric_names(metrics),
         None if sensor is None else os.fspath(sensor),
         key,
         allow_invalid,

@@ -12,6 +12,7 @@ from taceva import _taceva
 from taceva._arrays import numbers, real
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
+from taceva._column_names import named_columns
 from taceva._dataset import Dataset
 from taceva._metrics import SIX
 
@@ -23,7 +24,7 @@ def from_arrays(
     *,
     sensor: str,
     source: str,
-    channels: Sequence[str] = SIX,
+    channels: Sequence[str] | None = None,
     units: Mapping[str, str] | None = None,
     points: Any = None,
     times: Any = None,
@@ -42,15 +43,18 @@ def from_arrays(
     path
         The folder, without a recording. An interrupted recording cannot be opened: remove its folder.
     labels
-        ``[rows, channels]`` in the units of the channels; NaN for an absent label.
+        ``[rows, channels]`` in the units of the channels; NaN for an absent label. Named columns (pandas, polars, Arrow, xarray, a dict of arrays)
+        are matched by these names.
     frames
         ``[rows, height, width]`` (gray) or ``[rows, height, width, 3]`` (red, green, blue), uint8 or uint16, stored without loss; ``None`` for no frames.
     sensor
         The sensor model.
+    channels
+        Names of the labels; by default the columns that have names, or else the six of the paper.
     source
         ``recorded`` by a real sensor, ``simulated``, or ``synthetic``: every output states it.
     points, times, scenes
-        The contact point, the time in seconds and the scene of each row.
+        The contact point, the time in seconds and the scene of each row. A column ``point_id`` of the labels is used by default.
     reference
         The picture of the untouched gel.
     footprint_mm
@@ -63,7 +67,18 @@ def from_arrays(
     ValueError, TypeError
         For arrays of unequal lengths or of other shapes.
     """
-    channels = list(channels)
+    named = named_columns(labels, "labels")
+    if named is not None and list(named.columns) == [""]:
+        labels, named = named.columns[""], None
+    if named is not None:
+        channels = named.channels() if channels is None else channels
+        if not channels:
+            raise ValueError(f"labels: no column is a channel: its columns are {', '.join(named.columns)}")
+        points = named.column("point_id") if points is None else points
+        # The place of a lone column says what it is, unless it is called like another channel.
+        is_lone = len(named.columns) == 1 and len(channels) == 1 and next(iter(named.columns)) not in SIX
+        labels = next(iter(named.columns.values())) if is_lone else named.array(channels, "labels")
+    channels = list(SIX if channels is None else channels)
     units = dict(units or {})
     with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
     if not channels and frames is None:

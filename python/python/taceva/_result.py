@@ -5,10 +5,10 @@ from __future__ import annotations
 import html
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 from taceva import _taceva
 from taceva._figure import Figure, figures_of
@@ -26,7 +26,15 @@ class Interval:
 
 @dataclass(frozen=True)
 class Score:
-    """A score of one metric and channel. Where it is undefined, ``value`` is ``None`` and ``reason`` says why."""
+    """A score of one metric and channel. Where it is undefined, ``value`` is ``None`` and ``reason`` says why.
+
+    It is a number in its unit: ``float``, ``round``, ``format`` and comparisons take it, and raise ``ValueError`` where it is undefined.
+
+    >>> import taceva
+    >>> mae = taceva.score([[0.0], [1.0]], [[0.5], [1.0]], channels=["Fz"])["mae", "Fz"]
+    >>> f"{mae:.3f}", str(mae), mae < 0.3
+    ('0.250', '0.25 N', True)
+    """
 
     metric: str
     channel: str
@@ -45,14 +53,47 @@ class Score:
             raise ValueError(f"{self.metric} of {self.channel} is undefined: {self.reason}")
         return self.value
 
+    def __round__(self, digits: int | None = None) -> float:
+        return round(float(self), digits)
 
-class Result:
+    def __format__(self, form: str) -> str:
+        return format(float(self), form) if form else str(self)
+
+    def __str__(self) -> str:
+        if self.value is None:
+            return f"undefined: {self.reason}"
+        return str(self.value) if self.unit == "1" else f"{self.value} {self.unit}"
+
+    def __lt__(self, other: float | Score) -> bool:
+        return float(self) < self._comparable(other)
+
+    def __le__(self, other: float | Score) -> bool:
+        return float(self) <= self._comparable(other)
+
+    def __gt__(self, other: float | Score) -> bool:
+        return float(self) > self._comparable(other)
+
+    def __ge__(self, other: float | Score) -> bool:
+        return float(self) >= self._comparable(other)
+
+    def _comparable(self, other: float | Score) -> float:
+        """Return ``other`` as a number in the unit of this score."""
+        if isinstance(other, Score) and other.unit != self.unit:
+            raise ValueError(f"{self.metric} of {self.channel} is in {self.unit}, {other.metric} of {other.channel} in {other.unit}: expected one unit")
+        return float(other)
+
+
+class Result(Mapping[tuple[str, str], Score]):
     """The scores of an evaluation: what ``taceva evaluate`` and ``taceva score`` write as JSON.
+
+    A mapping of scores by metric and channel, in the order of reports. A metric alone gives its scores by channel.
 
     >>> import taceva
     >>> result = taceva.score([[0.0], [1.0]], [[0.5], [1.0]], channels=["Fz"])
-    >>> round(float(result["mae", "Fz"]), 3), result["mae", "Fz"].unit
+    >>> round(result["mae", "Fz"], 3), result["mae", "Fz"].unit
     (0.25, 'N')
+    >>> ("mae", "Fz") in result, "mae" in result, ("mae", "Px") in result, list(result["mae"])
+    (True, True, False, ['Fz'])
     """
 
     def __init__(self, text: str) -> None:
@@ -85,17 +126,38 @@ class Result:
         """Origin of the samples: ``recorded``, ``simulated``, ``synthetic``, or ``unknown`` of arrays."""
         return str(self._report["source"])
 
-    def __getitem__(self, key: tuple[str, str]) -> Score:
-        metric, channel = key
+    @overload
+    def __getitem__(self, key: tuple[str, str]) -> Score: ...
+
+    @overload
+    def __getitem__(self, key: str) -> dict[str, Score]: ...
+
+    def __getitem__(self, key: tuple[str, str] | str) -> Score | dict[str, Score]:
+        if not isinstance(key, str) and not (isinstance(key, tuple) and len(key) == 2):
+            raise KeyError(f"{key!r}: expected a metric and a channel, result['mae', 'Fz'], or a metric, result['mae']")
+        metric: str
+        channel: str | None
+        if isinstance(key, str):
+            metric, channel = key, None
+        else:
+            metric, channel = key
         scores = {score.channel: score for score in self._scores if score.metric == metric}
         if not scores:
             left_out = self.skipped.get(f"metric:{metric}")
             why = f"left out: {left_out}" if left_out else f"known are {', '.join(self.metrics)}"
             raise KeyError(f"no metric {metric!r}: {why}")
+        if channel is None:
+            return scores
         found = scores.get(channel)
         if found is None:
             raise KeyError(f"no channel {channel!r} of {metric}: known are {', '.join(scores)}")
         return found
+
+    def __iter__(self) -> Iterator[tuple[str, str]]:
+        return ((score.metric, score.channel) for score in self._scores)
+
+    def __len__(self) -> int:
+        return len(self._scores)
 
     def scores(self) -> list[Score]:
         """Every score, in the order of reports."""
@@ -139,15 +201,24 @@ class Result:
         """Return what a reader must know first: that nothing was measured, and the notes."""
         return [*not_measured([self.source]), *self.notes]
 
+    def _absent(self) -> list[str]:
+        """Return what a reader misses: metrics that were skipped, and intervals of arrays whose contact points are unknown."""
+        skipped = [what.removeprefix("metric:") for what in self.skipped]
+        lines = [f"Skipped: {', '.join(skipped)}. The reasons: skipped."] if skipped else []
+        has_values = any(score.value is not None for score in self._scores)
+        if self.source == "unknown" and has_values and all(score.interval is None for score in self._scores):
+            lines.append("No intervals, since the contact points are unknown: pass points=[…], or independent=True if no two samples belong together.")
+        return lines
+
     def __str__(self) -> str:
-        return "\n".join([*self._said(), _taceva.score_table([self._text], "text")])
+        return "\n".join([*self._said(), _taceva.score_table([self._text], "text"), *self._absent()])
 
     def __repr__(self) -> str:
         return f"<taceva.Result of {len(self._scores)} scores, {self.source}>"
 
     def _repr_html_(self) -> str:
-        said = "".join(f"<p>{html.escape(line)}</p>" for line in self._said())
-        return said + _taceva.score_table([self._text], "html") + "".join(figure._repr_html_() for figure in self.figures())
+        said, absent = ("".join(f"<p>{html.escape(line)}</p>" for line in lines) for lines in (self._said(), self._absent()))
+        return said + _taceva.score_table([self._text], "html") + absent + "".join(figure._repr_html_() for figure in self.figures())
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Result) and other._text == self._text

@@ -1,8 +1,8 @@
-"""Settings as the command writes them."""
+"""Settings and names of metrics as the command writes them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 
@@ -14,3 +14,24 @@ def setting_words(settings: Mapping[str, Any] | None) -> list[str]:
     """
     written = {name: str(value).lower() if isinstance(value, bool) else value for name, value in (settings or {}).items()}
     return [f"{name}={value}" for name, value in written.items()]
+
+
+def metric_names(metrics: str | Sequence[str]) -> list[str]:
+    """Return names of metrics and groups as a list; a single name may stand alone.
+
+    >>> metric_names("mae"), metric_names(("mae", "r2"))
+    (['mae'], ['mae', 'r2'])
+
+    Raises
+    ------
+    TypeError
+        For functions and for anything else that is no name.
+    """
+    if isinstance(metrics, str):
+        return [metrics]
+    if callable(metrics) or any(callable(name) for name in metrics):
+        raise TypeError("metrics: a function, expected names; taceva.score_function scores by a function of your own")
+    for name in metrics:
+        if not isinstance(name, str):
+            raise TypeError(f"metrics: {name!r}, expected names of metrics and groups")
+    return list(metrics)

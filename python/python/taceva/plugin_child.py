@@ -47,6 +47,15 @@ def _say_what_is_not_there() -> None:
     tempfile.tempdir = "/tmp"
 
 
+def _write_no_code() -> None:
+    """Tell torch, where the plugin has imported it, to compute without libraries that write code, or look at the machine, while they run."""
+    backends = getattr(sys.modules.get("torch"), "backends", None)
+    for name in ("mkldnn", "nnpack"):
+        set_flags = getattr(getattr(backends, name, None), "set_flags", None)
+        if set_flags is not None:
+            set_flags(False)
+
+
 def _import_plugin(folder: str, name: str, preload: list[str]) -> object:
     """Import the package ``name`` that lies at ``folder``, and give its plugin."""
     import site
@@ -62,7 +71,9 @@ def _import_plugin(folder: str, name: str, preload: list[str]) -> object:
         import_module(module)
     from taceva.plugin import load
 
-    return load(name, folder)
+    plugin = load(name, folder)
+    _write_no_code()
+    return plugin
 
 
 def main() -> None:

@@ -28,7 +28,7 @@ def check(
     only: Sequence[str] = (),
     limit: float = 120,
 ) -> list[Checked]:
-    """Check the plugin ``module``, as ``taceva plugin check`` does: each check in its own confined process.
+    """Check the plugin ``module``, as ``taceva plugin check`` does, in confined processes.
 
     Parameters
     ----------

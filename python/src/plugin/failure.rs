@@ -114,6 +114,9 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
         }
         message => (format!("{name}: {message}"), String::new()),
     };
+    if said.contains(NO_PRIMITIVE) {
+        behind.push_str(ONEDNN);
+    }
     if error.is_instance_of::<PyModuleNotFoundError>(py) {
         behind.push_str("; install it in the environment of the plugin");
     }
@@ -148,6 +151,10 @@ fn shortened(text: &str, room: usize) -> String {
         &text[begin..]
     )
 }
+
+/// Message of oneDNN, which writes code while it computes; a confined process may not run that.
+const NO_PRIMITIVE: &str = "could not create a primitive";
+const ONEDNN: &str = "; oneDNN writes code: import torch at the top of the module, or call torch.backends.mkldnn.set_flags(False)";
 
 const TOO_LATE: &str = "failed to map segment";
 

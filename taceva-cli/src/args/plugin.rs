@@ -33,7 +33,7 @@ pub(crate) enum Plugin {
     New(PluginNew),
     /// Write the headers for plugins in C and C++
     Headers(PluginHeaders),
-    /// Check a plugin against its interface, each check in its own process with a time limit
+    /// Check a plugin against its interface, in processes of its own with a time limit
     Check(PluginCheck),
     /// Write plugin.toml from the data in the library
     Manifest(PluginManifest),
@@ -80,6 +80,15 @@ pub(crate) struct PluginNew {
     /// The programming language
     #[arg(long, value_enum, default_value_t = Language::Rust)]
     pub(crate) language: Language,
+    /// Begin with a network of this library; for an estimator in Python
+    #[arg(long = "with", value_enum)]
+    pub(crate) library: Option<NewLibrary>,
+}
+
+/// Library of a new estimator in Python.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum NewLibrary {
+    Torch,
 }
 
 /// Programming language of a new plugin.

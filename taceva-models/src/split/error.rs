@@ -80,7 +80,10 @@ pub enum SplitError {
         rows: usize,
     },
     /// There are too few samples or clusters for one in each part.
-    #[error("{found} {what} are too few for one in each part")]
+    #[error(
+        "{found} {what} are too few for one in each part{}",
+        if *found == 0 { "; in a run this means that no press met the gel" } else { "" }
+    )]
     Few {
         /// Kind of clusters.
         what: &'static str,

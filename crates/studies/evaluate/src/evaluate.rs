@@ -1,6 +1,7 @@
 //! Dataset to scores, step by step: divide, fit, predict, score.
 
 mod callers_model;
+mod divisions;
 pub(crate) mod folds;
 mod notes;
 mod passes;
@@ -19,6 +20,7 @@ use crate::predict::{self, Target};
 use crate::work::Work;
 
 pub use callers_model::{GivenModel, GivenRequest, GivenRows};
+pub use divisions::fold_divisions;
 pub use plan::evaluate_plan;
 pub use request::{Asked, EvaluateRequest, Evaluated, ModelChoice};
 pub use scores::{Behind, score};

@@ -31,8 +31,13 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Ch
     }
 }
 
-const SAMPLES: usize = 40;
-const LENGTH: usize = 6;
+const SAMPLES: usize = 12;
+/// Pictures of 32×32, as large as the default features of a study: layers of a network need some room.
+const SHAPE: FeatureShape = FeatureShape {
+    height: 32,
+    width: 32,
+    depth: 1,
+};
 
 struct Samples {
     features: Features,
@@ -47,7 +52,7 @@ fn samples(seed: u64) -> Result<Samples, Unmet> {
     let mut features = Vec::new();
     for _ in 0..SAMPLES {
         let sample: Vec<f32> = draw
-            .bytes(LENGTH)
+            .bytes(SHAPE.len())
             .iter()
             .map(|byte| f32::from(*byte) / 255.0)
             .collect();
@@ -56,7 +61,7 @@ fn samples(seed: u64) -> Result<Samples, Unmet> {
         features.extend(sample);
     }
     Ok(Samples {
-        features: Features::new(FeatureShape::flat(LENGTH), features)?,
+        features: Features::new(SHAPE, features)?,
         channels: Channels::new([Channel::FZ, Channel::PZ])
             .map_err(|error| Unmet::Broken(error.to_string()))?,
         values,

@@ -1,8 +1,11 @@
 //! Probe: the order to a child to check one driver.
 
 use serde::{Deserialize, Serialize};
+use taceva_core::DriverKey;
 
-/// One check on one driver.
+use super::CheckRequest;
+
+/// One check on one driver, or several by names with commas between them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Probe {
     pub(crate) check: String,
@@ -11,4 +14,18 @@ pub(crate) struct Probe {
     pub(crate) arguments: String,
     pub(crate) seed: u64,
     pub(crate) moves: bool,
+}
+
+impl Probe {
+    /// The probe of `check` on the driver or estimator `key`, as `request` says.
+    pub(crate) fn of(request: &CheckRequest, check: &str, key: Option<&DriverKey>) -> Probe {
+        let arguments = key.and_then(|key| request.arguments.get(key));
+        Probe {
+            check: check.to_owned(),
+            driver: key.map(ToString::to_string).unwrap_or_default(),
+            arguments: arguments.cloned().unwrap_or_default(),
+            seed: request.seed,
+            moves: request.moves,
+        }
+    }
 }

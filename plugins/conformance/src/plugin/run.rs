@@ -1,4 +1,4 @@
-//! One check in a child: it serves if the promise holds, and refuses to if not.
+//! Checks in a child, one or some that run together: it serves if the promises hold, and refuses to if not.
 
 use std::fs::File;
 use std::io::{Read, Seek};
@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use taceva_core::{ErrorKind, caught};
 
-use super::checks;
 use super::probe::Probe;
+use super::shared_process::BETWEEN;
 use super::subject::Subject;
+use super::{Check, checks};
 use crate::promise::Unmet;
 use taceva_host::Manifest;
 use taceva_host::Session;
@@ -18,7 +19,7 @@ use taceva_host::bare::pending_call;
 /// Prefix of the answer of a skipped check.
 pub(super) const SKIPPED: &str = "skipped: ";
 
-/// Runs the check of `file` on the plugin of `source`, in this process. An intact session means that the promise held.
+/// Runs the checks of `file` on the plugin of `source`, in this process. An intact session means that the promise held.
 ///
 /// # Errors
 /// Kind and reason of the unmet promise, in the words of the check.
@@ -32,12 +33,18 @@ pub(crate) fn run(
     read.map_err(|error| (ErrorKind::Internal, error.to_string()))?;
     let probe: Probe =
         serde_json::from_slice(&bytes).map_err(|error| (ErrorKind::Abi, error.to_string()))?;
-    let check = checks().into_iter().find(|check| check.name == probe.check);
-    let check = check.ok_or_else(|| (ErrorKind::Abi, format!("no check `{}`", probe.check)))?;
+    let named = |name: &str| {
+        let check = checks().into_iter().find(|check| check.name == name);
+        check.ok_or_else(|| (ErrorKind::Abi, format!("no check `{name}`")))
+    };
+    let wanted = probe.check.split(BETWEEN).map(named);
+    let wanted: Vec<Check> = wanted.collect::<Result<_, _>>()?;
     let made = caught(|| {
         let _under_way = pending_call::begin("end the check");
         let subject = Subject::new(source, manifest, probe)?;
-        check.test.run(&subject)?;
+        wanted
+            .iter()
+            .try_for_each(|check| check.test.run(&subject))?;
         Ok(subject.session)
     });
     match made {

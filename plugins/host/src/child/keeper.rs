@@ -17,6 +17,7 @@ use rustix::process::{Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal};
 
 use super::exit_status::Fate;
 use super::flood::Flood;
+use super::printed_lines::PrintedLines;
 use super::usage::{Usage, processor_time};
 use super::watch::{PRINTED_MAX, Watch};
 
@@ -33,11 +34,12 @@ pub(crate) struct Kept {
     pub(crate) keeper: JoinHandle<()>,
 }
 
-/// Starts a process and its keeper thread. `output` is the read end of the pipe that `command` prints to. The keeper calls `ended` with the
-/// child's fate.
-pub(crate) fn keep(
+/// Starts a process and its keeper thread. `output` is the read end of the pipe that `command` prints to, and `lines` gets what is printed.
+/// The keeper calls `ended` with the child's fate.
+pub(super) fn keep(
     command: Command,
     output: OwnedFd,
+    lines: Option<PrintedLines>,
     ended: impl FnOnce(&Fate, Usage) + Send + 'static,
 ) -> io::Result<Kept> {
     let watch = Arc::new(Watch::new()?);
@@ -52,7 +54,8 @@ pub(crate) fn keep(
             // The caller must learn the process number before the child can end.
             drop(started);
             let begun = Instant::now();
-            let (status, processor) = watch_over(&shared, process, &handle, output);
+            let mut lines = lines;
+            let (status, processor) = watch_over(&shared, process, &handle, output, lines.as_mut());
             shared.ended(Fate::of(status));
             if let Some(fate) = shared.fate() {
                 let usage = Usage {
@@ -62,6 +65,8 @@ pub(crate) fn keep(
                 };
                 ended(&fate, usage);
             }
+            // Waits until the last line is told, after everybody knows of the end.
+            drop(lines);
         })?;
     match start.recv() {
         Ok(Ok(process)) => Ok(Kept {
@@ -104,6 +109,7 @@ fn watch_over(
     mut process: Process,
     handle: &OwnedFd,
     output: OwnedFd,
+    mut lines: Option<&mut PrintedLines>,
 ) -> (std::process::ExitStatus, Duration) {
     let mut flood = Flood::new(PRINTED_IN_ALL);
     let mut output = Some(File::from(output));
@@ -134,6 +140,9 @@ fn watch_over(
             match output.as_mut().map(|output| output.read(&mut bytes)) {
                 Some(Ok(count)) if count > 0 => {
                     watch.printed_more(&bytes[..count]);
+                    if let Some(lines) = &mut lines {
+                        lines.take(&bytes[..count]);
+                    }
                     if flood.add(count as u64) {
                         watch.condemn(Fate::Breach {
                             what: format!(

@@ -17,12 +17,14 @@ use super::keeper::{Kept, keep};
 use super::life::Life;
 use super::log::listen;
 use super::main_hook::{CHILD_ARGUMENT, can_be_child};
+use super::printed_lines::PrintedLines;
 use super::quarantine::{Quarantine, Quarantined};
 use super::sandbox::Isolation;
 use super::socket::{Caller, Socket};
 use super::spec::{ChildSpec, Ended};
 use super::usage::Usage;
 use super::wire::{Greeting, Hello, Order, OrderAnswer};
+use crate::library::{Level, Log};
 use crate::manifest::Sha256Digest;
 use crate::python::{arguments as python_arguments, own};
 use crate::wire_version::WIRE;
@@ -36,6 +38,7 @@ pub struct Child {
     isolation: Isolation,
     life: Arc<Life>,
     orders: Mutex<Caller>,
+    log: Option<Arc<Log>>,
     keeper: Option<JoinHandle<()>>,
     listener: Option<JoinHandle<()>>,
 }
@@ -93,13 +96,19 @@ impl Child {
             .stdout(Stdio::from(output))
             .stderr(Stdio::from(also_output));
         let ended = when_ended(plugin.clone(), quarantine, ended);
-        let heard = log.map(|log| Ok((log, Socket::pair()?))).transpose();
+        let log = log.map(Arc::new);
+        let heard = log
+            .clone()
+            .map(|log| Ok((log, Socket::pair()?)))
+            .transpose();
         let heard = heard.map_err(|error: rustix::io::Errno| failed(&error))?;
+        let lines = log.clone().map(PrintedLines::new).transpose();
+        let lines = lines.map_err(|error| failed(&error))?;
         let Kept {
             process,
             watch,
             keeper,
-        } = keep(command, printed, ended).map_err(|error| failed(&error))?;
+        } = keep(command, printed, lines, ended).map_err(|error| failed(&error))?;
         let mut child = Child {
             process,
             isolation: Isolation::default(),
@@ -109,6 +118,7 @@ impl Child {
                 patience,
             }),
             orders: Mutex::new(Caller::from(orders)),
+            log,
             keeper: Some(keeper),
             listener: None,
         };
@@ -122,6 +132,9 @@ impl Child {
         let mut files = files;
         if let Some((log, (ours, theirs))) = heard {
             files.push(theirs);
+            let log: Log = Box::new(move |level, target: &str, message: &str| {
+                log(level, target, message);
+            });
             let listener = listen(ours, log, Arc::clone(&child.life.watch));
             child.listener = Some(listener.map_err(|error| failed(&error))?);
         }
@@ -184,6 +197,13 @@ impl Child {
 
     fn orders(&self) -> MutexGuard<'_, Caller> {
         self.orders.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Writes a line of the host to the log of the plugin.
+    pub(crate) fn tell(&self, level: Level, message: &str) {
+        if let Some(log) = &self.log {
+            log(level, "host", message);
+        }
     }
 
     pub(crate) fn life(&self) -> &Arc<Life> {

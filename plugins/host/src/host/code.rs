@@ -53,16 +53,17 @@ impl Plugin {
         }
     }
 
-    /// Specifies a child that runs `code`.
+    /// Specifies a child that runs `code`, unconfined if `is_trusted`.
     ///
     /// # Errors
-    /// [`DriverError`] of `driver` if there is no interpreter to run it.
+    /// [`DriverError`] of `driver` if there is no interpreter to run it, or the user of a confined child may not read it.
     #[cfg(target_os = "linux")]
     pub(crate) fn child(
         &self,
         code: &ReadCode,
         driver: &DriverKey,
         children: &Children,
+        is_trusted: bool,
     ) -> Result<ChildSpec, DriverError> {
         let Children {
             program,
@@ -79,13 +80,15 @@ impl Plugin {
             }
             (ReadCode::Package(_), Some(module)) => {
                 let interpreter = self.interpreter.as_ref().ok_or(PythonError::NoInterpreter);
-                let spec = interpreter.and_then(|interpreter| interpreter.spec(self, module));
+                let spec =
+                    interpreter.and_then(|interpreter| interpreter.spec(self, module, is_trusted));
                 spec.map_err(|error| error.of_driver(driver))?
             }
             (ReadCode::Package(_), None) => {
                 return Err(PythonError::NoInterpreter.of_driver(driver));
             }
         };
+        spec.confinement.is_trusted = is_trusted;
         spec.quarantine = quarantine.map(|quarantine| (quarantine, code.digest()));
         Ok(spec)
     }

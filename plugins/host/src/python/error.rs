@@ -62,7 +62,8 @@ pub enum PythonError {
     },
     /// The user that runs the plugin may not read a required file.
     #[error(
-        "a plugin started by root runs as user {user}, who may not read {}: {} denies it; let every user read it (`chmod o+rx`), make the environment from an interpreter that they may read, such as /usr/bin/python3, or run `taceva` as another user than root",
+        "let every user read {} (`chmod o+rx`), make the environment from an interpreter that they may read, such as /usr/bin/python3, run the plugin unconfined by `--trust ID`, or run `taceva` as another user than root: a plugin started by root runs as user {user}, who may not read {}: {} denies it",
+        shown(closed),
         shown(path),
         shown(closed)
     )]

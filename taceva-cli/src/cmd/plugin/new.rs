@@ -9,7 +9,7 @@ use anyhow::{Context as _, bail};
 use taceva_files::Staged;
 use taceva_template::{File, Sources};
 
-use crate::args::{Language, PluginHeaders, PluginNew};
+use crate::args::{Language, NewKind, NewLibrary, PluginHeaders, PluginNew};
 use crate::cmd::Context;
 use crate::exit;
 
@@ -17,6 +17,13 @@ use crate::exit;
 const INCLUDE: &str = "include";
 
 pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8> {
+    let takes_library =
+        args.language == Language::Python && matches!(args.kind, NewKind::Estimator);
+    if args.library.is_some() && !takes_library {
+        bail!(
+            "--with torch: expected `taceva plugin new estimator NAME --language python --with torch`"
+        );
+    }
     if args.language == Language::Python {
         return python_project(args, context);
     }
@@ -37,7 +44,10 @@ pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8>
 }
 
 fn python_project(args: &PluginNew, context: &Context) -> anyhow::Result<u8> {
-    let files = taceva_template::python_project(args.kind.into(), &args.name);
+    let files = match args.library {
+        Some(NewLibrary::Torch) => taceva_template::torch_project(&args.name),
+        None => taceva_template::python_project(args.kind.into(), &args.name),
+    };
     let folder = Path::new(args.name.as_str());
     write_folder(folder, "", &files)?;
     context.say(format_args!(

@@ -53,7 +53,7 @@ pub(crate) fn of<'a>(
     part: Option<DataPart>,
 ) -> Result<Option<Folds<'a>>, EvaluateError> {
     match request.split.as_deref() {
-        Some(text) => of_spec(dataset, request, text.parse()?),
+        Some(text) => of_spec(dataset, request.seed, text.parse()?),
         None if part.is_some() => Ok(None),
         None => match default_folds(dataset)? {
             Some(folds) => {
@@ -61,7 +61,7 @@ pub(crate) fn of<'a>(
                     kind: SplitKind::Folds(folds),
                     fractions: Fractions::default(),
                 };
-                of_spec(dataset, request, spec)
+                of_spec(dataset, request.seed, spec)
             }
             None => Ok(None),
         },
@@ -79,21 +79,25 @@ pub(crate) fn asked<'a>(
     let spec = request.split.as_deref().map(str::parse::<SplitSpec>);
     let spec = spec.transpose()?;
     match spec.filter(|spec| matches!(spec.kind, SplitKind::Folds(_))) {
-        Some(spec) => of_spec(dataset, request, spec),
+        Some(spec) => of_spec(dataset, request.seed, spec),
         None => Ok(None),
     }
 }
 
-fn of_spec<'a>(
+/// The folds of `spec`; `None` if it makes one division.
+///
+/// # Errors
+/// As of [`of`].
+pub(crate) fn of_spec<'a>(
     dataset: &'a Dataset,
-    request: &FitRequest,
+    seed: u64,
     spec: SplitSpec,
 ) -> Result<Option<Folds<'a>>, EvaluateError> {
     match &spec.kind {
-        SplitKind::LeaveOneRecordingOut => Folds::of_recordings(dataset, spec, request.seed),
+        SplitKind::LeaveOneRecordingOut => Folds::of_recordings(dataset, spec, seed),
         SplitKind::Folds(folds) => {
             let folds = folds.clone();
-            Folds::of_groups(dataset, spec, folds, request.seed)
+            Folds::of_groups(dataset, spec, folds, seed)
         }
         _ => return Ok(None),
     }
@@ -237,6 +241,11 @@ impl<'a> Folds<'a> {
             whole: divided(whole),
             are_recordings: false,
         })
+    }
+
+    /// The division of each fold.
+    pub(crate) fn into_divisions(self) -> Vec<Divided> {
+        self.folds.into_iter().map(|fold| fold.divided).collect()
     }
 
     /// Rejects a part: cross-validation scores every sample, by a model that has not seen its group.

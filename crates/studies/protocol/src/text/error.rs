@@ -187,7 +187,7 @@ pub enum SceneProblem {
     },
     /// Devices use different clocks.
     #[error(
-        "`{simulated}` uses simulated time and `{real}` uses the clock of this machine, but a rig has one clock: choose both devices simulated or both real"
+        "`{simulated}` uses simulated time and `{real}` uses the clock of this machine, but a rig has one clock: choose both devices simulated or both real; only a real sensor may join a simulated robot, which stamps its pictures"
     )]
     MixedClocks {
         /// The simulated device.

@@ -1,4 +1,4 @@
-"""A small network of PyTorch as an estimator: two layers over the features, fitted by Adam with a fixed seed."""
+"""The plugin `org.example.torch-estimator`: a small convolutional network of PyTorch, fitted by Adam with a fixed seed."""
 
 from __future__ import annotations
 
@@ -14,11 +14,17 @@ import torch
 
 import taceva.plugin as tp
 
+FILTERS = 8
 HIDDEN = 32
+# Cells of the grid in which the network still knows where something is.
+GRID = 4
+
+# One thread: sums have one order, so the same samples give the same network and the same predictions.
+torch.set_num_threads(1)
 
 
 class Network(tp.Estimator):
-    """Two layers of PyTorch."""
+    """A convolution and two layers of PyTorch."""
 
     def __init__(
         self,
@@ -32,14 +38,26 @@ class Network(tp.Estimator):
         self.mean = self.spread = np.zeros(0)
 
     @staticmethod
-    def made(inputs: int, outputs: int) -> torch.nn.Sequential:
-        return torch.nn.Sequential(torch.nn.Linear(inputs, HIDDEN), torch.nn.Tanh(), torch.nn.Linear(HIDDEN, outputs))
+    def made(depth: int, outputs: int) -> torch.nn.Sequential:
+        # The process of a plugin computes convolutions without oneDNN, which would write code while it runs.
+        return torch.nn.Sequential(
+            torch.nn.Conv2d(depth, FILTERS, kernel_size=5, stride=2, padding=2),
+            torch.nn.Tanh(),
+            torch.nn.AdaptiveAvgPool2d(GRID),
+            torch.nn.Flatten(),
+            torch.nn.Linear(FILTERS * GRID * GRID, HIDDEN),
+            torch.nn.Tanh(),
+            torch.nn.Linear(HIDDEN, outputs),
+        )
+
+    @staticmethod
+    def pictures(features) -> torch.Tensor:
+        # Torch wants the depth first, and a copy that it may write to.
+        return torch.from_numpy(np.array(features, np.float32).transpose(0, 3, 1, 2).copy())
 
     def fit(self, training: tp.Samples, validation: tp.Samples | None, progress: tp.Training) -> None:
-        # One thread and one seed: the same samples give the same network.
-        torch.set_num_threads(1)
         torch.manual_seed(self.seed)
-        x = torch.from_numpy(training.features.reshape(len(training.features), -1).copy())
+        x = self.pictures(training.features)
         self.mean = training.targets.mean(axis=0)
         self.spread = np.where(training.targets.std(axis=0) > 0, training.targets.std(axis=0), 1.0)
         y = torch.from_numpy(((training.targets - self.mean) / self.spread).astype(np.float32))
@@ -54,11 +72,10 @@ class Network(tp.Estimator):
         progress.end()
 
     def predict(self, features) -> np.ndarray:
-        flat = np.array(features, np.float32).reshape(len(features), -1)
-        rows = np.zeros((len(flat), len(self.mean)))
+        rows = np.zeros((len(features), len(self.mean)))
         with torch.inference_mode():
             # Sample by sample: a batch of another size may be summed in another order.
-            for row, sample in zip(rows, torch.from_numpy(flat), strict=True):
+            for row, sample in zip(rows, self.pictures(features), strict=True):
                 row[:] = self.net(sample[None]).numpy()[0]
         return rows * self.spread + self.mean
 
@@ -69,7 +86,7 @@ class Network(tp.Estimator):
     @classmethod
     def load(cls, data: bytes, channels: list[str], shape: tuple[int, int, int]) -> Network:
         model = cls()
-        net = cls.made(int(np.prod(shape)), len(channels))
+        net = cls.made(shape[2], len(channels))
         sizes = [len(channels), len(channels), *(weights.numel() for weights in net.parameters())]
         if len(data) != 8 * sum(sizes):
             raise ValueError(f"{len(data)} bytes, expected {8 * sum(sizes)} for {shape} and {channels}")

@@ -15,6 +15,7 @@ use crate::child::plain::plain;
 use crate::child::socket::{Caller, LinkError, Socket, send_now};
 use crate::child::start::Child;
 use crate::child::wire::{Failure, ModelAnswer, ModelCall, ModelEvent, ModelWord};
+use crate::library::Level;
 use crate::session::SavedRegressor;
 
 /// Interval at which a fit is checked for cancellation.
@@ -22,6 +23,9 @@ const ASKED_EVERY: Timespec = Timespec {
     tv_sec: 0,
     tv_nsec: 50_000_000,
 };
+
+/// Time in which a fit must end after it was cancelled.
+const ENDS_WITHIN: Duration = Duration::from_secs(5);
 
 /// Maximum size of a saved model, bytes.
 const SAVED_MAX: u64 = 1 << 30;
@@ -53,7 +57,12 @@ impl ModelProxy {
                 // An unreachable child is gone or will time out.
                 let _ = send_now(talk.as_fd(), &ModelWord::Cancel {});
                 let life = child.life();
-                is_cancelled = Some(life.watch.begin("end a fit", life.patience.open));
+                let after = life.patience.open.min(ENDS_WITHIN);
+                is_cancelled = Some(life.watch.begin("end a fit", after));
+                let line = format!(
+                    "stopping the fit of {estimator}; its process is ended if it takes longer than {after:?}"
+                );
+                child.tell(Level::Warn, &line);
             }
             let mut polled = [PollFd::new(&talk, PollFlags::IN)];
             // An interrupted poll is ignored.

@@ -1,0 +1,29 @@
+//! Divisions of a cross-validation, for a caller who fits the models.
+
+use taceva_core::shown;
+use taceva_dataset::Dataset;
+use taceva_models::SplitSpec;
+
+use super::folds;
+use crate::error::EvaluateError;
+use crate::rows::Divided;
+
+/// The divisions of the cross-validation `split`, such as `cv:5` or `leave-one-recording-out`, one for each fold. Every sample of a group is
+/// in the test part of one of them.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for a split that makes one division; [`EvaluateError::Split`] if it is not valid, or has more folds than groups.
+pub fn fold_divisions(
+    dataset: &Dataset,
+    split: &str,
+    seed: u64,
+) -> Result<Vec<Divided>, EvaluateError> {
+    let folds = folds::of_spec(dataset, seed, split.parse::<SplitSpec>()?)?;
+    let folds = folds.ok_or_else(|| {
+        EvaluateError::Request(format!(
+            "split `{}` makes one division, expected folds: cv:5, loo or leave-one-recording-out",
+            shown(split)
+        ))
+    })?;
+    Ok(folds.into_divisions())
+}

@@ -1,0 +1,77 @@
+//! Checks that one process runs together: they leave it as they found it, and open no device.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use taceva_core::DriverKey;
+use taceva_host::{Examination, Plugin};
+
+use super::probe::Probe;
+use super::{Check, CheckRequest, made, subjects};
+use crate::report::Outcome;
+
+/// Names of such checks, of the library and of estimators.
+const NAMES: [&str; 11] = [
+    "library/loads",
+    "library/needs-what-its-manifest-says",
+    "library/unknown-factory",
+    "library/stable-factories",
+    "library/rigs",
+    "estimator/fits-and-predicts",
+    "estimator/fits-the-same-twice",
+    "estimator/keeps-a-model",
+    "estimator/ends-when-cancelled",
+    "estimator/predicts-nothing-of-nothing",
+    "estimator/predicts-in-threads",
+];
+
+/// Between the names of the checks of one process.
+pub(super) const BETWEEN: &str = ",";
+
+/// Time of each check that held together with others, in seconds, by subject and name. A check that is missing here runs alone: a
+/// single failure does not say what else would hold.
+pub(super) type HeldTogether<'a> = BTreeMap<(Option<&'a DriverKey>, &'static str), f64>;
+
+/// Runs such checks of `wanted` in one process for each subject.
+pub(super) fn held_together<'a>(
+    examination: &Examination<'_>,
+    request: &CheckRequest,
+    wanted: &[Check],
+    plugin: &'a Plugin,
+) -> HeldTogether<'a> {
+    let mut by_subject: BTreeMap<Option<&DriverKey>, Vec<&'static str>> = BTreeMap::new();
+    for check in wanted.iter().filter(|check| NAMES.contains(&check.name)) {
+        for key in subjects(check, plugin) {
+            by_subject.entry(key).or_default().push(check.name);
+        }
+    }
+    let mut held = HeldTogether::new();
+    for (key, names) in by_subject {
+        let Some(count) = u32::try_from(names.len()).ok().filter(|count| *count > 1) else {
+            continue;
+        };
+        let probe = Probe::of(request, &names.join(BETWEEN), key);
+        let begun = Instant::now();
+        if made(examination, &probe, request.limit) == Outcome::Passed {
+            let took_s = (begun.elapsed() / count).as_secs_f64();
+            held.extend(names.into_iter().map(|name| ((key, name), took_s)));
+        }
+    }
+    held
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plugin::{Of, checks};
+
+    #[test]
+    fn every_name_is_that_of_a_check_without_a_device() {
+        for name in NAMES {
+            let check = checks().into_iter().find(|check| check.name == name);
+            let of = check.map(|check| check.of);
+            assert!(matches!(of, Some(Of::Plugin | Of::Estimator)), "{name}");
+            assert!(!name.contains(BETWEEN));
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Lines that a child prints, passed to the log by a thread of their own: the keeper of a child never waits for a log.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::mpsc::{SyncSender, sync_channel};
+use std::thread::JoinHandle;
+
+use crate::library::{Level, Log};
+use crate::log::Limited;
+use crate::text::shown;
+
+/// Maximum size of a line, bytes; a longer one is divided.
+const LINE_MAX: usize = 4096;
+/// Number of lines that may wait for the log; further ones are only counted.
+const WAITING: usize = 256;
+/// Log target of printed lines.
+const TARGET: &str = "printed";
+
+/// Printed lines of a child as log lines of level `Debug`, limited like its own log lines.
+pub(super) struct PrintedLines {
+    begun: Vec<u8>,
+    lines: Option<SyncSender<Vec<u8>>>,
+    limited: Arc<Limited>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl PrintedLines {
+    /// Starts the thread that passes lines to `log`.
+    pub(super) fn new(log: Arc<Log>) -> io::Result<PrintedLines> {
+        // The count of left-out lines gets their level too: nobody asked for them.
+        let limited = Limited::new(Box::new(move |_, _, message| {
+            log(Level::Debug, TARGET, message);
+        }));
+        let limited = Arc::new(limited);
+        let (lines, waiting) = sync_channel::<Vec<u8>>(WAITING);
+        let shared = Arc::clone(&limited);
+        let thread = std::thread::Builder::new()
+            .name("taceva-printed".to_owned())
+            .spawn(move || {
+                for line in waiting {
+                    let line = shown(&String::from_utf8_lossy(&line));
+                    shared.tell(Level::Debug, TARGET, &line);
+                }
+            })?;
+        Ok(PrintedLines {
+            begun: Vec::new(),
+            lines: Some(lines),
+            limited,
+            thread: Some(thread),
+        })
+    }
+
+    /// Takes output of the child and passes on its complete lines.
+    pub(super) fn take(&mut self, bytes: &[u8]) {
+        for (at, part) in bytes.split(|byte| *byte == b'\n').enumerate() {
+            if at > 0 {
+                self.pass_on();
+            }
+            self.begun.extend_from_slice(part);
+            if self.begun.len() >= LINE_MAX {
+                self.pass_on();
+            }
+        }
+    }
+
+    fn pass_on(&mut self) {
+        let line = std::mem::take(&mut self.begun);
+        if line.is_empty() {
+            return;
+        }
+        let lines = self.lines.as_ref();
+        if lines.is_none_or(|lines| lines.try_send(line).is_err()) {
+            self.limited.lose(1);
+        }
+    }
+}
+
+impl Drop for PrintedLines {
+    fn drop(&mut self) {
+        self.pass_on();
+        // Without a sender the thread ends after the last line.
+        self.lines = None;
+        if let Some(thread) = self.thread.take() {
+            // A panic of the log is ignored.
+            let _ = thread.join();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use super::*;
+
+    #[test]
+    fn lines_are_joined_and_escaped_and_all_there_at_the_end() {
+        let shared = Arc::new(Mutex::new(Vec::new()));
+        let heard = Arc::clone(&shared);
+        let log: Log = Box::new(move |level, target: &str, message: &str| {
+            let line = format!("{level:?} {target}: {message}");
+            heard.lock().expect("whole").push(line);
+        });
+        let mut lines = PrintedLines::new(Arc::new(log)).expect("a thread");
+        lines.take(b"one\n\ntw");
+        lines.take(b"o\n\x1b[2Jthree\nfour");
+        drop(lines);
+        let expected = [
+            "Debug printed: one",
+            "Debug printed: two",
+            "Debug printed: \\u{1b}[2Jthree",
+            "Debug printed: four",
+        ];
+        assert_eq!(*shared.lock().expect("whole"), expected);
+    }
+
+    #[test]
+    fn a_flood_of_lines_is_cut_and_counted() {
+        let shared = Arc::new(Mutex::new(Vec::new()));
+        let heard = Arc::clone(&shared);
+        let log: Log = Box::new(move |_, _, message: &str| {
+            heard.lock().expect("whole").push(message.to_owned());
+        });
+        let mut lines = PrintedLines::new(Arc::new(log)).expect("a thread");
+        for _ in 0..10_000 {
+            lines.take(b"again\n");
+        }
+        lines.take(&[b'x'; 3 * LINE_MAX]);
+        drop(lines);
+        let shared = shared.lock().expect("whole");
+        assert!(shared.len() < 200, "{}", shared.len());
+        let last = shared.last().expect("a line");
+        assert!(last.starts_with("lines left out: "), "{last}");
+    }
+}

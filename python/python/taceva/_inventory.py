@@ -1,0 +1,57 @@
+"""Names that the functions of this package take: models, metrics and plugins."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+from taceva import _taceva
+
+
+@dataclass(frozen=True)
+class FoundPlugin:
+    """A plugin that was found."""
+
+    id: str
+    name: str
+    version: str
+    #: The kind of place where it was found, such as ``user`` or ``environment``.
+    place: str
+    #: The folder of its manifest.
+    folder: Path
+    #: Keys of its devices, as scenes name them.
+    drivers: list[str]
+    #: Keys of its models, as `evaluate` takes them.
+    estimators: list[str]
+
+
+def models() -> dict[str, str]:
+    """Return the names of models and presets that `evaluate` takes, each with a description; those of plugins come last.
+
+    >>> import taceva
+    >>> "ridge" in taceva.models() and "fast" in taceva.models()
+    True
+    """
+    return dict(_taceva.model_names())
+
+
+def metrics() -> dict[str, str]:
+    """Return the names of metrics with their titles, and those of groups with their members.
+
+    >>> import taceva
+    >>> taceva.metrics()["accuracy"]
+    'mae, r2, smape'
+    """
+    return dict(_taceva.metric_titles())
+
+
+def plugins() -> list[FoundPlugin]:
+    """Return the plugins that the command ``taceva`` finds: in the folders and the settings of the user, and in this environment.
+
+    A plugin that cannot be used raises a warning with the reason.
+    """
+    found, refused = _taceva.found_plugins()
+    for reason in refused:
+        warnings.warn(f"plugin not used: {reason}", stacklevel=2)
+    return [FoundPlugin(**plugin) for plugin in found]

@@ -1,0 +1,31 @@
+"""The gate through which predictions come in, of models in this process and of plugins."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from taceva._arrays import numbers
+from taceva._column_names import predicted
+
+
+def prediction_rows(predictions: Any, name: str, rows: int, channels: list[str]) -> Any:
+    """Return predictions as an array of ``[rows, channels]`` of float32 or float64; named columns are matched by name.
+
+    ``name`` is that of the model, for messages. NaN is let through, for whoever knows the samples by name.
+
+    Raises
+    ------
+    TypeError
+        For complex numbers, texts and objects.
+    ValueError
+        For another shape, and for other columns.
+    """
+    width = len(channels)
+    found = numbers(predicted(predictions, channels, f"what {name} predicted"), f"what {name} predicted", allow_invalid=True)
+    if found.ndim == 1 and width == 1:
+        found = found[:, np.newaxis]
+    if found.shape != (rows, width):
+        raise ValueError(f"{name} predicted an array of the shape {list(found.shape)}, expected {[rows, width]}: one row per sample, one column per channel")
+    return np.ascontiguousarray(found)

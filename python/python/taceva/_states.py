@@ -1,0 +1,48 @@
+"""States of metrics as bytes, with a digest by which a changed one is refused, and their exchange between processes."""
+
+from __future__ import annotations
+
+import hashlib
+import sys
+
+_HEAD = b"taceva.states/1 sha256:"
+
+
+def sealed(content: bytes) -> bytes:
+    """Return ``content`` after a line with its digest.
+
+    >>> opened(sealed(b"[1]"))
+    b'[1]'
+    """
+    return _HEAD + hashlib.sha256(content).hexdigest().encode() + b"\n" + content
+
+
+def opened(states: bytes) -> bytes:
+    """Return the content of what `sealed` returned.
+
+    >>> opened(sealed(b"[1]").replace(b"1]", b"2]"))
+    Traceback (most recent call last):
+        ...
+    ValueError: the states were changed after states() returned them: the digest differs; send the bytes unchanged
+
+    Raises
+    ------
+    ValueError
+        For bytes that are no states, and for states of which any byte was changed.
+    """
+    head, _, content = bytes(states).partition(b"\n")
+    if not head.startswith(_HEAD):
+        raise ValueError("no states of metrics: expected the bytes that states() of this version of taceva returned")
+    if sealed(content) != states:
+        raise ValueError("the states were changed after states() returned them: the digest differs; send the bytes unchanged")
+    return content
+
+
+def gathered(own: bytes) -> list[bytes]:
+    """Return what every process of ``torch.distributed`` has passed, or ``own`` alone where it was not initialised."""
+    torch = sys.modules.get("torch")
+    if torch is None or not torch.distributed.is_available() or not torch.distributed.is_initialized():
+        return [own]
+    found: list[bytes] = [b""] * torch.distributed.get_world_size()
+    torch.distributed.all_gather_object(found, own)
+    return found
