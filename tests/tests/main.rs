@@ -22,6 +22,8 @@ mod power_cut;
 mod power_cut_self;
 mod public_types;
 mod recordings;
+#[cfg(unix)]
+mod release;
 mod reports;
 mod skips;
 mod source_digests;
