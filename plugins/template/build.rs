@@ -1,7 +1,7 @@
 //! Lists the sources of the crates that a plugin in Rust is built from, and the headers for one in C, so that they can be embedded.
 //!
-//! `vendor/` holds links to them, which `cargo package` replaces by what they lead to: the published crate has them all. Where a checkout
-//! has no symbolic links they are read from the workspace.
+//! `vendor/` holds links to them. `cargo package` replaces the links by their targets, so the published crate is complete. A checkout without
+//! symbolic links reads them from the workspace.
 
 use std::env;
 use std::fmt::Write as _;
@@ -9,7 +9,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The crates, and where they lie in the workspace from here.
+/// Crates, each with its path from here in the workspace.
 const CRATES: [(&str, &str); 3] = [
     ("taceva-core", "../../taceva-core"),
     ("taceva-abi", "../abi"),
@@ -45,7 +45,7 @@ fn main() -> io::Result<()> {
     fs::write(out.join("headers.rs"), format!("&[\n{headers}]\n"))
 }
 
-/// Writes a line a file: where it goes, and what is in it.
+/// Writes a line for each file: its path in the plugin, and its content.
 fn list(name: &str, folder: &Path, mut files: Vec<PathBuf>, into: &mut String) -> io::Result<()> {
     files.sort();
     for file in files {

@@ -136,8 +136,8 @@ impl Sums {
         })
     }
 
-    /// Adds rows; returns false if a number is not finite, unless `allows_invalid`. No row is then added, except with `apart`, when the
-    /// caller discards these sums.
+    /// Adds rows. Returns false if a number is not finite, unless `allows_invalid`. No row is then added; with `apart`, the caller discards the sums
+    /// instead.
     #[expect(clippy::too_many_arguments, reason = "what one row carries")]
     fn update(
         &self,

@@ -46,7 +46,7 @@ pub(crate) use self::sweep::{
     Sweep, SweepCollect, SweepEngine, SweepRun, SweepShow, SweepSubject, SweepTask,
 };
 
-/// Three ways in, for somebody who sees the program for the first time.
+/// First commands of a new user, by the data at hand.
 pub(crate) const START: &str = "\
 I have a recording: pictures and labels in a folder
   taceva init recording my-folder                           asks what the files do not say; writes map.toml

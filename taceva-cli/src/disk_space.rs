@@ -72,7 +72,7 @@ impl Need {
                 folder: holder(target).display().to_string(),
             }),
             Some(free) if free < self.at_most => Ok(Some(format!(
-                "{needs}, {} are free: it may not fit",
+                "{needs}, but only {} are free: the disk may become full",
                 bytes(free)
             ))),
             Some(free) => Ok(Some(format!("{needs}, {} are free", bytes(free)))),

@@ -52,7 +52,7 @@ pub(crate) fn evaluation(
     }
 }
 
-/// Writes the main scores in the form asked for, which is no JSON: where one table has no room, several follow each other.
+/// Writes the main scores in `format`, which must not be JSON. Scores that do not fit into one table go to further ones.
 pub(crate) fn main_scores(
     scores: &ScoreTable,
     format: Format,

@@ -78,7 +78,7 @@ use crate::progress::Progress;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait EstimatorFactory: Send + Sync {
-    /// Name by which people choose it: the id of the plugin, `/`, and a word.
+    /// Name by which users select it: the id of the plugin, `/`, and a word.
     fn key(&self) -> &DriverKey;
 
     /// Title of a few words.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The branch of a press. It gets no further variant: an indenter that is not at rest moves in or out, and samples at rest have none.
+/// Branch of a press. No variant will be added: an indenter moves in, moves out, or rests, and samples at rest have no branch.
 ///
 /// ```
 /// use taceva_core::Phase;

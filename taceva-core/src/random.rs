@@ -81,7 +81,7 @@ pub const fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 * UNIT_STEP
 }
 
-/// A number of 0 < u < 1 from 64 random bits: an odd multiple of 2⁻⁵⁴, rounded to 53 bits; the one that would round to 1 is the largest below it.
+/// Number with 0 < u < 1 from 64 random bits: an odd multiple of 2⁻⁵⁴, rounded to 53 bits. A result of 1 becomes the largest number below it.
 ///
 /// ```
 /// use taceva_core::random::open_unit;

@@ -92,7 +92,7 @@ impl fmt::Display for SkipReason {
                     crate::shown(why)
                 )
             }
-            SkipReason::NotWanted => f.write_str("not asked for"),
+            SkipReason::NotWanted => f.write_str("not requested"),
             SkipReason::AlreadyThere => f.write_str("a finished result was given"),
         }
     }
@@ -114,7 +114,7 @@ mod tests {
                 "the gel is opaque: ambient light cannot reach the camera",
                 "no requested result reads it",
                 "the samples cannot be divided into parts: 2 points are too few",
-                "not asked for",
+                "not requested",
                 "a finished result was given",
             ]
         );

@@ -8,7 +8,7 @@ use taceva_core::{
     Deadline, DriverError, FrameInfo, FrameMut, Interrupt, Lighting, Sensor, SimulatedBench, Stamp,
 };
 
-/// A sensor whose frames are stamped by the clock of a simulated bench to which it does not belong.
+/// Sensor outside a simulated bench whose frames are stamped by the clock of that bench.
 ///
 /// Between two frames, at least as much time passes on the bench as on the sensor's clock. More passes if other devices kept the bench
 /// busy. The bench does not simulate the sensor, so its frames depend on presses only if the sensor is really pressed.

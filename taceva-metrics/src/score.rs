@@ -56,7 +56,7 @@ pub struct Score {
     pub n: u64,
     /// Samples skipped for an unusable value; of two channels the larger number.
     pub n_invalid: u64,
-    /// 95 % interval of the value for other clusters (contact points).
+    /// 95 % interval of the value over new clusters (contact points).
     pub interval: Interval,
     /// Computed definition: `mae/1`.
     pub definition: &'static str,
@@ -112,7 +112,7 @@ pub struct Variant {
     pub unit: Unit,
     /// Range of possible values.
     pub range: Range,
-    /// 95 % interval of the value for other clusters (contact points); `None` if undefined for its kind, as for maps.
+    /// 95 % interval of the value over new clusters (contact points); `None` if undefined for its kind, as for maps.
     pub interval: Option<Interval>,
 }
 

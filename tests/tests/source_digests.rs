@@ -66,7 +66,7 @@ fn changed_absent_and_unnamed_files_are_refused_by_name_before_an_import_and_nam
     assert_eq!(code, Some(0), "{err}");
     let (code, out, err) = check();
     assert_eq!(code, Some(0), "{err}");
-    assert!(out.contains("holds what was imported"), "{out}");
+    assert!(out.contains("matches the imported files"), "{out}");
 
     let labels = source.join("labels.csv");
     let text = std::fs::read_to_string(&labels).expect("there");

@@ -1,4 +1,4 @@
-//! New versions of files and folders: written in a marked folder beside their place, then put there at once.
+//! Atomic replacement of files and folders: a new version is written beside the target, then renamed into place.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -10,21 +10,21 @@ use std::time::{Duration, SystemTime};
 use crate::durable::{parent_of, sync_folder};
 use crate::temporary_folder::{FORMER, TemporaryFolder, clear, folders, is_living};
 
-/// The beginning of the name of every folder in which something is staged.
+/// Name prefix of every staging folder.
 pub const STAGED: &str = ".taceva-staged-";
-/// Times that a living process between two renames is waited for, and the pause after each.
+/// Maximum number of waits for a process between its two renames, and the length of each.
 const WAITS: u32 = 2_000;
 const PAUSE: Duration = Duration::from_millis(1);
-/// Time after which a change of a folder is seen by its time.
+/// Age from which the modification time of a folder shows every change.
 const CLOCK: Duration = Duration::from_secs(2);
-/// Times that a place is asked for which another process stages too, and the unit of the pauses between.
+/// Attempts to stage a target that another process stages, and the base pause between them.
 const CLAIMS: u32 = 6;
 const CLAIM_PAUSE: Duration = Duration::from_millis(3);
 
-/// A new version of what is at a place, written beside it and removed unless it is put there.
+/// New version of a file or folder, staged beside its target and removed on drop unless it was put in place.
 ///
-/// The folder around it has a random name, a marker and a lock. What a killed process leaves is cleared by the next that stages anything in the
-/// same parent folder.
+/// The staging folder has a random name, a marker and a lock. The next process that stages in the same parent folder removes leftovers of killed
+/// processes.
 ///
 /// ```
 /// use std::fs;
@@ -48,7 +48,8 @@ pub struct Staged {
 }
 
 impl Staged {
-    /// Makes room beside `target`; nothing is at [`path`](Staged::path) yet. Clears what killed processes left in the same parent folder.
+    /// Creates a staging folder beside `target`; [`path`](Staged::path) does not exist yet. Removes leftovers of killed processes in the same parent
+    /// folder.
     ///
     /// # Errors
     /// [`io::Error`] of the file system, or `InvalidInput` if `target` names nothing.
@@ -65,7 +66,7 @@ impl Staged {
     pub fn alone(target: &Path) -> io::Result<Option<Staged>> {
         for attempt in 1..=CLAIMS {
             let staged = Staged::beside(target)?;
-            // Made known before it is looked for others: of two, one at least sees the other.
+            // Creates the path before the search for rivals, so at least one of two processes sees the other.
             fs::create_dir(&staged.path)?;
             if !staged.has_rival() {
                 return Ok(Some(staged));
@@ -100,22 +101,23 @@ impl Staged {
         })
     }
 
-    /// The place to write to meanwhile.
+    /// Path to which the new version is written.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Puts what was written at the target, in one step where the file system can exchange names. What stood there is removed once nobody reads it.
+    /// Replaces the target by the new version, in one step if the file system can exchange names. The old version is removed once no process reads
+    /// it.
     ///
-    /// The names inside of a staged folder are durable already; that of the target is when this returns.
+    /// The names inside a staged folder must be durable before the call. The name of the target is durable on return.
     ///
     /// # Errors
-    /// [`io::Error`] of the file system; the target is what it was then.
+    /// [`io::Error`] of the file system. The target is then unchanged.
     pub fn put_in_place(self) -> io::Result<()> {
         self.put_in_place_by(exchange)
     }
 
-    /// As [`put_in_place`](Staged::put_in_place), by a given exchange of names, which returns false where it cannot.
+    /// As [`put_in_place`](Staged::put_in_place), with a given exchange of names. `exchange` returns false if the file system cannot.
     ///
     /// # Errors
     /// As [`put_in_place`](Staged::put_in_place).
@@ -143,7 +145,7 @@ impl Staged {
             Some(&former)
         };
         if let Err(error) = sync_folder(parent_of(target)) {
-            // Nobody knows whether the name would survive: an error promises that the target is what it was.
+            // The new name may not survive a power loss, so the old version is put back.
             drop(match old {
                 None => fs::rename(target, path),
                 Some(old) if old == path => exchange(path, target).map(drop),
@@ -155,13 +157,13 @@ impl Staged {
     }
 }
 
-/// Replaces the file at `path` by what `write` writes to the path that it is given, in a marked folder beside it.
+/// Replaces the file at `path`. `write` writes the new content to the path that it receives, in a marked folder beside it.
 ///
-/// A reader of `path` sees the old file or the new one, at any moment. When this returns, the new file is durable. The first call for a parent
-/// folder clears what killed processes left there.
+/// A reader of `path` sees the old file or the new one, at any moment. The new file is durable on return. The first call for a parent folder removes
+/// leftovers of killed processes.
 ///
 /// # Errors
-/// Errors of `write` and of the file system; `path` is then unchanged.
+/// Errors of `write` and of the file system. `path` is then unchanged, unless only the sync of its folder failed.
 pub fn replace<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&Path) -> Result<(), E>,
@@ -174,10 +176,10 @@ pub fn replace<E: From<io::Error>>(
     Ok(sync_folder(parent_of(path))?)
 }
 
-/// Puts back what a killed process took from `target` between two renames, and clears its leftovers; waits for a living one.
+/// Restores `target` if a process was killed between its two renames, and removes the leftovers. Waits for a living process.
 ///
 /// # Errors
-/// [`io::Error`] if what stood at `target` is there and cannot be put back.
+/// [`io::Error`] if the old version of `target` exists and cannot be restored.
 pub fn settle(target: &Path) -> io::Result<()> {
     let parent = parent_of(target);
     for _ in 0..WAITS {
@@ -194,7 +196,7 @@ pub fn settle(target: &Path) -> io::Result<()> {
         }
         match fs::rename(&former, target) {
             Ok(()) => sync_folder(parent)?,
-            // Somebody else was faster.
+            // Another process restored it first.
             Err(_) if fs::symlink_metadata(target).is_ok() => {}
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(error),
@@ -203,12 +205,12 @@ pub fn settle(target: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Removes what killed processes left in `parent` of what they staged there.
+/// Removes the staging folders of killed processes from `parent`.
 pub fn clear_leftovers(parent: &Path) {
     clear(parent, STAGED);
 }
 
-/// As [`clear_leftovers`], once a process and folder: a folder of many files is not listed for each of them.
+/// As [`clear_leftovers`], once per process and folder, so that a large folder is not listed for each file.
 fn clear_once(parent: &Path) {
     static CLEARED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     let mut cleared = CLEARED.lock().unwrap_or_else(PoisonError::into_inner);
@@ -218,7 +220,7 @@ fn clear_once(parent: &Path) {
     }
 }
 
-/// As [`clear_leftovers`], unless the names in the folder are those that this process found clean.
+/// As [`clear_leftovers`], unless the folder is unchanged since this process found it clean.
 fn clear_changed(parent: &Path) {
     static CLEAN: Mutex<BTreeMap<PathBuf, SystemTime>> = Mutex::new(BTreeMap::new());
     let lock = || CLEAN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -230,7 +232,7 @@ fn clear_changed(parent: &Path) {
         return;
     }
     clear_leftovers(parent);
-    // A later change would have the same time while the clock of the file system stands.
+    // A later change within the same tick of the clock of the file system would have the same time.
     let is_past = changed.elapsed().is_ok_and(|age| age > CLOCK);
     if is_past && folders(parent, STAGED).next().is_none() {
         lock().insert(parent.to_owned(), changed);
@@ -245,7 +247,7 @@ fn former_of(target: &Path) -> Option<PathBuf> {
     all.find(|former| fs::symlink_metadata(former).is_ok_and(|found| !found.is_symlink()))
 }
 
-/// Exchanges two names at once; `false` where the file system cannot.
+/// Exchanges two names atomically; false if the file system cannot.
 ///
 /// # Errors
 /// [`io::Error`] of the file system.

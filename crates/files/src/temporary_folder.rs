@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use crate::durable::{parent_of, sync_folder};
 
-/// The file by which a folder is known to be one of ours; it is locked as long as its process lives.
+/// Marker file of our temporary folders, locked while the process lives.
 pub(crate) const MARKER: &str = ".taceva-temporary";
-/// The name in such a folder of what stood at the name behind it, before two renames put another there.
+/// Name prefix of the old version of a target, kept here between two renames.
 pub(crate) const FORMER: &str = "replaced-";
-/// Times that a folder is made anew which vanished before it was locked.
+/// Attempts to create a folder that vanishes before it is locked.
 const CREATIONS: u32 = 16;
 /// Letters and digits behind the prefix of a name.
 const RANDOM: usize = 6;
@@ -48,7 +48,7 @@ impl TemporaryFolder {
         Ok(made)
     }
 
-    /// Makes a folder and leaves leftovers alone.
+    /// Creates a folder without removing leftovers.
     pub(crate) fn make(parent: &Path, prefix: &str) -> io::Result<TemporaryFolder> {
         for _ in 0..CREATIONS {
             let mut builder = tempfile::Builder::new();
@@ -60,16 +60,16 @@ impl TemporaryFolder {
                 .tempdir_in(parent)?;
             let path = folder.path().join(MARKER);
             let marker = match OpenOptions::new().write(true).create_new(true).open(&path) {
-                // Taken for an empty leftover.
+                // Another process removed it as an empty leftover.
                 Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
                 marker => marker?,
             };
             let is_taken = matches!(marker.try_lock(), Err(TryLockError::WouldBlock));
-            // Taken for a leftover between its making and its lock.
+            // Another process took it for a leftover before it was locked.
             if is_taken || !path.exists() {
                 continue;
             }
-            // After a loss of power there is nothing in the folder without its marker.
+            // After a power loss, no content exists without its marker.
             sync_folder(folder.path())?;
             return Ok(TemporaryFolder {
                 path: folder.keep(),
@@ -89,19 +89,19 @@ impl TemporaryFolder {
 
 impl Drop for TemporaryFolder {
     fn drop(&mut self) {
-        // What cannot be removed now is met by the next one.
+        // The next process removes the rest.
         drop(remove(&self.path));
     }
 }
 
-/// Removes the folders in `parent` that bear the prefix and the marker, belong to this user, and are held by nobody.
+/// Removes leftover folders of this user from `parent`: those with `prefix` whose marker is unlocked.
 pub(crate) fn clear(parent: &Path, prefix: &str) {
     let mut is_durable = false;
     for path in folders(parent, prefix) {
         if is_living(&path) {
             continue;
         }
-        // What is in place of the old stays there, whatever becomes of the power.
+        // The new version must survive a power loss before the old one is removed.
         is_durable = is_durable || sync_folder(parent).is_ok();
         if is_durable {
             drop(remove_dead(&path));
@@ -109,14 +109,14 @@ pub(crate) fn clear(parent: &Path, prefix: &str) {
     }
 }
 
-/// The folders in `parent` that bear the prefix and belong to this user; a link is none.
+/// Folders in `parent` with `prefix` that belong to this user; links are ignored.
 pub(crate) fn folders(parent: &Path, prefix: &str) -> impl Iterator<Item = PathBuf> {
     let entries = fs::read_dir(parent).into_iter().flatten().flatten();
     entries.filter_map(move |entry| {
         let name = entry.file_name();
         let rest = name.to_str()?.strip_prefix(prefix)?;
         let is_ours = rest.len() == RANDOM && rest.bytes().all(|byte| byte.is_ascii_alphanumeric());
-        // The type of the entry itself: a link is no folder.
+        // The type of the entry itself, so links are ignored.
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
         let path = entry.path();
         (is_ours && is_folder && is_of_this_user(&path)).then_some(path)
@@ -128,7 +128,7 @@ pub(crate) fn is_living(path: &Path) -> bool {
     marker(path).is_some_and(|marker| matches!(marker.try_lock(), Err(TryLockError::WouldBlock)))
 }
 
-/// The marker in the folder at `path`; a link is none.
+/// Marker in the folder at `path`; links are ignored.
 fn marker(path: &Path) -> Option<File> {
     let marker = path.join(MARKER);
     let is_file = fs::symlink_metadata(&marker).is_ok_and(|marker| marker.is_file());
@@ -140,16 +140,16 @@ fn remove_dead(path: &Path) -> io::Result<()> {
     let Some(marker) = marker(path) else {
         return fs::remove_dir(path);
     };
-    // Held until it is gone, so that nobody else removes a folder of the same name.
+    // Locked until the folder is gone, so that no other process removes a folder of the same name.
     match marker.try_lock() {
         Ok(()) => remove(path),
         Err(_) => Ok(()),
     }
 }
 
-/// Removes a folder of ours, its marker last, so that what a kill leaves of it is known.
+/// Removes a folder of ours, the marker last, so that an interrupted removal is recognised.
 ///
-/// A folder stays while somebody reads in it, or while it holds the old content of a place that is empty.
+/// Keeps a folder that another process reads, and one that holds the old version of a missing target.
 fn remove(path: &Path) -> io::Result<()> {
     let mut inner = Vec::new();
     let mut held = Vec::new();
@@ -178,7 +178,7 @@ fn remove(path: &Path) -> io::Result<()> {
             false => fs::remove_file(path)?,
         }
     }
-    // Where the disk refuses this, a loss of power can leave contents without their marker. Nothing is worse if the folder goes now.
+    // If the sync fails, a power loss can leave content without its marker. The folder is removed all the same.
     drop(sync_folder(path));
     match fs::remove_file(path.join(MARKER)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -186,7 +186,7 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// True if what is at `path` belongs to the user of this process.
+/// True if the entry at `path` belongs to the user of this process.
 #[cfg(unix)]
 fn is_of_this_user(path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

@@ -149,7 +149,7 @@ impl Architecture {
         let refuse = |reason: String| Err(NetworkError::Architecture { reason });
         if self.input.is_empty() || self.outputs == 0 {
             return refuse(format!(
-                "pictures of {} and {} outputs, expected numbers above 0",
+                "input pictures of {} and {} outputs, expected sizes and outputs above 0",
                 self.input, self.outputs
             ));
         }

@@ -102,7 +102,7 @@ pub struct Factory {
     /// `[any]` Writes the `[[provides]]` table of the manifest for the arguments; NULL is for any arguments. No device is touched.
     pub describe:
         Option<unsafe extern "C" fn(u32, *const Args, TakeText, *mut c_void, *mut Error) -> Status>,
-    /// `[any]` Names each device that is present by the arguments that choose it.
+    /// `[any]` Lists the present devices, each by the arguments that select it.
     pub discover: Option<unsafe extern "C" fn(u32, TakeText, *mut c_void, *mut Error) -> Status>,
     /// `[any]` Opens a device; nothing moves and no light changes.
     pub open:

@@ -36,7 +36,7 @@ pub(crate) const PROMISES: &[Promise<dyn Robot>] = &[
 
 type Subject<'a> = Tried<'a, dyn Robot>;
 
-/// Poses are near each other and in the workspace, their stamps never go back, and a pose without time is returned at once.
+/// Poses are near each other and in the workspace, and their stamps never decrease. A passed deadline returns a pose at once.
 fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let (first, mut last) = robot.pose(tried.trial.deadline)?;

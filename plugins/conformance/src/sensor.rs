@@ -34,7 +34,7 @@ fn gives_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     let facts = facts.ok_or_else(|| broken("does not declare itself a sensor"))?;
     let given = tried.open()?.frame_info();
     expect(given.byte_len().is_some_and(|length| length > 0), || {
-        format!("frames of {given} fit no buffer")
+        format!("frames of {given} are empty or too large for a buffer")
     })?;
     if let Some(declared) = facts.frame {
         expect(given == declared, || {

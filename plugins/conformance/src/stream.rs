@@ -107,7 +107,7 @@ pub(crate) fn stamps<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unm
     in_order(&stamps.collect::<Result<Vec<_>, _>>()?)
 }
 
-/// An item before the start comes or is refused; either way the device goes on.
+/// Before the start, an item is delivered or refused. The device works afterwards.
 pub(crate) fn before_start<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     let mut device = tried.open()?;
     let doing = format!("a {} before the start", D::ITEM);
@@ -155,12 +155,12 @@ pub(crate) fn dropped<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Un
     Ok(())
 }
 
-/// Without time a wait ends at once, and the device goes on afterwards.
+/// With a passed deadline, a wait ends at once and the device keeps working.
 pub(crate) fn passed_deadline<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     keeps(tried, 5, Duration::ZERO)
 }
 
-/// With little time a wait ends soon after.
+/// With a short deadline, a wait ends soon after it.
 pub(crate) fn keeps_deadlines<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     keeps(tried, 10, Duration::from_millis(5))
 }

@@ -52,7 +52,7 @@ impl Default for Trial {
 /// One promise of the devices `D`: its name, `kind/words`, and its test.
 pub(crate) type Promise<D> = (&'static str, fn(&Tried<'_, D>) -> Result<(), Unmet>);
 
-/// A driver under trial.
+/// Driver under test.
 pub(crate) struct Tried<'a, D: ?Sized> {
     factory: &'a dyn Factory<D>,
     args: Args,
@@ -61,7 +61,7 @@ pub(crate) struct Tried<'a, D: ?Sized> {
     pub(crate) trial: &'a Trial,
 }
 
-/// Tries every promise; a panic of the driver breaks that promise alone.
+/// Tests every promise. A panic of the driver breaks only the promise under test.
 pub(crate) fn report<D: ?Sized>(
     factory: &dyn Factory<D>,
     trial: &Trial,
@@ -168,7 +168,7 @@ impl<'a, D: ?Sized> Tried<'a, D> {
 /// Beginning of the reason for which a promise was skipped that needs a device.
 pub(crate) const NO_DEVICE: &str = "no device is there";
 
-/// Reason why a device did not open: an absent real device keeps no promise and breaks none.
+/// Reason that a device did not open. If a real device is absent, promises are skipped.
 pub(crate) fn unopened(error: DriverError, is_real: bool) -> Unmet {
     match error.kind() {
         ErrorKind::NotFound | ErrorKind::Disconnected if is_real => {

@@ -281,7 +281,7 @@ impl PluginHost {
         }
         let log = self.log_of(plugin);
         spec.ended = Some(Box::new(move |fate, usage| {
-            // Of any other end somebody hears who asked for something.
+            // Any other end is reported to the caller of a device.
             if fate.is_unheard() {
                 let why = format!("closed late: {fate}; recordings are not affected");
                 log(Level::Warn, "host", &why);

@@ -68,7 +68,7 @@ impl PythonRobot {
         }
     }
 
-    /// The error of a motion, after the robot was told to stop.
+    /// Error of a motion, after the robot was ordered to stop.
     fn stopped(&self, error: DriverError) -> DriverError {
         let kind = match self.is_halted() {
             // Devices report a stopped motion by various kinds.

@@ -23,7 +23,7 @@ pub(crate) enum CacheSubject {
     Prune(CachePrune),
 }
 
-/// Runs list their entries in stages.json. Those in the folder `runs` are read, and those of --run.
+/// The file stages.json of a run lists its entries. This command reads the runs in the folder `runs`, and those named by --run.
 #[derive(Debug, Args)]
 pub(crate) struct CacheList {
     #[command(flatten)]

@@ -42,10 +42,10 @@ pub(crate) struct Import {
     /// Replace a dataset that exists already
     #[arg(long)]
     pub(crate) force: bool,
-    /// Compare the folder with a list of digests before it is read: a file that has changed, is absent or is not named there is refused by name
+    /// Compare the folder with a list of digests before it is read; a changed, missing or unlisted file is an error
     #[arg(long, value_name = "SHA256SUMS", conflicts_with_all = ["presets", "print"])]
     pub(crate) verify: Option<PathBuf>,
-    /// The program that decodes clips which are not decoded here, such as HEVC or FFV1; without it TACEVA_FFMPEG, or else ffmpeg on the PATH
+    /// The program for clips that taceva cannot decode, such as HEVC or FFV1 [default: TACEVA_FFMPEG, or else ffmpeg on the PATH]
     #[arg(long, value_name = "PROGRAM")]
     pub(crate) ffmpeg: Option<PathBuf>,
 }

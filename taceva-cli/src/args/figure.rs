@@ -6,13 +6,13 @@ use taceva_report::FigureStyle;
 /// The lengths of a point (1/72 in), a millimetre, a centimetre and an inch, in mm.
 const LENGTHS: [(&str, f64); 4] = [("pt", 25.4 / 72.0), ("mm", 1.0), ("cm", 10.0), ("in", 25.4)];
 
-/// The size and the letters of every figure that is written as a file.
+/// Size and lettering of every figure file.
 #[derive(Debug, Args)]
 pub(crate) struct FigureArgs {
-    /// The width of each figure file, such as 88mm, 3.5in or 250pt; panels stand in as many columns as fit [default: as drawn for a screen]
+    /// The width of each figure file, such as 88mm, 3.5in or 250pt; panels use as many columns as fit [default: as drawn for a screen]
     #[arg(id = "figure_width", long = "figure-width", value_name = "LENGTH", value_parser = width_mm)]
     width_mm: Option<f64>,
-    /// The family of fonts that SVG figures ask for first; PDF figures embed Arimo, which is as wide as Arial
+    /// The preferred font family of SVG figures; PDF figures embed Arimo, which has the widths of Arial
     #[arg(id = "figure_font", long = "figure-font", value_name = "FAMILY")]
     font: Option<String>,
     /// The size of letters in figure files, such as 7pt [default: 8pt with --figure-width, else 11pt]

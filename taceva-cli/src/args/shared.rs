@@ -196,7 +196,7 @@ pub(crate) enum TableScores {
 }
 
 impl TableScores {
-    /// The scores of a table for which nobody asked: a paper has room for the main ones.
+    /// Default scores of a table: the main ones for LaTeX, else all.
     pub(crate) fn usual(format: Format) -> TableScores {
         match format {
             Format::Tex => TableScores::Main,

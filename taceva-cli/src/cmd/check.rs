@@ -70,7 +70,7 @@ fn compared(recordings: &[Dataset], folder: &Path, context: &Context) -> anyhow:
         let name = shown(dataset.path());
         let Some(sums) = SourceSums::of_dataset(dataset)? else {
             anyhow::bail!(
-                "{name} keeps no digests of its sources: it was recorded here, or imported by a version that kept none; import it again with `--force`"
+                "{name} stores no digests of its sources: it was recorded, or imported by an older version; import it again with `--force`"
             );
         };
         let differences = sums.differences(source, context.jobs, &context.progress)?;
@@ -80,10 +80,10 @@ fn compared(recordings: &[Dataset], folder: &Path, context: &Context) -> anyhow:
                 writeln!(out, "{name}: {}: {difference}", shown(folder))?;
             }
             match differences.len() {
-                0 => writeln!(out, "{name}: {} holds what was imported", shown(folder)),
+                0 => writeln!(out, "{name}: {} matches the imported files", shown(folder)),
                 count => writeln!(
                     out,
-                    "{name}: {count} files of {} are not what was imported",
+                    "{name}: {count} files of {} differ from the imported ones",
                     shown(folder)
                 ),
             }

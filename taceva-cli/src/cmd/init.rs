@@ -50,7 +50,7 @@ pub(crate) fn run(args: &Init, context: &Context) -> anyhow::Result<u8> {
     }
 }
 
-/// The file to write: the one that was named, or `default`; refused where it exists already.
+/// File to write: the named one, or `default`. Without `--force`, an existing file is an error.
 fn target(args: &InitTarget, default: &str) -> anyhow::Result<PathBuf> {
     let path = args.path.clone().unwrap_or_else(|| PathBuf::from(default));
     output::check_free(&path, args.force)?;

@@ -45,7 +45,7 @@ pub(crate) fn run(args: &ReportArgs, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// The folder to write into: the one asked for, or that of the results.
+/// Output folder: the requested one, or that of the results.
 fn folder(args: &ReportArgs) -> PathBuf {
     let beside = || match args.result.is_dir() {
         true => args.result.clone(),

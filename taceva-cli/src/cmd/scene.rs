@@ -64,7 +64,7 @@ pub(super) fn print_cost(
     Ok(())
 }
 
-/// Prints what the operator of a real rig must know before any motion: the limits, and the manual steps.
+/// Prints the limits and the manual steps of real rigs, before any motion.
 pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Context) {
     for study in &planned.studies {
         let (Some(rig), Some(limits)) = (study.rig(), &study.plan.limits) else {

@@ -26,7 +26,7 @@ pub(crate) struct Guard<W: Write> {
 }
 
 impl<W: Write> Guard<W> {
-    /// A guard of [`Form::Words`] or [`Form::Json`] before `out`.
+    /// Guards `out` for text of the form [`Form::Words`] or [`Form::Json`].
     pub(crate) fn new(out: W, form: Form) -> Guard<W> {
         Guard {
             out,

@@ -12,7 +12,7 @@ pub(super) struct Line<'a> {
     pub(super) channel: &'a str,
     pub(super) value: &'a Value,
     pub(super) unit: Unit,
-    /// Interval; `None` if the number has none by its nature.
+    /// Interval; `None` if the number cannot have one.
     pub(super) interval: Option<&'a Interval>,
     /// The score it belongs to.
     pub(super) score: &'a Score,

@@ -1,4 +1,4 @@
-//! Joined recordings: their list, and the scores of each beside those of all together.
+//! Joined recordings: their list, and the scores of each and of all.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};

@@ -73,7 +73,7 @@ fn stretched(mean: i64, [low, high]: [i64; 2]) -> i64 {
     (mean - low) * 255 / (high - low).max(1)
 }
 
-/// Pressed minus untouched in the scale of both, amplified as far as the strongest difference is not clipped.
+/// Pressed minus untouched in the scale of both, amplified up to eight times without clipping.
 #[expect(clippy::cast_precision_loss, reason = "a factor from 1 to 8")]
 fn difference(
     pressed: &Small,

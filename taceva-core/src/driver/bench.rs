@@ -49,7 +49,7 @@ pub trait SimulatedBench: Send + Sync {
     /// Time of its clock, which stamps every reading of its devices.
     fn now(&self) -> Duration;
 
-    /// Lets time pass.
+    /// Advances the clock of the bench by `rest`.
     ///
     /// # Errors
     /// [`DriverError`] of kind `Disconnected` if the bench is gone.

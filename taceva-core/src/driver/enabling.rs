@@ -2,7 +2,7 @@
 
 use super::DriverError;
 
-/// An enabling switch: held, the robot may move; released, it is halted.
+/// Enabling switch. The robot may move while it is held, and is halted on release.
 ///
 /// It is no safety function: its state passes through an operating system and a program. The switch of the robot's own safety circuit stays
 /// in charge.
@@ -32,8 +32,8 @@ use super::DriverError;
 /// assert!(!may_move(&Button::default()));
 /// ```
 pub trait EnablingSwitch: Send + Sync {
-    /// True if the switch is held now and was held without a break since the last call. A release is reported once, however short. Never
-    /// blocks; before the first received state the switch counts as released.
+    /// True if the switch is held now, without a break since the last call. A release is reported once, even a short one. Never blocks. Before the
+    /// first received state, the switch counts as released.
     ///
     /// # Errors
     /// [`DriverError`] of kind `Disconnected` once it is gone, or of another kind if its state can no longer be known.

@@ -40,7 +40,7 @@ impl fmt::Display for Speed {
     }
 }
 
-/// A number that is no speed.
+/// Error for a number that is not a valid speed.
 ///
 /// ```
 /// use taceva_core::Speed;

@@ -27,7 +27,7 @@ impl Draws {
         Draws { key }
     }
 
-    /// The numbers of one purpose among those of this key.
+    /// Draws for `purpose`, derived from this key.
     #[inline]
     #[must_use]
     pub const fn of(self, purpose: u64) -> Draws {

@@ -23,7 +23,7 @@ pub(crate) struct PortDriver {
     pub(crate) key: DriverKey,
     /// Argument of its selector that names the file.
     pub(crate) argument: &'static str,
-    /// True if the driver reads the file of that name below `/dev`, as far as the system says.
+    /// True if the driver can read this file below `/dev`, according to the system.
     pub(crate) reads: fn(&Machine, &str) -> bool,
 }
 

@@ -5,7 +5,7 @@ use taceva_core::Isa;
 use crate::exact::{Job, Machine, Vector};
 use crate::pair::Paired;
 
-/// Sums that are in flight at once, so that no addition waits for the one before.
+/// Independent sums per column, so that no addition waits for the previous one.
 const IN_FLIGHT: usize = 4;
 
 /// Rounded sum of all values of both columns, with eight vector sums in flight on the widest available vectors. Its run time is the lower

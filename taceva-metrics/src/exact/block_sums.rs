@@ -49,7 +49,7 @@ pub(crate) struct Sums {
 }
 
 impl BlockSums {
-    /// The sums of no pair; without `gate` there is no gated sum.
+    /// Empty sums. Without `gate`, no gated sum is computed.
     pub(crate) fn new(machine: Machine, streams: Streams, gate: Option<f64>) -> BlockSums {
         BlockSums {
             machine,

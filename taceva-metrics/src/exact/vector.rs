@@ -4,7 +4,7 @@
 ///
 /// Every operation rounds to nearest, ties to even, lane by lane, so the width changes no result.
 pub(crate) trait Vector: Copy {
-    /// Evidence that the machine has the instructions; without it there is no vector.
+    /// Proof that the machine has the instructions; required to create a vector.
     type Proof: Copy;
     /// Number of lanes.
     const LANES: usize;

@@ -77,7 +77,7 @@ impl Core {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "it is not negative, and what is beyond the last is looked up in vain"
+            reason = "it is not negative, and an index beyond the last gives `None`"
         )]
         let found = self.between.get(stretch as usize);
         let height = y - self.slope * x;

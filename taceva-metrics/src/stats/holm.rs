@@ -33,7 +33,7 @@ pub fn holm(p_values: &[f64]) -> Result<Vec<f64>, ComparisonError> {
 pub(super) struct Step {
     /// Adjusted p value.
     pub(super) adjusted_p: f64,
-    /// True if the family rejects it: the one decision behind verdict, p and interval.
+    /// True if the test is rejected. Verdict, p and interval follow this decision.
     pub(super) is_rejected: bool,
     /// Level at which it is decided, and of its interval.
     pub(super) level: f64,

@@ -21,7 +21,7 @@ use crate::estimators::trees::{GradientBoosting, RandomForest};
 use crate::settings::Suggestion;
 use crate::training::info::ModelInfo;
 
-/// All models, the plainest first.
+/// All models, the simplest first.
 pub const ALL: &[ModelInfo] = &[
     Baseline::INFO,
     Ridge::INFO,

@@ -19,7 +19,7 @@ const SAMPLES_PER_DIRECTION: usize = 4;
 const SIDE_MOST: usize = 32;
 /// Share of held-out training samples within the limit.
 const WITHIN: f64 = 0.99;
-/// Smallest limit beside the directions, relative to the spread of the features, so that rounding is not novelty.
+/// Minimum limit of the residual, relative to the spread of the features, so that rounding does not count as novelty.
 const ROUNDING: f64 = 1e-5;
 
 /// Distance of features from a training part, relative to the limit that holds for 99 of 100 held-out training samples.

@@ -57,7 +57,7 @@ pub enum SplitError {
         /// Sum of the shares.
         sum: f64,
     },
-    /// Blocks of time are unavailable: samples have no order in time, or are too few.
+    /// Blocks of time are missing: the recording has too few consecutive samples.
     #[error(
         "split by-block: the recording has too few consecutive samples for blocks of time; use random, or name a column with \
             by-column:NAME"

@@ -35,7 +35,7 @@ impl<K: Ord + Clone, T> Cache<K, T> {
         Some(Arc::clone(value))
     }
 
-    /// Stores a value of `bytes` bytes; the newest stays, whatever its size.
+    /// Stores a value of `bytes` bytes and removes the least recently used ones. The newest value always stays.
     pub(crate) fn keep(&mut self, key: K, bytes: u64, value: Arc<T>) {
         self.turn += 1;
         self.by_turn.insert(self.turn, key.clone());

@@ -10,7 +10,7 @@ use crate::values::{ArrayData, ArrayValues};
 /// One field of a record, or the whole element if it is no record.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Field {
-    /// Names from the outermost, joined by dots; empty for an element that is no record.
+    /// Field names from the outermost, joined by dots; empty if the element is not a record.
     pub(crate) name: String,
     /// Offset within the element, bytes.
     pub(crate) at: usize,
@@ -40,7 +40,7 @@ impl Item {
         }
     }
 
-    /// The type of elements that are no records; `None` for elements of zero bytes, whose number is unknown.
+    /// Type of an element that is one scalar; `None` for others, and for elements of zero bytes, whose number is unknown.
     pub(crate) fn scalar(&self) -> Option<Scalar> {
         match self.fields.as_slice() {
             [field]

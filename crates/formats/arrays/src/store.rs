@@ -19,12 +19,12 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         &[]
     }
 
-    /// Dead links, with the reason; they have no array and no group.
+    /// Dead links, each with its problem.
     fn nowhere(&self) -> &[(String, Problem)] {
         &[]
     }
 
-    /// The problem of a name that is no array but a link to elsewhere; `None` for other names.
+    /// Problem of a name that is a link to elsewhere; `None` for other names.
     fn link(&self, _name: &str) -> Option<Problem> {
         None
     }

@@ -1,4 +1,4 @@
-//! Decompression to a known size: never more is written, and nothing is allocated that the input cannot fill.
+//! Decompression to a known size. Writes no more, and allocates no memory that the input cannot fill.
 
 use std::io::{self, BufRead, Cursor, Read};
 
@@ -29,7 +29,7 @@ pub(crate) enum Codec {
     Zstd,
 }
 
-/// Maximum growth of a byte of snappy or of a block of LZ4: a copy of 64 bytes takes 3, and 255 of LZ4 take 1.
+/// Bounds of the growth of Snappy and of LZ4 blocks. A Snappy copy of 64 bytes takes 3 bytes; 255 bytes of LZ4 take 1.
 const SNAPPY_GROWTH: usize = 64;
 const LZ4_GROWTH: usize = 255;
 /// Window size that Zstandard needs up to its level 19, bytes.
@@ -129,7 +129,7 @@ fn not_whole(error: &DecodeError) -> io::Error {
     io::Error::other(format!("incomplete Zstandard frame: {error}"))
 }
 
-/// A decoder of frames of at most `size` bytes, with windows up to that size or those of level 19.
+/// Decoder for frames of at most `size` bytes, with windows up to that size or the window of level 19.
 fn decompressor(size: u64) -> Result<Decompressor, String> {
     let window = size.clamp(ZSTD_WINDOW_BYTES, limits::PAGE_BYTES.max(ZSTD_WINDOW_BYTES));
     let log = u8::try_from(window.next_power_of_two().ilog2()).unwrap_or(u8::MAX);

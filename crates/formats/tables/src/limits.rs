@@ -1,4 +1,4 @@
-//! Memory limits. Larger files are rejected before anything is allocated for them. No file, whatever it announces, takes 512 MiB
+//! Memory limits. Larger files are rejected before anything is allocated for them. No file takes 512 MiB, even if it states false sizes
 //! (`tests/hostile.rs`).
 
 /// Maximum metadata, bytes: the footer of a Parquet file, the summary of an MCAP file.

@@ -121,10 +121,10 @@ impl Dataset {
         self.header.digest
     }
 
-    /// The digests of the files that an import read, as `sha256sum` writes them; `None` of a recording, or where none were kept.
+    /// Digests of the files that an import read, in the form of `sha256sum`. `None` for a recording, or if none were stored.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if the list is not what was written; [`DatasetError::Io`].
+    /// [`DatasetError::Digest`] if the list was changed; [`DatasetError::Io`].
     pub fn source_sums(&self) -> Result<Option<String>, DatasetError> {
         let Some(info) = self.header.sources else {
             return Ok(None);

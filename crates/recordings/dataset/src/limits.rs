@@ -16,8 +16,7 @@ pub const PACK_BYTES: u64 = 1 << 30;
 pub const IMAGE_SIDE: u32 = 16_384;
 /// Maximum decoded image, bytes.
 pub const DECODED_BYTES: u64 = 256 << 20;
-/// Decoded size that any image may reach, bytes; a larger one may reach [`DECODED_RATIO`] times its file. Several at once thus stay below
-/// 300 MiB for small files.
+/// Decoded size that is allowed for every image, bytes. A larger image may take [`DECODED_RATIO`] times the size of its file.
 const DECODED_LEAST: u64 = 32 << 20;
 /// Maximum ratio of decoded size to file size.
 const DECODED_RATIO: u64 = 200;

@@ -1,8 +1,7 @@
-//! A dataset that takes the place of another: what is done about an interruption, and what may be replaced.
+//! Replacement of a dataset by a new version, and recovery after an interruption.
 //!
-//! The new dataset is whole and durable in a marked folder beside its place before names are exchanged, so readers see the old one or the new
-//! one at every moment. Where the file system cannot exchange names there is a moment between two renames; whoever looks for the dataset
-//! then finds the old one, and puts it back if nobody is at work.
+//! The new dataset is complete and durable beside its target before names are exchanged. Readers therefore see the old one or the new one. A file
+//! system that cannot exchange names needs two renames. A reader between them finds the old dataset, and restores it if the writer is dead.
 
 use std::ffi::OsString;
 use std::fs;
@@ -11,8 +10,8 @@ use std::path::Path;
 use crate::error::DatasetError;
 use crate::layout;
 
-/// Puts back or clears what an interrupted replacement of the dataset at `target` left beside it. Every command that opens the
-/// dataset does so first; nothing is done while whoever replaces it is at work, nor where nothing may be written.
+/// Restores the dataset at `target` after an interrupted replacement, and removes the leftovers. Every command that opens the dataset calls this
+/// first. Waits up to 2 s for a living writer.
 ///
 /// # Errors
 /// [`DatasetError::Io`] if the old dataset under its hidden name cannot be restored.

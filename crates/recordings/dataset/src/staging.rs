@@ -11,7 +11,7 @@ use crate::file::make_names_durable;
 use crate::replacement;
 use crate::text::shown;
 
-/// What may stand where the folder will be.
+/// Allowed content of the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub enum Place {
@@ -23,7 +23,7 @@ pub enum Place {
 
 /// A folder beside the target, renamed into place once everything in it is durable and removed if that never happens.
 ///
-/// One process at a time has one for a target, so that nothing that another adds is lost.
+/// Only one process at a time stages a target, so that no rows of another process are lost.
 #[derive(Debug)]
 #[doc(hidden)]
 pub struct StagedFolder {

@@ -62,7 +62,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// The names on disk of the columns that are neither channels nor attributes, in their order there.
+    /// Fixed names of columns on disk, in order, without channels and attributes.
     ///
     /// ```
     /// use taceva_dataset::Table;

@@ -75,7 +75,7 @@ impl SourceFolder {
         Ok(path)
     }
 
-    /// The files that were asked for, and those below the folders that were.
+    /// Requested files, and all files below requested folders.
     pub(crate) fn files_read(&self) -> Vec<PathBuf> {
         let named = self.named.lock().unwrap_or_else(PoisonError::into_inner);
         let files = named.iter().flat_map(|path| match path.is_dir() {

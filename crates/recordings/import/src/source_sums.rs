@@ -99,7 +99,7 @@ impl SourceSums {
         SourceSums::parse(list, &text)
     }
 
-    /// The digests that the dataset keeps of the files that it was imported from; `None` if it keeps none.
+    /// Digests that the dataset stores of its source files; `None` if it stores none.
     ///
     /// # Errors
     /// Errors of [`Dataset::source_sums`].
@@ -119,7 +119,7 @@ impl SourceSums {
             let (name, digest) = entry(line).ok_or_else(|| DatasetError::Table {
                 place: Place::file(list),
                 problem: format!(
-                    "line {}: `{}` is no line of sha256sum; expected 64 hexadecimal digits, two spaces and a name: write the list with `sha256sum FILES > SHA256SUMS`",
+                    "line {}: `{}` is not a line of sha256sum; expected 64 hexadecimal digits, two spaces and a name: write the list with `sha256sum FILES > SHA256SUMS`",
                     number + 1,
                     shown(line)
                 ),
@@ -134,7 +134,7 @@ impl SourceSums {
         })
     }
 
-    /// Differences of the named files in `folder`. Of a dataset to which rows were added, those of the folder that `folder` is most like.
+    /// Differences of the named files in `folder`. If rows were added from several folders, compares with the most similar one.
     ///
     /// # Errors
     /// [`DatasetError::Io`] if a file cannot be read; [`DatasetError::Cancelled`].
@@ -215,7 +215,7 @@ impl SourceSums {
         Err(DatasetError::Request {
             path: folder.to_owned(),
             problem: format!(
-                "not as {} says: {}; copy the recording again, or write the list anew once it is right",
+                "differs from {}: {}; copy the recording again, or write a new list if the files are right",
                 shown(&self.list.to_string_lossy()),
                 named.join("; ")
             ),
@@ -267,7 +267,7 @@ fn entry(line: &str) -> Option<(String, Digest)> {
     Some((name, digest.parse().ok()?))
 }
 
-/// The digest of each file, or none of what is no file.
+/// Digest of each path; `None` if it is not a file.
 fn digests(
     paths: &[PathBuf],
     jobs: NonZeroUsize,

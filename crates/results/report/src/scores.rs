@@ -78,7 +78,7 @@ impl ScoreTable {
         ScoreTable::compared(studies, &CompareRequest::default())
     }
 
-    /// The scores of the metrics that `request` names, of all where it names none, compared as it says.
+    /// Scores of the metrics that `request` names, or of all metrics, compared as it says.
     pub fn compared(studies: &[Study], request: &CompareRequest) -> ScoreTable {
         ScoreTable::answered(studies, request, compare(studies, request).answers)
     }

@@ -34,13 +34,13 @@ pub fn site(sensors: &[Sensor], ours: &[Study]) -> Vec<SitePage> {
 }
 
 fn index(sensors: &[Sensor], ours: &[Study]) -> String {
-    let lead = "What was published of them, each number with its source.";
+    let lead = "Published facts and results of each sensor, every number with its source.";
     let mut document = Document::new(TITLE, html! { p.lead { (lead) } });
     let of_kind = |kind| sensors.iter().filter(move |entry| entry.kind == kind);
     document.section("sensors", "Sensors", list(of_kind(Kind::Sensor)));
     if of_kind(Kind::Study).next().is_some() {
         let studies = html! {
-            p { "Evaluations, benchmarks and reviews of sensors, with what they report of ten properties." } "\n"
+            p { "Evaluations, benchmarks and reviews of sensors, with the number of the ten properties that each reports." } "\n"
             ul { @for entry in of_kind(Kind::Study) { (study(entry)) } }
         };
         document.section("studies", "Studies of sensors", studies);

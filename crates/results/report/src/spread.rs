@@ -37,7 +37,7 @@ pub(crate) fn words(
     }
 }
 
-/// Sentence on those of `scores` (metric and channel) whose labels differ in spread, for below a table; `None` if there are none.
+/// Note below a table on the `scores` (metric and channel) whose labels differ in spread; `None` without any.
 pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)]) -> Option<String> {
     let all: Vec<usize> = (0..studies.len()).collect();
     let differing = scores.iter().filter_map(|(metric, channel)| {

@@ -30,7 +30,7 @@ pub struct Context {
     pub subject: Subject,
     /// The inputs and settings.
     pub provenance: Provenance,
-    /// Notes for the reader, in order; `provenance` has those that earlier states made.
+    /// Notes for the reader, in order. Notes of earlier states are in `provenance`.
     pub notes: Vec<Note>,
     /// True if a model was fitted on some of the rows, beyond what `provenance` says.
     pub is_seen: bool,

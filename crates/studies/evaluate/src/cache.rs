@@ -5,10 +5,10 @@
 //!         /features/<key>     features of frames, in the same way as a model
 //!         /fit/<key>          a model; first its digest on a line, then its bytes
 //!         /predict/<key>      numbers, in the same way
-//!         /partial/           what is being written; it is renamed when it is whole, and left if the run is stopped
+//!         /partial/           unfinished entries: renamed when complete, left behind by a stopped run
 //! ```
 //!
-//! Scores are no stage: computing them from stored numbers takes less time than a safe look-up.
+//! Scores are not cached: computing them takes less time than a safe look-up.
 
 mod features;
 mod inventory;

@@ -10,7 +10,7 @@ use taceva_dataset::{Dataset, JoinedRecording};
 use crate::error::EvaluateError;
 use crate::run_layout::{PLANS, RECORDINGS};
 
-/// The note of a result with such a split; on the card of a model it says how to make the split again.
+/// Note of a result with a planned split. A model card stores it, so that the split can be repeated.
 pub(crate) const NOTE: &str =
     "divided among the calibration presses of the run, as its plan does; all others are left out";
 

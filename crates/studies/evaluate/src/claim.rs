@@ -35,7 +35,7 @@ pub struct Watch {
     since: Instant,
 }
 
-/// A name that no other thread, process or machine gives at any time.
+/// Name that is unique among threads, processes and machines.
 fn unique_name() -> String {
     static NEXT: AtomicU64 = AtomicU64::new(0);
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
@@ -144,7 +144,7 @@ impl Watch {
                 return Ok(false);
             }
             Err(error) => return Err(error),
-            // Whose mark it is: that of a killed process is cleared as its claims are.
+            // The mark names its owner, so that the mark of a killed process is removed like its claims.
             Ok(mut file) => file.write_all(line(&unique_name(), 0).as_bytes())?,
         }
         let is_same = read(&self.path).is_ok_and(|text| text == self.seen);
@@ -158,7 +158,7 @@ impl Watch {
 
 /// Removes the claims in `folder` of processes that ended on this machine, and their marks.
 ///
-/// A task that is done already is asked for by nobody, so that nobody else would meet its claim. What is no claim stays, and so does a link.
+/// No process waits for the claim of a finished task, so it would stay for ever. Links and files that are not claims are kept.
 pub fn clear_dead_claims(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries {
@@ -166,13 +166,13 @@ pub fn clear_dead_claims(folder: &Path) {
         let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
         let text = is_file.then(|| read(&path).ok()).flatten();
         if text.is_some_and(|text| is_line(&text) && ended_here(owner_of(&text))) {
-            // What cannot be removed now is met by the next one.
+            // The next call removes the rest.
             drop(Watch::new(&path).clear());
         }
     }
 }
 
-/// True for what [`line`] writes.
+/// True if `text` has the form that [`line`] writes.
 fn is_line(text: &str) -> bool {
     let count = text
         .strip_suffix('\n')
@@ -197,7 +197,7 @@ fn read(path: &Path) -> io::Result<String> {
     Ok(text)
 }
 
-/// `BOOT-NAMESPACE-PROCESS-START`, where the system says so much.
+/// Name of this process: `MACHINE-PROCESS-START`, with [`machine`], the process id, and the start time.
 fn process_name() -> String {
     static NAME: std::sync::OnceLock<String> = std::sync::OnceLock::new();
     let name = NAME.get_or_init(|| {

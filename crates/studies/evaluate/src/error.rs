@@ -53,7 +53,7 @@ pub enum EvaluateError {
     Tables {
         /// The table that does not fit the other.
         path: PathBuf,
-        /// The mismatch, and what was expected.
+        /// The mismatch and the expected content.
         problem: String,
     },
     /// A Parquet table of scores that cannot be read.

@@ -34,7 +34,7 @@ pub(crate) fn of_dataset(
     })
 }
 
-/// The facts of `file`, and those of `otherwise` where it has none.
+/// Facts of `file`, completed by `otherwise`.
 pub(crate) fn of_file(file: &SensorFile, otherwise: SensorFacts) -> SensorFacts {
     let reference_scene = file.reference_scene.clone();
     SensorFacts::default()

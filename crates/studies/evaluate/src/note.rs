@@ -45,7 +45,7 @@ pub enum Note {
         /// Rows before, day and folder of the extension.
         extension: Extension,
     },
-    /// Frames that differ from what the camera gave.
+    /// Frames that were reduced before they were stored.
     Reduced {
         /// The recording, if several were joined.
         recording: Option<String>,
@@ -61,7 +61,7 @@ pub enum Note {
         /// All views, in words.
         of: String,
     },
-    /// A warning of the import of a recording, or what the import took from labels.
+    /// A warning of an import, or the zero or gravity that it subtracted from labels.
     Imported {
         /// The recording, if several were joined.
         recording: Option<String>,

@@ -140,7 +140,7 @@ pub(crate) fn extended(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, of)
 }
 
-/// Warnings of the imports that made the recordings, and what the imports took from labels.
+/// Warnings of the imports, and the zero and gravity that they subtracted from labels.
 pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let header = recording.header();

@@ -133,7 +133,7 @@ struct DepthPart {
     parts: u32,
 }
 
-/// Counters of random draws of a point. Its place takes lower ones; depths and shears have ranges of their own.
+/// First counters of the random draws of depths, and of shears, of a point. The draws of its place use lower counters.
 const DEPTH_AXIS: u64 = 1 << 32;
 const SHEAR_AXIS: u64 = 1 << 40;
 

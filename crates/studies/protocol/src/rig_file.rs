@@ -30,7 +30,7 @@ const GREATEST_LATENCY_MS: f64 = 1_000.0;
 /// Greatest accepted limit, as in a scene, in mm, N or mm/s.
 const GREATEST_LIMIT: f64 = 1_000.0;
 
-/// A rig, read from TOML: where a scene is executed. The scene says what is done there.
+/// Rig on which a scene runs, parsed from TOML.
 ///
 /// ```
 /// use taceva_protocol::RigFile;

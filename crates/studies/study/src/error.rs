@@ -21,7 +21,7 @@ pub enum StudyError {
     RunFolder {
         /// The folder or a file in it.
         path: PathBuf,
-        /// The fault, and what was expected.
+        /// The fault and the expected content.
         problem: String,
     },
 }

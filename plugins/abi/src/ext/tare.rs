@@ -24,6 +24,6 @@ pub struct TareCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & started]` Takes the present load as zero; returns once that holds.
+    /// `[owner & started]` Sets the present load as zero; returns once this takes effect.
     pub zero: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,
 }

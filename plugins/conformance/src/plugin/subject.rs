@@ -110,7 +110,7 @@ impl Subject {
         opened.map_err(|error| self.not_opened(error))
     }
 
-    /// Reason why a device did not open: an absent real device keeps no promise and breaks none.
+    /// Reason that a device did not open. If a real device is absent, promises are skipped.
     fn not_opened(&self, error: DriverError) -> Unmet {
         match unopened(error, self.is_real()) {
             Unmet::Skipped(why) => Unmet::Skipped(self.with_place(&why)),

@@ -1,8 +1,8 @@
-//! Output without end.
+//! Limit on the output of a child.
 
 use std::time::{Duration, Instant};
 
-/// Counts what a child puts out, anew after each [`Flood::WITHIN`].
+/// Counter of the output of a child, restarted after each [`Flood::WITHIN`].
 #[derive(Debug)]
 pub(super) struct Flood {
     most: u64,
@@ -11,10 +11,10 @@ pub(super) struct Flood {
 }
 
 impl Flood {
-    /// The time in which a count is a flood.
+    /// Time window of a count.
     pub(super) const WITHIN: Duration = Duration::from_secs(10);
 
-    /// A count of which more than `most` is a flood.
+    /// Counter with the limit `most`.
     pub(super) fn new(most: u64) -> Flood {
         Flood {
             most,
@@ -23,7 +23,7 @@ impl Flood {
         }
     }
 
-    /// Adds to the count; true once it is a flood.
+    /// Adds to the count. Returns true once it exceeds the limit.
     pub(super) fn add(&mut self, count: u64) -> bool {
         if self.since.elapsed() > Flood::WITHIN {
             (self.count, self.since) = (0, Instant::now());

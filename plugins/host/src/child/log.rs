@@ -107,7 +107,7 @@ fn flooded(flood: &mut Flood, lines: u64, watch: &Watch) {
     }
 }
 
-/// In the host: hands what comes from the child to `log`, within its limit, until the child is gone. A child that sends anything else is ended.
+/// In the host: passes messages of the child to `log`, within its limit, until the child is gone. Other messages end the child.
 pub(super) fn listen(
     socket: Socket,
     log: Log,

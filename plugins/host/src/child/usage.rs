@@ -1,26 +1,26 @@
-//! The time that a child took: of whoever called it, and of the processors.
+//! Time that a child process used: run time, processor time, and time of calls.
 
 use std::fmt;
 use std::time::Duration;
 
-/// A child that lived shorter slows nothing.
+/// Run time up to which a child is never reported.
 const SHORT: Duration = Duration::from_secs(2);
-/// Unit of the times in `/proc`, whatever the kernel counts in.
+/// Ticks per second of the times in `/proc`, a fixed interface of the kernel.
 const TICKS_PER_SECOND: u64 = 100;
 
-/// The time that a child took until its end.
+/// Time that a child process used until its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Usage {
-    /// From its start to its end.
+    /// Run time.
     pub whole: Duration,
     /// Processor time of all its threads.
     pub processor: Duration,
-    /// In which somebody waited for an answer.
+    /// Time in which callers waited for replies.
     pub calls: Duration,
 }
 
 impl Usage {
-    /// True for a child that keeps more than two processors busy, or is waited for more than half of its life.
+    /// True if the child kept more than two processors busy, or callers waited for more than half of its run time.
     pub(crate) fn is_much(&self) -> bool {
         self.whole > SHORT && (self.processor > self.whole * 2 || self.calls > self.whole / 2)
     }
@@ -30,7 +30,7 @@ impl fmt::Display for Usage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "took time: {:.1} s of {:.1} s were spent waiting for its answers, and it used {:.1} s of processor time",
+            "slow: callers waited {:.1} s of {:.1} s for its replies, and it used {:.1} s of processor time",
             self.calls.as_secs_f64(),
             self.whole.as_secs_f64(),
             self.processor.as_secs_f64()
@@ -38,10 +38,10 @@ impl fmt::Display for Usage {
     }
 }
 
-/// The processor time of a process and its threads, until it is waited for; zero where the system does not say.
+/// Processor time of a process and its threads, readable until it is reaped; zero if unknown.
 pub(super) fn processor_time(process: u32) -> Duration {
     let text = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
-    // The name, which may hold anything, ends with the last bracket; the times of user and system stand twelfth and thirteenth behind it.
+    // The name may contain anything and ends with the last bracket. User and system time are words 12 and 13 after it.
     let words = text.rsplit_once(')').map_or("", |(_, rest)| rest);
     let ticks = words.split_whitespace().skip(11).take(2);
     let ticks: u64 = ticks.filter_map(|word| word.parse::<u64>().ok()).sum();

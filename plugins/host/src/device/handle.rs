@@ -133,7 +133,7 @@ impl Handle {
         &self.driver
     }
 
-    /// True for a device of a simulated bench, which has a time of its own. Asked while the device is opened.
+    /// True for a device of a simulated bench, which has its own clock. Called while the device is opened.
     pub(crate) fn is_simulated(&self) -> bool {
         PluginBench::of(&self._rig, "").is_some()
     }

@@ -4,11 +4,11 @@ use std::time::{Duration, Instant};
 
 use taceva_core::Hertz;
 
-/// A sample is late that takes so many periods of the declared rate.
+/// Periods of the declared rate after which a sample is late.
 const LATE: u32 = 10;
-/// So many late samples in a row are an error of the device.
+/// Late samples in a row that are an error of the device.
 const LATE_MAX: u32 = 10;
-/// Stamps may gain or lose so much on the clock of this machine between two samples.
+/// Maximum drift of stamps against the clock of this machine between two samples.
 const JUMP: Duration = Duration::from_secs(60);
 
 /// Delays and stamps of the samples of one device.
@@ -31,7 +31,7 @@ impl Pace {
         }
     }
 
-    /// Takes a sample that was asked for at `asked` and is here `now`, stamped `stamp` on the clock of the device.
+    /// Checks a sample requested at `asked` and received at `now`, with `stamp` on the clock of the device.
     ///
     /// # Errors
     /// Message about a late device or a jump of its stamps.
@@ -50,7 +50,7 @@ impl Pace {
             let stamped = stamp.as_secs_f64() - before.as_secs_f64();
             if (stamped - passed).abs() > JUMP.as_secs_f64() {
                 return Err(format!(
-                    "its stamps jump by {stamped:.1} s between two samples that came {passed:.3} s apart: look at the clock of the device"
+                    "its stamps jump by {stamped:.1} s between two samples received {passed:.3} s apart: check the clock of the device"
                 ));
             }
         }
@@ -72,7 +72,7 @@ impl Pace {
             return Ok(());
         }
         Err(format!(
-            "{} samples in a row took more than {most:.3} s, the last one {:.3} s, at a declared {} Hz: look at the device and at what else runs here, or declare the rate that it has (`rate_hz`)",
+            "{} samples in a row took more than {most:.3} s, the last one {:.3} s, at a declared {} Hz: check the device and the load of this machine, or declare its actual rate (`rate_hz`)",
             self.late,
             took.as_secs_f64(),
             rate.0

@@ -52,7 +52,7 @@ impl Interpreter {
         spec.confinement.seals = module.profile.seals();
     }
 
-    /// Fails if user nobody, as whom the child of root runs, cannot read a required file.
+    /// Fails if a required file is unreadable for the user `nobody`, as which a child of root runs.
     pub(crate) fn refuse_closed(&self, package: &Path) -> Result<(), PythonError> {
         if !geteuid().is_root() {
             return Ok(());

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 const READ: u32 = 0o4;
 const GO_THROUGH: u32 = 0o1;
 
-/// Path that denies a user who owns nothing access to `path`: the path itself or a folder above it. `None` if nothing denies it or `path`
-/// does not exist.
+/// Entry that denies other users access to `path`: `path` itself or a folder above it. `None` if access is allowed or `path` does not exist.
 pub(crate) fn closed_by(path: &Path) -> Option<PathBuf> {
     let real = std::fs::canonicalize(path).ok()?;
     let mode = |path: &Path| path.metadata().ok().map(|metadata| metadata.mode());

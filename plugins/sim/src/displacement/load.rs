@@ -15,7 +15,7 @@ pub struct Load {
     pub young_modulus_mpa: f64,
     /// Force along the normal, positive into the gel.
     pub normal_force_n: f64,
-    /// Force along the surface, by the ball on the gel.
+    /// Shear force of the ball on the gel, x and y.
     pub shear_force_n: [f64; 2],
 }
 

@@ -24,7 +24,7 @@ pub enum OpticsError {
         native_height: u32,
     },
     /// The buffer does not match the frames of the camera.
-    #[error("a buffer for {found}: this camera gives {expected}")]
+    #[error("the buffer is for {found}, but this camera gives {expected}")]
     Frame {
         /// Frame of the buffer.
         found: FrameInfo,

@@ -30,12 +30,12 @@ impl<R: BufRead> Interview<R> {
         }
     }
 
-    /// Returns true if nothing is asked.
+    /// True if defaults replace all questions.
     pub(super) fn takes_defaults(&self) -> bool {
         self.takes_defaults
     }
 
-    /// The answer to `question` that `check` accepts; an empty line is the default. A refused answer is asked for again.
+    /// Asks `question` until `check` accepts the answer. An empty line selects the default.
     ///
     /// # Errors
     /// [`Usage`] if answers end, or if `--yes` meets a question without default.

@@ -97,7 +97,7 @@ pub(super) fn checked(
 /// Unpacks a file of `taceva plugin pack` beside the plugins of the user, where no search looks.
 fn unpack(file: &Path, user: &Path) -> anyhow::Result<TemporaryFolder> {
     let named = || shown(file).to_string();
-    // Asked before opening: opening a pipe would wait for whoever writes into it.
+    // Checked before opening, because opening a pipe would wait for a writer.
     if !fs::metadata(file).with_context(named)?.is_file() {
         bail!(
             "{}: expected a folder, or a file that `taceva plugin pack` wrote",

@@ -125,7 +125,7 @@ impl SweepScene {
         }
         let presses = self.presses();
         let time = match SceneTime::estimate(folder, presses) {
-            Some(time) => format!("about {} before any task", spoken(time)),
+            Some(time) => format!("about {}, before the first task", spoken(time)),
             None => {
                 let studies = self.planned.studies.iter();
                 let minutes: f64 = studies.map(|study| study.plan.cost.minutes).sum();

@@ -10,7 +10,7 @@
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct LightingFacts {
-    /// The names of its scenes, the one of the calibration first.
+    /// Names of its scenes, that of the calibration first.
     pub scenes: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Models in the race.
+//! Candidates of an automatic model choice, with their results.
 
 use super::candidates::Candidate;
 use super::excess::{Excess, mean};
@@ -15,7 +15,7 @@ pub(super) struct Entrant {
     pub(super) spent_s: f64,
     /// Completed share of its training. `None` if all.
     pub(super) share: Option<f64>,
-    /// Reason for leaving the race. `None` while it takes part.
+    /// Reason for its removal. `None` while it is a candidate.
     pub(super) left: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Further folds, as far as the choice needs them, and the choice.
+//! Choice of the model, after further folds if needed.
 
 use taceva_core::ModelError;
 
@@ -47,7 +47,7 @@ impl Race<'_> {
         let is_behind = GRANTED * look.loss(1) > best.loss(1);
         let left = is_behind.then(|| {
             let best = best.name();
-            format!("with half of its squared error it would still be behind {best}")
+            format!("worse than {best} even with half of its squared error")
         });
         let is_over = is_behind || self.network_leads();
         self.network[0].left = left;
@@ -105,8 +105,8 @@ impl Race<'_> {
         }
     }
 
-    /// Removes models that the best is clearly ahead of, and models no better than one with a tenth of their work. The baseline stays:
-    /// it costs nothing, and only better models replace it.
+    /// Removes models that are clearly worse than the best, and models no better than one with a tenth of their work. Keeps the baseline, which costs
+    /// nothing.
     fn thin_out(&mut self) {
         let Some(best) = self.best() else {
             return;
@@ -155,7 +155,7 @@ impl Race<'_> {
         if let (Some(taken), Some(network)) = (taken, self.network.last_mut()) {
             let ahead = || {
                 let taken = taken.info.name;
-                format!("not ahead of {taken} by more than chance and 5 % of its squared error")
+                format!("not better than {taken} by more than chance and 5 % of its squared error")
             };
             network.left.get_or_insert_with(ahead);
         }

@@ -117,8 +117,7 @@ impl Preparation {
         })
     }
 
-    /// Settings for signals. Mean and contrast of a picture say little about a touch, but those of taxels are the touch, and a shifted
-    /// taxel is another taxel. Signals are therefore changed only as far as the user asks.
+    /// Settings for signals. Mean, contrast and position of taxels are the touch itself, so signals are changed only on request.
     pub(super) fn of_signals(self) -> Preparation {
         Preparation {
             of_signals: true,

@@ -41,7 +41,7 @@ const SETS: &[Set] = &[
     set!("Wampler5", Some(5), true, 9.0),
 ];
 
-/// Rows of a file, which begin on line 61.
+/// Data rows of a file, from line 61.
 fn rows(text: &str) -> Vec<Vec<f64>> {
     let lines = text.lines().skip(60).map(str::split_whitespace);
     let rows = lines.map(|words| words.map(|word| word.parse().expect("a number")).collect());

@@ -102,7 +102,7 @@ impl fmt::Display for AutoCard {
         let spent: f64 = self.tried.iter().map(|trial| trial.cost_s).sum();
         write!(
             f,
-            "; trying took {spent:.1} s of work of {} s",
+            "; trials took {spent:.1} s of work of a budget of {} s",
             self.budget_s
         )?;
         for (position, other) in self.untried.iter().enumerate() {

@@ -30,7 +30,7 @@ pub struct Feature {
     pub names: Vec<String>,
     /// Frame rate of a video, 1/s: its own if stated, else that of the dataset; 0 for other features if the dataset states none.
     pub fps: f64,
-    /// True for a depth map: 12-bit codes, which are no brightness.
+    /// True for a depth map, whose 12-bit codes are not brightness.
     pub is_depth: bool,
     /// The distances of its codes; `None` if the feature does not state them, or is no depth map.
     pub depth: Option<DepthCodes>,

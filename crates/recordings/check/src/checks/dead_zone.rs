@@ -74,7 +74,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![Found::about(Severity::Warning, message, names)]
 }
 
-/// The value below which one in `parts` of `numbers` lies; 0 for no numbers.
+/// Quantile 1 / `parts` of `numbers`; 0 if there are none.
 fn ranked(numbers: impl Iterator<Item = f64>, parts: usize) -> f64 {
     let mut sorted: Vec<f64> = numbers.collect();
     sorted.sort_by(f64::total_cmp);

@@ -62,8 +62,8 @@ struct Outliers {
     next: f64,
 }
 
-/// Outliers above Tukey's outer fence and above a gap wider than the interquartile range and than [`GAP`] times the tail below it. If most
-/// presses have no shear and a few have much, the range is narrow and the tail long, and no label is far from the others.
+/// Outliers above Tukey's outer fence and above a gap. The gap must exceed the interquartile range, and [`GAP`] times the tail below it. The second
+/// condition accepts long tails, such as a few presses with much shear.
 fn above(mut values: Vec<(f64, usize)>) -> Option<Outliers> {
     if values.len() < LEAST {
         return None;

@@ -127,7 +127,9 @@ impl Footprint {
         let is_length = |length: &f64| length.is_finite() && *length > 0.0;
         side.or_else(|| {
             let wrong = lengths.iter().flatten().find(|length| !is_length(length))?;
-            Some(format!("{wrong} mm is no length of a footprint"))
+            Some(format!(
+                "{wrong} mm is not a length of a footprint, expected a finite number above 0"
+            ))
         })
     }
 }

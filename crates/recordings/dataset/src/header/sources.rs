@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::digest::Digest;
 
-/// The list of digests that stands beside the table, as `sha256sum` writes it: a line a file that an import read.
+/// List of digests in the dataset, in the form of `sha256sum`: a line for each file that an import read.
 ///
 /// ```
 /// use taceva_dataset::{Digest, SourcesInfo};

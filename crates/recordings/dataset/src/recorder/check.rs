@@ -61,7 +61,7 @@ impl Recorder {
             let (found, from) = (frame.info(), reduced.from);
             let eight_bits = from.format.of_eight_bits().name();
             return refused(format!(
-                "a frame of {found}, expected one that was reduced from {from}: no larger, and {eight_bits}"
+                "a frame of {found}, expected one reduced from {from}: of at most that size, as {eight_bits}"
             ));
         }
         match self.frame_info {

@@ -237,7 +237,7 @@ impl WrittenSample {
             .keys()
             .find(|name| channels.position(name).is_none());
         if let Some(name) = stranger {
-            return Err(format!("`{name}` is no channel of this recording"));
+            return Err(format!("`{name}` is not a channel of this recording"));
         }
         if self
             .truth

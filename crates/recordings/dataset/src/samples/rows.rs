@@ -45,7 +45,7 @@ impl Columns {
             None => Ok(None),
             Some(Stored::Number(cells)) => match cells[row] {
                 Some(number) if !is_scorable(number) => Err(format!(
-                    "column `{name}`, row {row}: {number:e} is no finite number up to {MAGNITUDE_MAX:.3e}"
+                    "column `{name}`, row {row}: {number:e} is not a finite number up to {MAGNITUDE_MAX:.3e}"
                 )),
                 cell => Ok(cell),
             },

@@ -84,7 +84,7 @@ impl SignalsSpec {
         for (position, name) in self.channels.iter().enumerate() {
             if Channel::named(name, Unit::One).is_err() {
                 return Err(format!(
-                    "`{}` is no name of a column",
+                    "`{}` is not a valid column name",
                     crate::text::shown(name)
                 ));
             }

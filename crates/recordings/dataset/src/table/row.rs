@@ -54,7 +54,7 @@ impl FrameEntry {
         self.path == path && self.span.is_some_and(|span| span.offset == 0)
     }
 
-    /// Location in the form of tables and journals: a path, and after that of a pack the bytes.
+    /// Location as stored in tables and journals: the path, and for a pack also the byte range.
     pub(crate) fn place(&self) -> Cow<'_, str> {
         match self.span {
             Some(span) => format!("{}{span}", self.path).into(),

@@ -132,8 +132,8 @@ fn eight_digits(digits: u64) -> u64 {
     fours.wrapping_mul((10_000 << 32) + 1) >> 32
 }
 
-/// Finite number in `cell`, converted to the unit it is kept in; `None` if the cell is empty. The error says why there is none. Where the
-/// factor between the units is a power of ten, the decimal point is moved before parsing.
+/// Finite number in `cell`, converted to the stored unit; `None` if the cell is empty. The error is a message. If the factor is a power of ten, the
+/// decimal point is moved before parsing.
 pub(crate) fn number_in_unit(cell: &str, unit: &SourceUnit) -> Result<Option<f64>, String> {
     let Some(number) = number(cell)? else {
         return Ok(None);
@@ -147,7 +147,7 @@ pub(crate) fn number_in_unit(cell: &str, unit: &SourceUnit) -> Result<Option<f64
     }
 }
 
-/// The finite number in `cell`, `None` if the cell is empty; the error says why there is none.
+/// Finite number in `cell`; `None` if the cell is empty. The error is a message.
 pub(crate) fn number(cell: &str) -> Result<Option<f64>, String> {
     parse_number(cell, 0..cell.len()).ok_or_else(|| not_a_number(cell))
 }

@@ -10,7 +10,7 @@ pub(crate) struct TextForm {
     pub(crate) has_header: bool,
     /// Decimal mark.
     pub(crate) decimal: char,
-    /// Separator of groups of three digits; `None` if the map is silent, empty if it says that there is none.
+    /// Separator of groups of three digits; `None` if the map does not set it, empty for no grouping.
     pub(crate) thousands: Option<String>,
     /// Mark that begins comment lines.
     pub(crate) comment: Option<String>,
@@ -99,7 +99,7 @@ impl TextForm {
                 sign => format!(" and `{sign}` between groups of three digits"),
             };
             return Err(format!(
-                "is no number with the decimal sign `{}`{groups}, which the map states for this table",
+                "is not a number with the decimal sign `{}`{groups}, as set in the map for this table",
                 self.decimal
             ));
         }

@@ -30,7 +30,7 @@ pub(super) fn known_layout(preset: &str) -> String {
 /// Comment on an array that is beside pictures but not a table of them.
 pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
     format!(
-        "{} ({} rows) is no table of the pictures: if it is the picture without contact, save it as PNG and name it as `reference`.",
+        "{} ({} rows) does not describe the pictures: if it is the picture without contact, save it as PNG and name it as `reference`.",
         table.group.pattern(),
         table.rows
     )

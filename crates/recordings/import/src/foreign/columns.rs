@@ -134,11 +134,11 @@ struct ReadColumns {
     bytes: usize,
 }
 
-/// Bytes of cells that a small file may become, and above that so many times what it has.
+/// Maximum memory of the cells of a file, bytes: this number, or this many times the file size if that is more.
 const CELL_BYTES: u64 = 128 << 20;
 const CELL_RATIO: u64 = 64;
 
-/// Bytes that the cells of the file at `path` may take; of a folder any number.
+/// Maximum memory of the cells of the file at `path`, bytes; unlimited for a folder.
 fn most_bytes(path: &Path) -> usize {
     let file = std::fs::metadata(path)
         .ok()

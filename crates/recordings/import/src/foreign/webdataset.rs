@@ -60,7 +60,7 @@ impl Shard {
         };
         let text = String::from_utf8(self.bytes(*place, TEXT_BYTES)?);
         text.map(Some)
-            .map_err(|_| format!("`{}.{name}` is no text of Unicode", sample.key))
+            .map_err(|_| format!("`{}.{name}` is not UTF-8 text", sample.key))
     }
 
     /// JSON of a sample in the field `field`.

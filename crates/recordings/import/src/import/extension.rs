@@ -117,7 +117,7 @@ impl ImportPlan {
             sources: SourcesInfo::of(&sources),
         };
         let header = write_header(&staged, &before, &table, written, &self, added)?;
-        // Nobody reads the predecessor on our behalf any more: it is removed with its names, and not set aside.
+        // The old version is closed, so it is removed at once.
         drop(before);
         staged.put_in_place(&folders.into_iter().collect::<Vec<_>>())?;
         Ok(ImportReport {
@@ -129,7 +129,7 @@ impl ImportPlan {
         })
     }
 
-    /// The list of files of the dataset, and behind it that of the folder whose rows are added.
+    /// List of source files of the dataset, followed by that of the folder whose rows are added.
     fn sources(
         &self,
         before: &Dataset,
@@ -144,7 +144,7 @@ impl ImportPlan {
         Ok(list)
     }
 
-    /// Refuses rows whose header would contradict that of `before`; `frames` are those of the rows, where they are known.
+    /// Rejects rows whose header would contradict that of `before`. `frames` are the frames of the rows, if known.
     fn check_alike(
         &self,
         before: &Dataset,

@@ -53,7 +53,7 @@ pub struct ImportPlan {
     pub(super) mapping: Mapping,
     /// True if samples are named by row number, because the map names no column for it.
     pub(super) is_numbered: bool,
-    /// The folder, which knows what was read in it.
+    /// Source folder, which records the files read from it.
     pub(super) folder: SourceFolder,
 }
 

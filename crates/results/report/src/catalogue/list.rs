@@ -179,7 +179,7 @@ pub fn details(sensor: &Sensor) -> Table {
     for word in ["yes", "partial", "no"] {
         let names = of(word);
         if !names.is_empty() {
-            table.note(format!("Reported by the work itself, {word}: {names}."));
+            table.note(format!("Reported in the publication ({word}): {names}."));
         }
     }
     for source in &sensor.sources {

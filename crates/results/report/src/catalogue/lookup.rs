@@ -4,7 +4,7 @@ use super::entry::Sensor;
 use super::{all, hint};
 use crate::names::listed;
 
-/// The reason why a name stands for no entry of the catalogue.
+/// Reason that a name identifies no entry of the catalogue.
 ///
 /// ```
 /// use taceva_report::catalogue::{NameError, named};
@@ -20,7 +20,7 @@ pub enum NameError {
         hint: String,
     },
     /// Several entries have the alias.
-    #[error("a name of several entries of the catalogue: {}; give one of these names", quoted(.names))]
+    #[error("several entries of the catalogue have this alias: {}; give one of these names", quoted(.names))]
     Ambiguous {
         /// The names of these entries.
         names: Vec<String>,
@@ -88,7 +88,7 @@ mod tests {
         let error = of(two(), "GEL").expect_err("two entries have it");
         assert_eq!(
             error.to_string(),
-            "a name of several entries of the catalogue: `Gel 1` and `Gel 2`; give one of these names"
+            "several entries of the catalogue have this alias: `Gel 1` and `Gel 2`; give one of these names"
         );
     }
 

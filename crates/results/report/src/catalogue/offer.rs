@@ -80,7 +80,7 @@ pub struct Availability {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
-    /// Sold by somebody.
+    /// Ready to buy.
     Bought,
     /// Made at home, by published drawings or instructions.
     Built,

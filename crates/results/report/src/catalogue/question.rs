@@ -1,4 +1,4 @@
-//! Questions of whoever looks for a sensor, and which of them an entry answers.
+//! Questions of a reader who chooses a sensor, and the answers in an entry.
 
 use super::entry::Sensor;
 

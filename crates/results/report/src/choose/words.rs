@@ -104,8 +104,7 @@ pub(super) struct Quantity {
     pub(super) name: &'static str,
     pub(super) unit: &'static str,
     pub(super) property: Property,
-    /// True if the number of the sensor must be at least that of the need, whatever the wording. For example, a press of up to 1 N requires
-    /// a sensor that withstands 1 N.
+    /// True if the sensor needs at least this number, even if the need says "up to". A press of up to 1 N requires a sensor that withstands 1 N.
     pub(super) is_reach: bool,
 }
 

@@ -137,7 +137,7 @@ impl Comparison {
         let others = others.iter().filter(|(count, ..)| *count > 0);
         let others = others.map(|(count, one, more)| format!(", {}", number(*count, one, more)));
         let others: String = others.collect();
-        format!("{pairs} of scores: {shown}{others}{why} (5 %, by Holm over each metric)")
+        format!("{pairs} of scores: {shown}{others}{why} (5 %, Holm-corrected per metric)")
     }
 
     /// First questions with their answers, in at most [`OVERVIEW_LINES`] lines. With a `width`, lines are wrapped between words to that many

@@ -60,7 +60,7 @@ struct Errors<'a> {
 }
 
 impl<'a> Errors<'a> {
-    /// Errors behind `score`, or the reason that they are unknown.
+    /// Prediction errors of the samples of `score`, or the reason that they are unknown.
     fn of(study: &'a Study, score: &Score) -> Result<Errors<'a>, &'static str> {
         let samples = study
             .samples

@@ -37,8 +37,8 @@ pub fn ties(studies: &[Study]) -> Vec<String> {
 }
 
 impl Tie {
-    /// Studies among `others` that the tied ones are not significantly better than, by `answers` about this score: `; neither is shown to
-    /// be better than MagicTac and ViTacTip`.
+    /// Clause on studies that the tied ones do not beat, by `answers` about this score. Example: `; neither is shown to be better than MagicTac and
+    /// ViTacTip`.
     pub(crate) fn unbeaten(
         &self,
         answers: &[&Answer],

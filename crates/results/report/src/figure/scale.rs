@@ -30,7 +30,7 @@ impl Scale {
         }
     }
 
-    /// A straight scale with a little room beyond both values, so that no mark lies on an edge.
+    /// Linear scale with a margin beyond both values, so that no mark lies on an edge.
     pub(crate) fn padded(values: [f64; 2], places: [f64; 2]) -> Scale {
         let [low, high] = widened(values);
         let beyond = (high - low) * BEYOND;

@@ -1,18 +1,18 @@
-//! The size and the letters of figures, as a page of a paper asks for them.
+//! Size and lettering of figures for print.
 
 use super::Figure;
 use super::canvas::{Mark, Print};
 
 /// Letters of most labels, in units of a canvas.
 const LETTERS: f64 = 11.0;
-/// Size of letters where only a width is asked for, in points.
+/// Letter size if only a width is set, points.
 const USUAL_PT: f64 = 8.0;
 /// Points in a millimetre.
 pub(super) const PT_PER_MM: f64 = 72.0 / 25.4;
 /// Largest factor by which letters grow if a drawing is wider than its place.
 const MOST_GROWN: f64 = 1.3;
 
-/// Size and letters of figures for print; figures are as they are drawn for a screen where nothing is set.
+/// Size and lettering of figures for print. Unset fields keep the form for a screen.
 ///
 /// ```
 /// use taceva_report::{FigureStyle, figures_for};
@@ -23,25 +23,26 @@ const MOST_GROWN: f64 = 1.3;
 pub struct FigureStyle {
     /// The width of each figure, mm.
     pub width_mm: Option<f64>,
-    /// The size of most letters, points (1/72 in); 8 where only a width is set. Larger where a panel has no room to become narrower.
+    /// Size of most letters, points (1/72 in); 8 if only a width is set. Larger in drawings narrower than the page, smaller in drawings more than 1.3
+    /// times too wide.
     pub letters_pt: Option<f64>,
-    /// The family of fonts that SVG asks for first. PDF embeds Arimo, which is as wide as Arial and Helvetica.
+    /// Preferred font family of SVG. PDF embeds Arimo, which has the widths of Arial and Helvetica.
     pub font: Option<String>,
 }
 
 impl FigureStyle {
-    /// The width of a canvas whose letters have the wanted size in print; `None` where no width is set.
+    /// Canvas width at which letters have the requested size in print; `None` if no width is set.
     pub(crate) fn room(&self) -> Option<f64> {
         let letters = self.letters_pt.unwrap_or(USUAL_PT);
         self.width_mm
             .map(|width| width * PT_PER_MM * LETTERS / letters)
     }
 
-    /// `figure` in this style: it has its width, and letters that are not smaller than asked for as far as there is room.
+    /// Applies this style to `figure`. Letters grow by at most [`MOST_GROWN`] to reach the requested size.
     pub(crate) fn apply(&self, mut figure: Figure) -> Figure {
         let grown = match self.room() {
             Some(room) => (figure.canvas.width / room).clamp(1.0, MOST_GROWN),
-            // Letters alone are asked for: a unit of the canvas is a point.
+            // Only a letter size is set: a unit of the canvas is a point.
             None => self.letters_pt.map_or(1.0, |letters| letters / LETTERS),
         };
         for mark in &mut figure.canvas.marks {

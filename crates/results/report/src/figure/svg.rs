@@ -61,7 +61,7 @@ pub(super) fn write(figure: &Figure, alone: bool) -> String {
     out
 }
 
-/// The rule that names the font that was asked for before the others.
+/// CSS rule that puts the requested font first; empty without one.
 fn font(figure: &Figure) -> String {
     let plain = |letter: &char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.');
     match &figure.canvas.print.font {

@@ -3,7 +3,7 @@
 use crate::figure::Figure;
 use crate::results::Study;
 
-/// A figure, the metric whose curve or map it shows, and what it needs; without a metric, samples.
+/// Figures: id, metric whose curve or map is drawn (empty for samples), and required data.
 const NEEDS: [(&str, &str, &str); 15] = [
     (
         "labels",
@@ -82,9 +82,9 @@ const NEEDS: [(&str, &str, &str); 15] = [
     ),
 ];
 
-/// The figures of the list that are not among `drawn`: the name of each, and what is missing.
+/// Known figures that are not among `drawn`, each with its id and the missing data.
 ///
-/// The reason is that of the skipped metric where the results state one.
+/// If the results state why the metric was skipped, this reason replaces the missing data.
 pub fn undrawn(studies: &[Study], drawn: &[Figure]) -> Vec<(String, String)> {
     let absent = NEEDS
         .into_iter()

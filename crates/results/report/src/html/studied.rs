@@ -71,7 +71,7 @@ pub(super) fn points(study: &Study) -> Option<usize> {
     (!points.is_empty()).then_some(points.len())
 }
 
-/// A count above zero; `None` for zero.
+/// `count`, or `None` if it is zero.
 pub(super) fn whole(count: u64) -> Option<usize> {
     usize::try_from(count).ok().filter(|count| *count > 0)
 }

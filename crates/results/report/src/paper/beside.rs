@@ -6,7 +6,7 @@ use crate::results::Study;
 use crate::scores::ScoreTable;
 use crate::table::{Cell, Estimate};
 
-/// Beside a value that takes no part in verdicts.
+/// Mark of a value that is excluded from verdicts.
 pub(super) const BARRED: &str = "†";
 
 /// The way in which a table of the study prints numbers.

@@ -7,7 +7,7 @@ use crate::scores::ScoreTable;
 use crate::table::{Align, Cell, Column, Row, Table, Words, latex_symbol};
 use taceva_metrics::Better;
 
-/// A table of the study, or what it needs.
+/// Table of the study, or the data that it lacks.
 pub(super) struct Made {
     pub(super) number: usize,
     pub(super) table: Option<Table>,

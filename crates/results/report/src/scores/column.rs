@@ -14,10 +14,10 @@ use crate::table::{COLUMN_PT, GAP_PT, letters_pt};
 
 /// Rows of one table: with its intervals it fills half a page.
 const MOST_ROWS: usize = 18;
-/// The widest name of a row, and of the head of a column, in points of TeX.
+/// Maximum width of a row name, and of a column head, in TeX points.
 const NAME_PT: f64 = 76.0;
 const HEAD_PT: f64 = 47.5;
-/// Sizes of letters of values, and of intervals and heads.
+/// Font sizes, points: of values, and of intervals and heads.
 const VALUE_SIZE: f64 = 8.0;
 const SMALL_SIZE: f64 = 7.0;
 
@@ -28,7 +28,7 @@ struct Line<'a> {
     name: Words,
     name_pt: f64,
     cells: Vec<Option<&'a ScoreCell>>,
-    /// The numbers of samples, where they stand in a column.
+    /// Number of samples, if it is shown in a column.
     n: Option<String>,
 }
 
@@ -38,15 +38,14 @@ struct Sheet<'a> {
     lines: Vec<Line<'a>>,
     /// True if each line has its number of samples in a last column.
     has_n: bool,
-    /// The numbers of samples behind each column, where they stand in a last row.
+    /// Numbers of samples of the columns, if they are shown in a last row.
     counts: Option<Vec<String>>,
 }
 
 impl ScoreTable {
     /// The main scores as tables with intervals below the values, each as wide as a column of a paper.
     ///
-    /// One study has a row for each channel, several have a column for each study. Columns and rows that one table has no room for stand in
-    /// further tables.
+    /// One study has a row for each channel; several have a column for each study. Columns and rows that do not fit go to further tables.
     pub fn for_column(&self, caption: &str) -> Vec<Table> {
         let main = self.main();
         let sheet = match main.names.len() == 1 && main.is_of_accuracy() {
@@ -180,7 +179,7 @@ impl ScoreTable {
 }
 
 impl ScoreRow {
-    /// The channel with its unit; the metric stands above it in LaTeX, and before it elsewhere.
+    /// Channel with its unit. LaTeX shows the metric above it, other formats before it.
     pub(super) fn named(&self, channel: &Words) -> Words {
         let plain = format!("{} {}", self.metric, channel.plain());
         let plain = Better::of(&self.metric).map_or(plain.clone(), |better| better.beside(&plain));

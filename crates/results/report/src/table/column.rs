@@ -20,7 +20,7 @@ pub struct Column {
 /// Better direction of numbers; a sign for readers, a word for programs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
-    /// The cells are no scores.
+    /// The cells are not scores.
     #[default]
     None,
     /// Same direction for the whole column: a sign in the head for readers; programs know the column by its name.

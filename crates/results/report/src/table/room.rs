@@ -1,22 +1,22 @@
-//! The room that words take in a column of a paper, and words that break where it ends.
+//! Width of text in a column of a paper, and line breaks that fit it.
 
 use crate::escape::{LETTER, is_set_everywhere, latex as escape};
 
-/// The width of a column of a page of two columns, as IEEE sets them: 3.5 in, in points of TeX, with a little to spare.
+/// Column width of a two-column IEEE page: 3.5 in, in TeX points, less a small margin.
 pub(crate) const COLUMN_PT: f64 = 249.0;
-/// Letters of a word that stays in one piece where words may break, and of the pieces of a longer one.
+/// Letters of the longest unbroken word, and of the pieces of a longer one.
 const WHOLE: usize = 14;
 const PIECE: usize = 4;
 
 /// The gap between two columns of a table, in points.
 pub(crate) const GAP_PT: f64 = 4.0;
 
-/// About how wide words are in the widest font that papers begin with, Computer Modern, at a size of `size_pt`.
+/// Approximate width of `words` in points, at `size_pt` in Computer Modern, the widest default font of papers.
 pub(crate) fn letters_pt(words: &str, size_pt: f64) -> f64 {
     words.chars().map(em).sum::<f64>() * size_pt
 }
 
-/// The width of a letter as a part of the size of the font.
+/// Width of a letter, as a fraction of the font size.
 fn em(letter: char) -> f64 {
     match letter {
         'i' | 'j' | 'l' | 'f' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' | '[' | ']' | '('
@@ -37,7 +37,7 @@ fn em(letter: char) -> f64 {
     }
 }
 
-/// Words in LaTeX that break between their letters where a word is long, and behind every letter that may be set as its code point.
+/// LaTeX text with breaks allowed inside long words, and after letters that may be printed as code points.
 pub(super) fn breakable(text: &str) -> String {
     let mut out = String::new();
     for (at, word) in text.split(' ').enumerate() {
@@ -60,7 +60,7 @@ pub(super) fn breakable(text: &str) -> String {
     out
 }
 
-/// Words in LaTeX on as many lines as `width_pt` asks for, to the side `l` or `r`: broken behind a space or a joint, else between letters.
+/// LaTeX text in lines of about `width_pt`, aligned to `side` (`l` or `r`). Breaks after a space or joint, else between letters.
 pub(crate) fn stacked(words: &str, width_pt: f64, size_pt: f64, side: char) -> String {
     let mut lines: Vec<String> = vec![String::new()];
     for piece in pieces(words, width_pt, size_pt) {

@@ -79,7 +79,7 @@ fn a_winner_of_two_names_the_other_one() {
         );
         assert_eq!(
             comparison.summary(),
-            "1 pair of scores: 1 differs (5 %, by Holm over each metric)"
+            "1 pair of scores: 1 differs (5 %, Holm-corrected per metric)"
         );
         let overview = comparison.overview(None);
         let line = "\nNormal force (mae Fz ↓): Fine, 0.25 N, better than Coarse (p < 0.001)\n";

@@ -22,8 +22,8 @@ use taceva_protocol::{Cancel, Enabling, Observation, RigLimits, SharedSupervisor
 use crate::viewer::Viewer;
 use mailbox::Mailbox;
 
-/// Interval between readings of the robot, each of which waits for the next report. It is below the 10 ms between reports of an arm, of
-/// which every second would be missed otherwise. A frozen signal takes eight readings, each after a motion.
+/// Interval between readings of the robot, each of which waits for the next report. With 10 ms, the period of an arm, every second report would be
+/// missed. Detecting a frozen signal takes eight readings, each after a motion.
 const LOOK: Duration = Duration::from_millis(5);
 /// Deadline of one pose.
 const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));

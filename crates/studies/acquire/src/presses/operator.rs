@@ -167,7 +167,7 @@ impl PlannedStudy {
         }
     }
 
-    /// True if neither a light nor the sensor of the rig sets its light.
+    /// True if the operator sets the light: the rig has no lighting, and its sensor has no scenes.
     fn is_lit_by_hand(&self, drivers: &Drivers) -> bool {
         let StudySource::Rig(rig) = &self.source else {
             return false;
@@ -243,7 +243,7 @@ pub(super) fn unit_is_there(
     }
 }
 
-/// Error of a changer that did not put a unit in place, without an operator.
+/// Error if a changer did not put a unit in place and there is no operator.
 fn unchanged(plan: &Plan, error: OpenError) -> AcquireError {
     match error {
         OpenError::Device(error) => acquisition(plan, StopCause::Device(error)),

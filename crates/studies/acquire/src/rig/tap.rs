@@ -35,7 +35,7 @@ indentations = 1
 pub struct RigTap {
     /// Number of taps.
     pub taps: usize,
-    /// Latencies of robot, transducer and sensor before, in ms: those of the rig file, or those stated by the drivers.
+    /// Previous latencies of robot, transducer and sensor, ms: from the rig file, or else from the drivers.
     pub before_ms: [f64; 3],
     /// Remaining delay of the transducer behind the robot.
     pub force: Latency,

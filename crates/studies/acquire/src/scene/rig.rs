@@ -189,8 +189,8 @@ pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), Scen
     scene.check_drivers(&known)
 }
 
-/// Rejects an `enable` that names no enabling switch, with the line of the rig file; opens nothing. A rig with a robot simulated in this
-/// program is rejected too: nobody can hold a switch in simulated time.
+/// Rejects an `enable` that does not name an enabling switch, with the line of the rig file. Also rejects a simulated robot: no switch can be held in
+/// simulated time. Opens nothing.
 pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     let Some(operator) = &rig.operator else {
         return Ok(());
@@ -213,8 +213,8 @@ pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), Scene
     Ok(())
 }
 
-/// Rejects a changer of `rig`, with the line of the rig file, if it is no changer or holds nothing. With a robot simulated in this program
-/// every changer is rejected, since its bench makes all changes. Opens nothing.
+/// Rejects an invalid or empty changer of `rig`, with the line of the rig file. Rejects every changer if the robot is simulated, because its bench
+/// makes all changes. Opens nothing.
 pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     let folder = Path::new(rig.name()).parent().unwrap_or(Path::new(""));
     let spec = RigSpec::of_file(rig, folder);
@@ -232,7 +232,7 @@ pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), Sce
         let holds = spec.held_by(drivers, Some(changer)).map_err(refused)?;
         if holds.is_none_or(|holds| holds.is_empty()) {
             return Err(contradiction(format!(
-                "`{key}`: with these arguments `{}` holds nothing",
+                "`{key}`: `{}` holds no items with these arguments",
                 taceva_core::shown(&changer.value)
             )));
         }

@@ -11,7 +11,7 @@ pub(crate) enum Sight {
 }
 
 impl Sight {
-    /// The frames or the signals of `dataset` that `spec` needs, or the name of what the dataset lacks.
+    /// Frames or signals of `dataset` that `spec` needs, or the name of the missing input.
     ///
     /// # Errors
     /// Errors of reading the input without contact.

@@ -23,8 +23,8 @@ pub(crate) struct Blocks {
 }
 
 impl Blocks {
-    /// Blocks of `rows` of `dataset`, each at least twice as long as samples resemble each other, as far as their number allows; `None` if
-    /// there are too few samples. Added rows form their own blocks, so that earlier blocks do not change.
+    /// Blocks of `rows` of `dataset`, if possible at least twice as long as samples resemble each other; `None` if there are too few samples. Added
+    /// rows form their own blocks, so that earlier blocks do not change.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Option<Blocks> {
         if rows.len() < BLOCKS[0] {
             return None;
@@ -48,7 +48,7 @@ impl Blocks {
         Some(Blocks::one_after_the_other(sections.collect()))
     }
 
-    /// Joins the blocks of consecutive sections, which are no neighbours.
+    /// Joins the blocks of consecutive sections. Sections are not neighbours of each other.
     fn one_after_the_other(sections: Vec<NumberedBlocks>) -> Blocks {
         let gap = sections.iter().map(|own| own.gap).max().unwrap_or(0);
         let mut all = Blocks {

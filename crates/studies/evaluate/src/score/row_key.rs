@@ -19,9 +19,9 @@ pub(super) const KEY_NAMES: [&str; 5] = ["sample", "id", "sample_id", "index", "
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RowKey {
-    /// The first row with the first, whatever the rows are called.
+    /// Pairs rows by position and ignores their names.
     Order,
-    /// The rows with the same word in the column of this name.
+    /// Pairs rows with equal cells in the column of this name.
     Column(String),
 }
 

@@ -15,8 +15,8 @@ pub struct Signals {
     pub force_noise_n: f64,
     /// Greatest age of a reading that counts as current, in s.
     pub stale_s: f64,
-    /// True if readings equal to the last bit after a motion mean a frozen signal, whatever their sequence numbers. False if the steps of
-    /// the transducer are as coarse as its noise; then only a repeated sequence number does.
+    /// True if bit-equal readings after a motion mean a frozen signal, even with new sequence numbers. False if the steps of the transducer are as
+    /// coarse as its noise. Then only a repeated sequence number means a frozen signal.
     pub equality_is_frozen: bool,
     /// True if the host zeroes the force by a mean over a quarter of a second. The zero of the transducer is then set once a session.
     pub host_zero: bool,

@@ -62,8 +62,7 @@ impl RigLatencies {
 }
 
 impl RigFile {
-    /// Text of the file with `latencies`; all else keeps its form. `None` if a device is missing, or if its table has no room for a line
-    /// behind the driver.
+    /// Text of the file with `latencies`, otherwise unchanged. `None` if a device is missing, or its table has no room for a line after `driver`.
     pub fn with_latencies(&self, latencies: &RigLatencies) -> Option<String> {
         let (force, sensor) = (self.force.as_ref()?, self.sensor.as_ref()?);
         let mut written = vec![

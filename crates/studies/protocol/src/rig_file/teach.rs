@@ -157,7 +157,7 @@ fn way(from: &Pose, to: &Pose, axis: char) -> Result<((usize, f64), f64), TeachE
 }
 
 impl RigFile {
-    /// Text of the file with the origin and axes of `taught`; all else keeps its form. `None` if the file has no robot.
+    /// Text of the file with the origin and axes of `taught`, otherwise unchanged. `None` if the file has no robot.
     pub fn with_taught(&self, taught: &Taught) -> Option<String> {
         let robot = self.robot.as_ref()?;
         let text = self.text.whole();

@@ -34,7 +34,7 @@ pub enum Event {
         /// Height of the contact in the sensor's frame, positive into the gel.
         height: Millimetre,
     },
-    /// A frame was unusable; the sensor is asked again.
+    /// A frame was unusable. Another one is captured.
     FrameRetried,
     /// A sample was taken.
     Sampled {

@@ -40,11 +40,10 @@ pub struct PressRecord {
     pub press: ContentId,
     /// Outcome.
     pub outcome: PressOutcome,
-    /// Samples in order, called `<press>/<number>` by the number of the waypoint or picture. Waypoints that a limited press skipped have
-    /// none.
+    /// Samples in order, named `<press>/<number>` by waypoint or picture. Waypoints that a limited press skipped have no sample.
     ///
-    /// Truth holds the channels of the plan, in its order. `Pz` is the depth from the first contact. `surface_z` is the height in the
-    /// sensor's frame at which a surface was felt, positive into the gel. A press gives one of the two. Samples that a limit kept from
-    /// their waypoint name the limit and have no `depth_step`.
+    /// Truth holds the channels of the plan, in its order. `Pz` is the depth from the first contact. `surface_z` is the height of the felt surface in
+    /// the sensor's frame, positive into the gel. A press gives one of the two. A sample that a limit stopped before its waypoint names the limit and
+    /// has no `depth_step`.
     pub samples: Vec<Sample>,
 }

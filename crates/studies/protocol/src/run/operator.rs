@@ -11,7 +11,7 @@ pub trait Operator {
     /// Asks `question` and waits for the answer; returns [`Answer::Stop`] soon after `cancel` was cancelled.
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer;
 
-    /// Asks for a held enabling switch before anything moves, for `patience_s` at most; returns at once. Does nothing without a display.
+    /// Displays that the enabling switch must be held, for which the run waits `patience_s` at most. Returns at once. Does nothing by default.
     fn call_to_hold(&mut self, _patience_s: f64) {}
 }
 

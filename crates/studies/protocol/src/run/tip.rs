@@ -22,7 +22,7 @@ use crate::plan::Plan;
 
 /// Deadline of every call except motions.
 pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
-/// Segments that a motion may take beyond twice those of its way, before the robot counts as stuck.
+/// Extra segments of a motion, beyond twice those of its path, before the robot counts as stuck.
 const SPARE_SEGMENTS: f64 = 8.0;
 
 /// Stage while the zero or the present force is unknown: only saturation of the transducer limits the force.

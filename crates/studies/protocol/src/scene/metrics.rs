@@ -90,7 +90,7 @@ impl MetricSettings {
 pub struct ReportSpec {
     /// Any of [`FORMATS`](ReportSpec::FORMATS); text and JSON when empty.
     pub formats: Vec<Setting<String>>,
-    /// Any of [`LIKE`](ReportSpec::LIKE): the published study in whose form tables are written besides; none when absent.
+    /// One of [`LIKE`](ReportSpec::LIKE): published study in whose form further tables are written. `None` writes none.
     pub like: Option<Setting<String>>,
 }
 
@@ -98,6 +98,6 @@ impl ReportSpec {
     /// All formats.
     pub const FORMATS: [&'static str; 6] = ["text", "json", "csv", "md", "tex", "html"];
 
-    /// Every study whose form there is.
+    /// Studies whose form is supported.
     pub const LIKE: [&'static str; 1] = ["taceva"];
 }

@@ -36,7 +36,7 @@ pub struct Study {
 }
 
 impl Study {
-    /// Text that names sensor, robot and force transducer: that of the rig file, or that of `scene`.
+    /// Text that names sensor, robot and force transducer: the rig file if there is one, else `scene`.
     pub(crate) fn device_text<'a>(&'a self, scene: &'a Scene) -> &'a Text {
         match &self.rig {
             Some(rig) => &rig.text,

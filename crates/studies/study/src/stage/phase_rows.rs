@@ -17,7 +17,7 @@ use taceva_evaluate::{DataPart, Divided};
 pub(super) struct PhaseRows<'a> {
     plan: &'a Plan,
     dataset: &'a Dataset,
-    /// `None` for a recording without a plan: then every row belongs to every part.
+    /// `None` if the plan has no presses. Every row then belongs to every part.
     rows: Option<BTreeMap<PhaseKind, Vec<usize>>>,
 }
 
@@ -162,7 +162,7 @@ impl<'a> PhaseRows<'a> {
     }
 }
 
-/// The rows that a model was fitted on, or its settings were chosen on, ascending.
+/// Rows used to fit a model or to choose its settings, ascending.
 pub(super) fn seen(divided: &Divided) -> Vec<usize> {
     let parts = [DataPart::Train, DataPart::Validation].map(|part| divided.rows(part));
     let mut rows = parts.concat();

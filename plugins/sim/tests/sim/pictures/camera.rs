@@ -228,6 +228,6 @@ fn a_buffer_for_another_frame_is_refused() {
         .expect_err("another frame");
     assert_eq!(
         error.to_string(),
-        "a buffer for 30×40 gray16: this camera gives 30×40 rgb16"
+        "the buffer is for 30×40 gray16, but this camera gives 30×40 rgb16"
     );
 }

@@ -32,7 +32,7 @@ const COMPONENTS: Number = Number {
     unset: Unset::ChosenAmong(&COUNTS),
 };
 
-/// Candidate counts, descending: of equal errors the last, smallest one is taken.
+/// Candidate counts, descending. Of equal errors, the smallest count is chosen.
 const COUNTS: [f64; 9] = [30.0, 25.0, 20.0, 15.0, 10.0, 6.0, 4.0, 2.0, 1.0];
 
 /// Rows per prediction when weights are derived from predictions.

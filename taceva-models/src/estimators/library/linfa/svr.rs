@@ -31,7 +31,7 @@ const COST: Number = Number {
     is_whole: false,
     unset: Unset::ChosenAmong(&COSTS),
 };
-/// Candidate costs, descending: of equal errors the last, smallest one is taken.
+/// Candidate costs, descending. Of equal errors, the smallest cost is chosen.
 const COSTS: [f64; 4] = [100.0, 10.0, 1.0, 0.1];
 
 /// Coefficients up to this size count as 0 in the library.

@@ -12,7 +12,7 @@ const UNIX_STEP_S: f64 = 3_600.0;
 /// Units of times, with the number of each in a second.
 const UNITS: [(&str, f64); 4] = [("ns", 1e9), ("us", 1e6), ("ms", 1e3), ("s", 1.0)];
 
-/// Unit of a time by the last word of its name, by its size if it is a present time, or by the step between rows.
+/// Role of a time column. The unit comes from the last word of its name, from its size if it is a recent date, or from its step.
 pub(super) fn time(words: &[String], numbers: &[f64]) -> Role {
     let greatest = numbers.iter().copied().fold(0.0_f64, f64::max);
     let named = match words.last().map(String::as_str) {

@@ -76,7 +76,7 @@ impl ArrayRows {
         let across = info.row_elements().ok_or("larger than any memory")?;
         if across.saturating_mul(info.rows()) > COLUMN_BYTES / 8 {
             return Err(format!(
-                "{} rows of {across} values are no labels: `[frame] array = \"{name}\"` reads frames",
+                "{} rows of {across} values are too many for labels: `[frame] array = \"{name}\"` reads frames",
                 info.rows()
             ));
         }

@@ -33,11 +33,11 @@ impl RotationMap {
         }
     }
 
-    /// Reason that `cells` are no quaternion.
+    /// Message that `cells` are not a unit quaternion.
     pub(crate) fn no_rotation(cells: &[f64]) -> String {
         let length = cells.iter().map(|cell| cell * cell).sum::<f64>().sqrt();
         format!(
-            "{cells:?} is no quaternion: its norm is {length}, expected 1; if it marks a missing value, leave out the row by \
+            "{cells:?} is not a unit quaternion: its norm is {length}, expected 1; if it marks a missing value, leave out the row by \
              [drop.placeholders], or correct the table"
         )
     }

@@ -298,7 +298,7 @@ impl Check<'_> {
         let zone_s = zone.map(|zone| {
             zone_seconds(zone.get_ref()).ok_or_else(|| {
                 let problem = format!(
-                    "`{}` is no time zone, expected the offset of the clock from UTC: \"+02:00\", \"-05:30\", \"Z\"",
+                    "`{}` is not a time zone, expected the offset of the clock from UTC: \"+02:00\", \"-05:30\", \"Z\"",
                     shown(zone.get_ref())
                 );
                 self.at(zone.span().start, &problem)
@@ -309,7 +309,7 @@ impl Check<'_> {
             return Err(self.at(
                 unit.span().start,
                 &format!(
-                    "`{source_unit}` is no unit of time",
+                    "`{source_unit}` is not a unit of time, expected s, ms, us or ns",
                     source_unit = unit.get_ref()
                 ),
             ));

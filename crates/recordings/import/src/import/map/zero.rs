@@ -155,7 +155,7 @@ impl Check<'_> {
             Some(names) => {
                 let positions = names.get_ref().iter().map(|name| {
                     channels.position(name).ok_or_else(|| {
-                        let problem = format!("`{}` is no channel of [columns]", shown(name));
+                        let problem = format!("`{}` is not a channel of [columns]", shown(name));
                         self.at(names.span().start, &problem)
                     })
                 });

@@ -14,7 +14,7 @@ pub(in crate::import) enum ClassCells {
     Positions,
     /// Names in the list.
     Names,
-    /// Positions or names, in a list whose names are no positions of others.
+    /// Positions or names; no name is the position of another one.
     Either,
 }
 

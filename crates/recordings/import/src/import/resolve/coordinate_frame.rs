@@ -23,9 +23,9 @@ const ENDINGS: [&str; 6] = [
     "reference_frame",
     "_frame",
 ];
-/// Quantities whose columns need not begin as that of their frame does: `wrench_frame` beside `Fx`.
+/// Quantities whose columns may begin with another word than the column of their frame: `wrench_frame` beside `Fx`.
 const QUANTITIES: [&str; 6] = ["force", "ft", "pose", "position", "torque", "wrench"];
-/// Rows from which on a column with another text in each of them names pictures.
+/// Minimum rows for the rule that a column with a different text in each row names pictures.
 const NAMES_OF_PICTURES: usize = 8;
 /// Number of frames listed in a message.
 const LISTED: usize = 8;

@@ -8,7 +8,7 @@ use crate::source::RigInfo;
 use crate::text::{SceneError, SceneProblem};
 
 impl Gather<'_> {
-    /// Footprint of the scene, which must be within that of the sensor; else that of the sensor.
+    /// Footprint of the scene, which must lie within that of the sensor. Returns that of the sensor if the scene has none.
     pub(super) fn footprint(
         &self,
         stated: Option<Footprint>,

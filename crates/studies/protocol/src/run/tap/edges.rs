@@ -61,7 +61,7 @@ pub enum TapError {
     },
     /// The signal of a device still changes long after the tip came to rest.
     #[error(
-        "tap {tap}: the {device} signal still changes after the tip has rested for a third of a second: its latency is too long for a tap, or the gel creeps"
+        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: its latency is too long for a tap, or the gel creeps"
     )]
     Late {
         /// Number of the tap, from 1.
