@@ -2,6 +2,7 @@
 
 mod canonical;
 mod digest;
+mod entries;
 mod error;
 mod history;
 mod keys;

@@ -103,7 +103,18 @@ fn results_that_were_changed_are_refused_by_metric_and_channel() {
     edit(&bench, "a.json", "\"clusters\": 10", "\"clusters\": 11");
     bench.refused("compare a.json b.json", 3, "a.json: `metrics.");
     bench.ok("reseal a.json --reason recount -q");
-    bench.ok("compare a.json b.json -q");
+    let compared = bench.run("compare a.json b.json --all -q");
+    assert_eq!(compared.code, 0, "{}", compared.err);
+    assert!(
+        !compared.out.contains("the definitions"),
+        "{}",
+        compared.out
+    );
+    let first_keys = |name: &str| {
+        let text = std::fs::read_to_string(bench.path(name)).expect("there");
+        text.lines().take(2).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(first_keys("a.json"), first_keys("b.json"), "in their order");
     let text = std::fs::read_to_string(bench.path("b.json")).expect("there");
     let (body, _) = text.rsplit_once(",\n  \"seal\"").expect("sealed");
     bench.write("b.json", &format!("{body}\n}}\n"));

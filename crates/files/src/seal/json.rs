@@ -4,6 +4,7 @@ use sha2::{Digest as _, Sha256};
 
 use crate::seal::canonical::Canonical;
 use crate::seal::digest::text_of;
+use crate::seal::entries;
 use crate::seal::error::SealError;
 use crate::seal::history::{Edit, Opened};
 use crate::seal::keys::{self, Keys};
@@ -61,7 +62,8 @@ pub fn check_with(text: &str, attached: &[(&str, &[u8])]) -> Result<Opened, Seal
     }
 }
 
-/// Accepts `text` as it is: adds a history entry and a valid seal. Returns a text with a valid seal unchanged.
+/// Accepts `text` as it is: adds a history entry and a valid seal, and keeps all other entries as written, in their order. Returns a text
+/// with a valid seal unchanged.
 ///
 /// # Errors
 /// [`SealError::Content`] if it is no JSON object; [`SealError::Alone`].
@@ -82,13 +84,8 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
         to: parsed.digest.clone(),
         reason: reason.to_owned(),
     });
-    // Pretty-printed for readers, with the original key order.
-    let mut value: serde_json::Map<String, serde_json::Value> =
-        serde_json::from_str(text).map_err(|error| content(error.to_string()))?;
-    value.remove(SEAL);
-    value.remove(HISTORY);
     let history = serde_json::to_string(&history).map_err(|error| content(error.to_string()))?;
-    let bare = serde_json::to_string_pretty(&value).map_err(|error| content(error.to_string()))?;
+    let bare = entries::without(text, &[SEAL, HISTORY])?;
     let edited = with_entries(&bare, &[(HISTORY, history)])?;
     Ok(format!("{}\n", seal(&edited)?.trim_end()))
 }
@@ -265,6 +262,10 @@ mod tests {
         assert_ne!(history[0].from, history[0].to);
         let changed = third.replace("typed wrongly", "typed rightly");
         assert!(check(&changed).is_err(), "the history is sealed too");
+        let (before, _) = third.split_once("  \"history\"").expect("a history");
+        let kept = TEXT.replace("0.5", "0.25").replace("\"n\": 2", "\"n\": 3");
+        let (kept, _) = kept.rsplit_once("\n}").expect("an object");
+        assert_eq!(before, format!("{kept},\n"), "order and form stay");
         let untouched = reseal(&third, "2026-11-24", "for nothing").expect("holds");
         assert_eq!(untouched, third);
     }

@@ -11,7 +11,10 @@ const MEAN_OF_TRUTH: &str = "constant is the mean of truth";
 pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> {
     let Sides { a, b } = scores;
     let meaning = |score: &Score| {
-        let constants = score.parameters.iter();
+        // By name: a file may state constants in any order.
+        let mut constants = score.parameters.clone();
+        constants.sort_by(|left, right| left.0.cmp(&right.0));
+        let constants = constants.iter();
         let constants = constants.map(|(name, value)| format!(", {name} = {value}"));
         let mean = score.flags.iter().filter(|flag| **flag == MEAN_OF_TRUTH);
         let mean: String = mean.map(|flag| format!(", {flag}")).collect();
@@ -86,6 +89,31 @@ mod tests {
         let expected = stated(7.25, 12).with_standard_error(0.0442);
         assert_eq!(exact, read_as(expected));
         assert_eq!(read(""), read_as(stated(9.0, 10)));
+    }
+
+    #[test]
+    fn constants_are_compared_by_name_whatever_their_order() {
+        let read = |constants: &str| {
+            let text = format!(
+                r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "x"}}, "metrics": {{"bias_level": {{"Fz":
+                {{"value": 0.5, "unit": "N", "n": 40, "ci95": [0.4, 0.6], "method": "jackknife by point_id, G=10", "definition": "bias_level/1",
+                "parameters": {{{constants}}}}}}}}}}}"#
+            );
+            let mut study = crate::results::unsealed(&text).expect("a result").remove(0);
+            study.scores.remove(0)
+        };
+        let a = read(r#""width": 0.1, "n_min": 5.0"#);
+        let [b, other] = [
+            r#""n_min": 5.0, "width": 0.1"#,
+            r#""n_min": 5.0, "width": 0.2"#,
+        ]
+        .map(read);
+        assert!(of_both(Sides { a: &a, b: &b }).is_ok());
+        let error = of_both(Sides { a: &a, b: &other }).expect_err("other constants");
+        assert_eq!(
+            error,
+            "the definitions `bias_level/1 in N, n_min = 5, width = 0.1` and `bias_level/1 in N, n_min = 5, width = 0.2` differ"
+        );
     }
 
     #[test]
