@@ -16,6 +16,7 @@ pub use render::CHOICE_SCHEMA;
 use taceva_metrics::Standing;
 
 use crate::catalogue::{Kind, Sensor};
+use crate::names::listed;
 
 /// Shortlist, with the steps that led to it.
 #[derive(Clone, Debug)]
@@ -28,6 +29,8 @@ pub struct Choice {
     pub dropped: Vec<Dropped>,
     /// Unranked sensors, because a number that a need uses takes no part in verdicts.
     pub barred: Vec<Dropped>,
+    /// Unranked sensors that meet the hard needs, because no number is known for a need that ranks.
+    pub unplaced: Vec<Dropped>,
     /// Numbers of the sensors that are not ranked, in the order of the sensors.
     pub others: Vec<Candidate>,
     /// Sensors with none of the numbers that the needs use.
@@ -96,7 +99,8 @@ pub struct Dropped {
 ///
 /// A hard need drops every sensor whose number breaks it, and sets apart those whose number is unknown. A score without a part in verdicts
 /// bars the sensor from ranking. Studies of sensors are skipped. A soft need ranks the remaining sensors by the mean share of the best over
-/// its numbers; an unknown number counts as 0. The rank is the mean over soft needs. Equal sensors share a place, in order of their names.
+/// its numbers; an unknown number counts as 0. A sensor without any number for a soft need is not ranked. The rank is the mean over soft
+/// needs. Equal sensors share a place, in order of their names.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose};
@@ -110,6 +114,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         open: Vec::new(),
         dropped: Vec::new(),
         barred: Vec::new(),
+        unplaced: Vec::new(),
         others: Vec::new(),
         unknown: Vec::new(),
         evidence: None,
@@ -134,6 +139,11 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
             });
         } else if let Some(reason) = unproven(sensor, needs) {
             choice.open.push(Open {
+                name: sensor.name.clone(),
+                reason,
+            });
+        } else if let Some(reason) = unplaced(sensor, needs) {
+            choice.unplaced.push(Dropped {
                 name: sensor.name.clone(),
                 reason,
             });
@@ -166,6 +176,9 @@ fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     barred.next()
 }
 
+/// Demand of a bound of [`Property::Opaque`].
+const CLOSED: &str = "a gel that keeps light out";
+
 /// First hard need that `sensor` breaks.
 fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let bounds = needs
@@ -180,12 +193,16 @@ fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
                 true => ", by the value only: its interval crosses the bound",
                 false => "",
             };
-            format!(
-                "`{}` needs {bound}, and its {} is {}{unsure}",
-                need.words,
-                bound.property,
-                bound.property.shown(value)
-            )
+            match bound.property {
+                Property::Opaque => {
+                    format!("`{}` needs {CLOSED}, and this one does not", need.words)
+                }
+                property => format!(
+                    "`{}` needs {bound}, and its {property} is {}{unsure}",
+                    need.words,
+                    property.shown(value)
+                ),
+            }
         })
     });
     failed.next()
@@ -199,6 +216,12 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let mut unproven = bounds.filter_map(|(need, bound)| {
         let property = bound.property;
         let reason = match property.of(sensor) {
+            None if property == Property::Opaque => {
+                let words = &need.words;
+                return Some(format!(
+                    "`{words}` needs {CLOSED}, and of this one that is not known"
+                ));
+            }
             None => "is not known".to_owned(),
             Some(value) if property.is_reached() && !bound.holds(value) => format!(
                 "that was tested is {}, which need not be its limit",
@@ -212,6 +235,17 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
         ))
     });
     unproven.next()
+}
+
+/// Properties of the soft needs for which no number of `sensor` is known.
+fn unplaced(sensor: &Sensor, needs: &[Need]) -> Option<String> {
+    let is_unknown = |property: &Property| property.of(sensor).is_none();
+    let unknown = needs
+        .iter()
+        .filter(|need| need.ranks.iter().all(is_unknown));
+    let unknown = unknown.flat_map(|need| &need.ranks);
+    let unknown: Vec<String> = unknown.map(Property::to_string).collect();
+    (!unknown.is_empty()).then(|| format!("no known {}", listed(&unknown)))
 }
 
 fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidate {
@@ -263,133 +297,4 @@ fn mean(values: &[f64]) -> Option<f64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::catalogue;
-
-    /// The names of the four sensors of the study, ranked for `needs`.
-    fn ranked(needs: &str) -> Vec<String> {
-        let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
-        let of_study = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];
-        let of_study = of_study.map(|name| catalogue::find(name).expect("there"));
-        let choice = choose(&of_study, &needs);
-        choice
-            .ranked
-            .into_iter()
-            .map(|candidate| candidate.name)
-            .collect()
-    }
-
-    #[test]
-    fn the_guidance_of_the_study_comes_out() {
-        for (needs, expected) in [
-            ("deep contact, normal force", "ViTacTip"),
-            ("soft contact, normal force", "ViTacTip"),
-            ("shallow contact, depth", "GelSight"),
-            ("firm contact, depth", "GelSight"),
-            ("shallow contact, planar, fast", "MagicTac"),
-            ("firm contact, planar, fast", "MagicTac"),
-            ("accurate shear", "ViTacTip"),
-            ("no shear", "GelSightWM"),
-        ] {
-            assert_eq!(ranked(needs)[0], expected, "{needs}");
-        }
-        assert_eq!(
-            ranked("accurate shear, ambient light"),
-            ["GelSight", "GelSightWM"]
-        );
-    }
-
-    #[test]
-    fn results_of_a_sensor_are_held_to_what_it_is_known_to_stand() {
-        let named = |name: &str| {
-            let study = crate::Study {
-                sensor: name.to_owned(),
-                scores: catalogue::find("ViTacTip")
-                    .expect("there")
-                    .as_study()
-                    .scores,
-                ..crate::Study::default()
-            };
-            Sensor::of_study(&study)
-        };
-        let needs = Need::parse("normal force, force 1 N").expect("needs");
-        let choice = choose(
-            &[named("ViTacTip"), named("MagicTac"), named("mine")],
-            &needs,
-        );
-        let names: Vec<&str> = choice
-            .ranked
-            .iter()
-            .map(|candidate| candidate.name.as_str())
-            .collect();
-        assert_eq!(names, ["MagicTac"]);
-        let [tried, mine] = choice.open.as_slice() else {
-            panic!("{:?}", choice.open);
-        };
-        let reason =
-            "its greatest normal force that was tested is 0.7 N, which need not be its limit";
-        assert!(tried.reason.contains(reason), "{tried:?}");
-        assert_eq!(mine.name, "mine");
-        assert!(mine.reason.contains("not known"), "{mine:?}");
-    }
-
-    #[test]
-    fn what_a_real_sensor_stands_is_not_known_of_a_simulated_one_and_said_to_be_of_the_catalogue() {
-        let study = |source: &str| crate::Study {
-            sensor: "MagicTac".to_owned(),
-            source: source.to_owned(),
-            scores: catalogue::find("MagicTac")
-                .expect("there")
-                .as_study()
-                .scores,
-            ..crate::Study::default()
-        };
-        let needs = Need::parse("normal force, force 1 N, even surface").expect("needs");
-        let simulated = choose_results(&[study("simulated")], &needs);
-        assert_eq!(simulated.open.len(), 1, "{simulated:?}");
-        assert!(simulated.limits_of_catalogue.is_empty());
-        let mut measured = study("recorded");
-        measured.scores.retain(|score| score.metric != "uniformity");
-        let measured = choose_results(&[measured], &needs).table().text();
-        let limits =
-            "Greatest depth and force are from the catalogue, not from these results: MagicTac.";
-        assert!(measured.contains(limits), "{measured}");
-        let unknown = "Counted as a share of 0, because it is unknown: uniformity of MagicTac.";
-        assert!(measured.contains(unknown), "{measured}");
-    }
-
-    #[test]
-    fn no_study_of_sensors_is_ever_chosen_or_set_aside() {
-        let choice = choose(&catalogue::all(), &Need::parse("fast").expect("a need"));
-        let listed = format!("{choice:?}");
-        for study in ["Eval", "Sparsh", "TacEva", "VT-Review", "PBR-Design"] {
-            assert!(!listed.contains(&format!("\"{study}\"")), "{study}");
-        }
-    }
-
-    #[test]
-    fn what_no_sensor_meets_says_who_fails_by_which_number() {
-        let needs =
-            Need::parse("shear, force <= 1 N, ambient light, rate >= 50 Hz, localisation 0.3 mm")
-                .expect("needs");
-        let choice = choose(&catalogue::all(), &needs);
-        assert!(choice.ranked.is_empty());
-        let gelsight = choice
-            .dropped
-            .iter()
-            .find(|dropped| dropped.name == "GelSight")
-            .expect("dropped");
-        assert_eq!(
-            gelsight.reason,
-            "`rate >= 50 Hz` needs frame rate ≥ 50 Hz, and its frame rate is 25 Hz"
-        );
-        assert!(choice.unknown.contains(&"GelForce".to_owned()));
-        let digit = choice.open.iter().find(|open| open.name == "DIGIT");
-        let reason = &digit.expect("its rate is known, and no more").reason;
-        assert!(
-            reason.contains("greatest normal force is not known"),
-            "{reason}"
-        );
-    }
-}
+mod tests;

@@ -2,7 +2,6 @@
 
 use std::fmt;
 use taceva_core::shown;
-use taceva_metrics::Better;
 
 use super::property::Property;
 use super::words::{QUANTITIES, Quantity, WORDS};
@@ -42,13 +41,20 @@ pub enum NeedError {
     #[error("`{0}`: unknown need, expected one of {known}", known = known())]
     Unknown(String),
     /// The number or its unit is invalid.
-    #[error("`{words}`: expected a number above 0 in {unit}", unit = if unit.is_empty() { "parts of 1" } else { unit })]
+    #[error("`{words}`: expected a number above 0{unit}, such as `{example}`", unit = of_unit(unit))]
     Number {
         /// Need as written.
         words: String,
         /// Expected unit.
         unit: &'static str,
+        /// The need with a valid number.
+        example: String,
     },
+    /// The need asks for a price.
+    #[error(
+        "`{0}`: prices take part in no ranking; `taceva catalogue show NAME` shows those that are known"
+    )]
+    Price(String),
     /// The file is no TOML of the form `needs = ["…", …]`.
     #[error("needs: {0}")]
     Toml(#[from] toml::de::Error),
@@ -89,7 +95,7 @@ impl Need {
     /// All needs that can be written, a line each: words with the properties by which they rank or exclude, then quantities with their units.
     ///
     /// ```
-    /// assert!(taceva_report::Need::vocabulary().contains("force <number> N"));
+    /// assert!(taceva_report::Need::vocabulary().contains("force >= <number> N"));
     /// ```
     pub fn vocabulary() -> String {
         let words = WORDS.iter().map(|word| {
@@ -109,11 +115,11 @@ impl Need {
                 .iter()
                 .map(|property| format!("ranks by {property}"));
             let meaning: Vec<String> = bounds.chain(ranks).collect();
-            format!("  {:<26} {}", word.names.join(" | "), meaning.join(", "))
+            format!("  {:<29} {}", word.names.join(" | "), meaning.join(", "))
         });
         let quantities = QUANTITIES.iter().map(|quantity| {
-            let need = format!("{} <number> {}", quantity.name, quantity.unit);
-            format!("  {need:<26} bounds {}", quantity.property)
+            let need = quantity.written("<number>");
+            format!("  {need:<29} bounds {}", quantity.property)
         });
         words.chain(quantities).collect::<Vec<_>>().join("\n")
     }
@@ -124,6 +130,9 @@ impl Need {
         bounds.chain(self.ranks.iter().copied())
     }
 }
+
+/// Words that ask for a price.
+const PRICES: [&str; 5] = ["affordable", "cheap", "cost", "inexpensive", "price"];
 
 fn one(words: &str) -> Result<Need, NeedError> {
     let lower = words.to_lowercase();
@@ -141,6 +150,9 @@ fn one(words: &str) -> Result<Need, NeedError> {
             bounds: bounds.collect(),
             ranks: word.ranks.to_vec(),
         });
+    }
+    if PRICES.iter().any(|price| lower.starts_with(price)) {
+        return Err(NeedError::Price(shown(words).to_string()));
     }
     // Longest name first: `depth error` contains `depth`.
     let named = QUANTITIES
@@ -161,14 +173,14 @@ fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedErro
     let refuse = || NeedError::Number {
         words: shown(words).to_string(),
         unit: quantity.unit,
+        example: quantity.example(),
     };
     let rest = rest.trim();
     let sides = [("<=", false), ("≤", false), (">=", true), ("≥", true)];
     let side = sides
         .iter()
         .find_map(|(sign, is_least)| Some((rest.strip_prefix(sign)?, *is_least)));
-    let natural = quantity.is_reach || quantity.property.better() == Better::Higher;
-    let (rest, is_least) = side.unwrap_or((rest, natural));
+    let (rest, is_least) = side.unwrap_or((rest, quantity.is_least()));
     let rest = rest.trim();
     let end = rest.find(|letter: char| !(letter.is_ascii_digit() || letter == '.'));
     let (number, unit) = rest.split_at(end.unwrap_or(rest.len()));
@@ -210,11 +222,18 @@ impl fmt::Display for Bound {
     }
 }
 
+fn of_unit(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        unit => format!(" and the unit {unit}"),
+    }
+}
+
 fn known() -> String {
     let words = WORDS.iter().map(|word| word.names[0].to_owned());
     let quantities = QUANTITIES
         .iter()
-        .map(|quantity| format!("{} <number> {}", quantity.name, quantity.unit));
+        .map(|quantity| quantity.written("<number>"));
     words.chain(quantities).collect::<Vec<_>>().join(", ")
 }
 
@@ -232,6 +251,19 @@ mod tests {
     }
 
     #[test]
+    fn the_written_form_of_every_quantity_is_a_need_of_the_side_that_it_shows() {
+        for quantity in QUANTITIES {
+            let example = quantity.example();
+            let need = &Need::parse(&example).unwrap_or_else(|error| panic!("{error}"))[0];
+            assert_eq!(need.bounds[0].is_least, example.contains(">="), "{example}");
+        }
+        let table = Need::vocabulary();
+        for form in ["rate >= <number> Hz", "thickness <= <number> mm"] {
+            assert!(table.contains(form), "{table}");
+        }
+    }
+
+    #[test]
     fn what_is_not_understood_is_refused_by_name() {
         assert_eq!(Need::parse(" , "), Err(NeedError::Empty));
         let error = Need::parse("shear, beauty").expect_err("unknown");
@@ -246,6 +278,16 @@ mod tests {
                 "{wrong}"
             );
         }
+        let said = |text: &str| Need::parse(text).expect_err("refused").to_string();
+        assert_eq!(
+            said("rate >= 30 fps"),
+            "`rate >= 30 fps`: expected a number above 0 and the unit Hz, such as `rate >= 30 Hz`"
+        );
+        assert_eq!(
+            said("uniformity high"),
+            "`uniformity high`: expected a number above 0, such as `uniformity >= 0.9`"
+        );
+        assert!(said("cheap").starts_with("`cheap`: prices take part in no ranking"));
         let needs = Need::read("needs = [\"shear\", \"rate >= 50 Hz\"]").expect("a file");
         assert_eq!(needs.len(), 2);
     }

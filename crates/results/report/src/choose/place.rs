@@ -90,6 +90,7 @@ mod tests {
             open: Vec::new(),
             dropped: Vec::new(),
             barred: Vec::new(),
+            unplaced: Vec::new(),
             others: Vec::new(),
             unknown: Vec::new(),
             evidence: Some(Vec::new()),

@@ -1,5 +1,7 @@
 //! Choices as table rows, JSON and a page.
 
+use std::collections::BTreeMap;
+
 use maud::html;
 use serde_json::json;
 
@@ -10,8 +12,12 @@ use crate::number::{fixed, numeral};
 use crate::table::{Column, Direction, Table};
 
 /// Schema of a choice as JSON. 1.1: `open` lists sensors with an undecided hard need. 1.2: each step states which numbers are good. 1.3:
-/// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue.
-pub const CHOICE_SCHEMA: &str = "taceva.choice/1.5";
+/// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue. 1.6:
+/// `unplaced` lists sensors without a number for a need that ranks.
+pub const CHOICE_SCHEMA: &str = "taceva.choice/1.6";
+
+/// Most names in a sentence.
+const SHOWN: usize = 6;
 
 impl Choice {
     /// Table with one row per sensor, need and number, from the best sensor to the dropped ones.
@@ -87,21 +93,34 @@ impl Choice {
             table.note(spread.clone());
         }
         for open in &self.open {
-            table.note(format!("Open: {}: {}.", open.name, open.reason));
+            table.note(format!("{}: open, because {}.", open.name, open.reason));
         }
         for dropped in &self.dropped {
-            table.note(format!("Dropped: {}: {}.", dropped.name, dropped.reason));
+            table.note(format!(
+                "{}: dropped, because {}.",
+                dropped.name, dropped.reason
+            ));
         }
         for barred in &self.barred {
-            table.note(format!("Not ranked: {}: {}.", barred.name, barred.reason));
+            table.note(format!(
+                "{}: not ranked, because {}.",
+                barred.name, barred.reason
+            ));
+        }
+        let mut reasons: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+        for unplaced in &self.unplaced {
+            let names = reasons.entry(&unplaced.reason).or_default();
+            names.push(unplaced.name.clone());
+        }
+        for (reason, names) in reasons {
+            table.note(format!("Not ranked, {reason}: {}.", first(&names)));
         }
         if !self.unknown.is_empty() {
-            let known =
-                self.ranked.len() + self.open.len() + self.dropped.len() + self.barred.len();
+            let known = self.ranked.len() + self.others.len();
             table.note(format!(
                 "{known} of {} sensors have a requested number; none is known of: {}.",
                 known + self.unknown.len(),
-                self.unknown.join(", ")
+                first(&self.unknown)
             ));
         }
         table
@@ -110,7 +129,20 @@ impl Choice {
     /// Result in one sentence.
     pub fn headline(&self) -> String {
         match self.ranked.as_slice() {
+            [] if !self.unplaced.is_empty() => {
+                let names: Vec<String> = self.unplaced.iter().map(|of| of.name.clone()).collect();
+                format!(
+                    "No sensor is ranked: of those that meet the bounds, none has a number for every need that ranks: {}",
+                    first(&names)
+                )
+            }
             [] => "No sensor meets every need, as far as is known".to_owned(),
+            [best] if !self.unplaced.is_empty() => {
+                format!(
+                    "{} alone is ranked; of others a number is not known",
+                    best.name
+                )
+            }
             [best] if !self.barred.is_empty() => {
                 format!("{} alone is ranked; others are excluded", best.name)
             }
@@ -153,6 +185,7 @@ impl Choice {
                 .collect()
         };
         let (dropped, barred) = (named(&self.dropped), named(&self.barred));
+        let unplaced = named(&self.unplaced);
         let open = self.open.iter();
         let open: Vec<_> = open
             .map(|open| json!({"name": open.name, "reason": open.reason}))
@@ -162,7 +195,7 @@ impl Choice {
             all.map(|of| json!({"better": of.better, "than": of.than, "looked_at": of.property.to_string(), "p_holm": of.p}))
                 .collect::<Vec<_>>()
         });
-        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated, "limits_of_catalogue": self.limits_of_catalogue});
+        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unplaced": unplaced, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated, "limits_of_catalogue": self.limits_of_catalogue});
         format!("{whole:#}\n")
     }
 
@@ -176,6 +209,17 @@ impl Choice {
         "Every number considered".clone_into(&mut table.caption);
         document.section("steps", "How sensors were ranked", table.html());
         document.finish()
+    }
+}
+
+/// Names; the number of the others in place of many.
+fn first(names: &[String]) -> String {
+    match names.len().checked_sub(SHOWN) {
+        Some(others) if others > 1 => format!(
+            "{} and {others} others (`--format json` names all)",
+            names[..SHOWN].join(", ")
+        ),
+        _ => listed(names),
     }
 }
 

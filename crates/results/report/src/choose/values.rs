@@ -76,6 +76,7 @@ impl Choice {
     /// True for a sensor whose numbers were considered and which is not ranked.
     pub(super) fn sets_aside(&self, sensor: &Sensor) -> bool {
         let dropped = self.dropped.iter().chain(&self.barred);
+        let dropped = dropped.chain(&self.unplaced);
         let names = dropped.map(|dropped| &dropped.name);
         let mut names = names.chain(self.open.iter().map(|open| &open.name));
         names.any(|name| *name == sensor.name)

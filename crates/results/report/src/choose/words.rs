@@ -1,5 +1,7 @@
 //! Vocabulary of needs.
 
+use taceva_metrics::Better;
+
 use super::property::Property;
 
 /// Word with its meaning.
@@ -106,6 +108,30 @@ pub(super) struct Quantity {
     pub(super) property: Property,
     /// True if the sensor needs at least this number, even if the need says "up to". A press of up to 1 N requires a sensor that withstands 1 N.
     pub(super) is_reach: bool,
+}
+
+impl Quantity {
+    /// True if a bare number is a lower bound.
+    pub(super) fn is_least(&self) -> bool {
+        self.is_reach || self.property.better() == Better::Higher
+    }
+
+    /// Need with `number`, as it is written: `rate >= 30 Hz`.
+    pub(super) fn written(&self, number: &str) -> String {
+        let sign = if self.is_least() { ">=" } else { "<=" };
+        let need = format!("{} {sign} {number} {}", self.name, self.unit);
+        need.trim_end().to_owned()
+    }
+
+    /// Need with a number of a usual size.
+    pub(super) fn example(&self) -> String {
+        self.written(match self.unit {
+            "Hz" => "30",
+            "mm²" => "100",
+            "" => "0.9",
+            _ => "1",
+        })
+    }
 }
 
 const fn reach(name: &'static str, unit: &'static str, property: Property) -> Quantity {

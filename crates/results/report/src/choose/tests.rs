@@ -1,0 +1,168 @@
+//! Choices among the catalogue and among results.
+
+use super::*;
+use crate::catalogue;
+
+/// The names of the four sensors of the study, ranked for `needs`.
+fn ranked(needs: &str) -> Vec<String> {
+    let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
+    let of_study = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];
+    let of_study = of_study.map(|name| catalogue::find(name).expect("there"));
+    let choice = choose(&of_study, &needs);
+    choice
+        .ranked
+        .into_iter()
+        .map(|candidate| candidate.name)
+        .collect()
+}
+
+#[test]
+fn the_guidance_of_the_study_comes_out() {
+    for (needs, expected) in [
+        ("deep contact, normal force", "ViTacTip"),
+        ("soft contact, normal force", "ViTacTip"),
+        ("shallow contact, depth", "GelSight"),
+        ("firm contact, depth", "GelSight"),
+        ("shallow contact, planar, fast", "MagicTac"),
+        ("firm contact, planar, fast", "MagicTac"),
+        ("accurate shear", "ViTacTip"),
+        ("no shear", "GelSightWM"),
+    ] {
+        assert_eq!(ranked(needs)[0], expected, "{needs}");
+    }
+    assert_eq!(
+        ranked("accurate shear, ambient light"),
+        ["GelSight", "GelSightWM"]
+    );
+}
+
+#[test]
+fn results_of_a_sensor_are_held_to_what_it_is_known_to_stand() {
+    let named = |name: &str| {
+        let study = crate::Study {
+            sensor: name.to_owned(),
+            scores: catalogue::find("ViTacTip")
+                .expect("there")
+                .as_study()
+                .scores,
+            ..crate::Study::default()
+        };
+        Sensor::of_study(&study)
+    };
+    let needs = Need::parse("normal force, force 1 N").expect("needs");
+    let choice = choose(
+        &[named("ViTacTip"), named("MagicTac"), named("mine")],
+        &needs,
+    );
+    let names: Vec<&str> = choice
+        .ranked
+        .iter()
+        .map(|candidate| candidate.name.as_str())
+        .collect();
+    assert_eq!(names, ["MagicTac"]);
+    let [tried, mine] = choice.open.as_slice() else {
+        panic!("{:?}", choice.open);
+    };
+    let reason = "its greatest normal force that was tested is 0.7 N, which need not be its limit";
+    assert!(tried.reason.contains(reason), "{tried:?}");
+    assert_eq!(mine.name, "mine");
+    assert!(mine.reason.contains("not known"), "{mine:?}");
+}
+
+#[test]
+fn what_a_real_sensor_stands_is_not_known_of_a_simulated_one_and_said_to_be_of_the_catalogue() {
+    let study = |source: &str| crate::Study {
+        sensor: "MagicTac".to_owned(),
+        source: source.to_owned(),
+        scores: catalogue::find("MagicTac")
+            .expect("there")
+            .as_study()
+            .scores,
+        ..crate::Study::default()
+    };
+    let needs = Need::parse("normal force, force 1 N, even surface").expect("needs");
+    let simulated = choose_results(&[study("simulated")], &needs);
+    assert_eq!(simulated.open.len(), 1, "{simulated:?}");
+    assert!(simulated.limits_of_catalogue.is_empty());
+    let mut measured = study("recorded");
+    measured.scores.retain(|score| score.metric != "uniformity");
+    let without = choose_results(std::slice::from_ref(&measured), &needs);
+    assert_eq!(without.unplaced[0].reason, "no known uniformity");
+    let needs = Need::parse("depth, force 1 N").expect("needs");
+    measured
+        .scores
+        .retain(|score| score.metric != "repeatability");
+    let measured = choose_results(&[measured], &needs).table().text();
+    let limits =
+        "Greatest depth and force are from the catalogue, not from these results: MagicTac.";
+    assert!(measured.contains(limits), "{measured}");
+    let unknown = "Counted as a share of 0, because it is unknown: repeatability of Pz of MagicTac";
+    assert!(measured.contains(unknown), "{measured}");
+}
+
+#[test]
+fn a_sensor_without_a_number_for_a_need_that_ranks_has_no_place() {
+    let choice = choose(
+        &catalogue::all(),
+        &Need::parse("shear, rate >= 100 Hz").expect("needs"),
+    );
+    let mut of_ranked = choice.ranked.iter().flat_map(|candidate| &candidate.steps);
+    assert!(of_ranked.all(|step| step.value.is_some()));
+    let unplaced: Vec<&str> = choice.unplaced.iter().map(|of| of.name.as_str()).collect();
+    assert!(!unplaced.is_empty(), "{choice:?}");
+    assert_eq!(choice.unplaced[0].reason, "no known MAE of Fxy");
+    let place = |name: &str| {
+        let table = choice.values();
+        let mut rows = table.rows.iter().map(|row| row.plain());
+        rows.find(|row| row[0] == name).expect("a row")[1].clone()
+    };
+    assert_eq!(place(unplaced[0]), "not ranked");
+    assert!(!choice.headline().contains("tie for first"), "{choice:?}");
+    let text = choice.table().text();
+    assert!(text.contains("Not ranked, no known MAE of Fxy: "), "{text}");
+    let only: Vec<Sensor> = unplaced
+        .iter()
+        .map(|name| catalogue::find(name).expect("there"))
+        .collect();
+    let choice = choose(&only, &Need::parse("shear, rate >= 100 Hz").expect("needs"));
+    assert!(
+        choice.headline().starts_with("No sensor is ranked: "),
+        "{}",
+        choice.headline()
+    );
+    assert!(choice.headline().contains(unplaced[0]));
+}
+
+#[test]
+fn no_study_of_sensors_is_ever_chosen_or_set_aside() {
+    let choice = choose(&catalogue::all(), &Need::parse("fast").expect("a need"));
+    let listed = format!("{choice:?}");
+    for study in ["Eval", "Sparsh", "TacEva", "VT-Review", "PBR-Design"] {
+        assert!(!listed.contains(&format!("\"{study}\"")), "{study}");
+    }
+}
+
+#[test]
+fn what_no_sensor_meets_says_who_fails_by_which_number() {
+    let needs =
+        Need::parse("shear, force <= 1 N, ambient light, rate >= 50 Hz, localisation 0.3 mm")
+            .expect("needs");
+    let choice = choose(&catalogue::all(), &needs);
+    assert!(choice.ranked.is_empty());
+    let gelsight = choice
+        .dropped
+        .iter()
+        .find(|dropped| dropped.name == "GelSight")
+        .expect("dropped");
+    assert_eq!(
+        gelsight.reason,
+        "`rate >= 50 Hz` needs frame rate ≥ 50 Hz, and its frame rate is 25 Hz"
+    );
+    assert!(choice.unknown.contains(&"GelForce".to_owned()));
+    let digit = choice.open.iter().find(|open| open.name == "DIGIT");
+    let reason = &digit.expect("its rate is known, and no more").reason;
+    assert!(
+        reason.contains("greatest normal force is not known"),
+        "{reason}"
+    );
+}
