@@ -5,8 +5,11 @@ use taceva_core::{SourceUnit, Unit};
 use taceva_evaluate::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, score_in_one_pass};
 
 use super::{Context, Usage};
-use crate::args::Score;
+use crate::args::{Format, Score};
 use crate::{exit, output, report};
+
+/// Words of a note on a column whose unit nobody states.
+const UNIT_OF_ONE: &str = "taken as a channel of unit 1";
 
 pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     let asked = &args.scoring;
@@ -49,6 +52,7 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     if asked.samples_out.is_some() {
         super::attachments::note_samples(&mut scored.report)?;
     }
+    say_units(args, &scored, context);
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::evaluation(&scored.report, args.output.format, table, out)
     })?;
@@ -57,6 +61,18 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         output::write(Some(path), |out| scored.state.write(out))?;
     }
     Ok(exit::DONE)
+}
+
+/// Prints notes on units that nobody states, unless the scores themselves are printed as text, with all notes.
+fn say_units(args: &Score, scored: &Scored, context: &Context) {
+    let output = &args.output;
+    if matches!(output.format, Format::Text) && output.path.is_none() {
+        return;
+    }
+    let notes = scored.report.provenance.notes.iter();
+    for note in notes.filter(|note| note.contains(UNIT_OF_ONE)) {
+        context.say(format_args!("{}", taceva_report::escape_terminal(note)));
+    }
 }
 
 /// True if only the scores, and the state, of all rows are requested, without a plan, which needs the number of rows first.

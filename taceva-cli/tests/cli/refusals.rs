@@ -344,3 +344,23 @@ fn a_signal_ends_an_import_with_its_own_code_and_leaves_nothing() {
     }
     assert!(!seen.is_empty());
 }
+
+#[test]
+fn a_column_whose_unit_nobody_states_is_named_with_the_remedy() {
+    let bench = Bench::new();
+    let table = |off: f64| {
+        let rows = (0..12_u32).map(|row| format!("{row},{}\n", f64::from(row) * 0.3 + off));
+        format!("sample,Fz_N\n{}", rows.collect::<String>())
+    };
+    bench.write("t.csv", &table(0.1));
+    bench.write("p.csv", &table(0.2));
+    let score = "score --truth t.csv --pred p.csv --format json";
+    let ran = bench.run(score);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let note = "Fz_N: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1; rename it Fz, or give --units Fz_N=N";
+    assert!(ran.err.contains(note), "{}", ran.err);
+    assert!(ran.out.contains(note), "{}", ran.out);
+    let stated = bench.run(&format!("{score} --units Fz_N=N"));
+    assert_eq!(stated.code, 0, "{}", stated.err);
+    assert!(!stated.out.contains("unit 1") && !stated.err.contains("unit 1"));
+}

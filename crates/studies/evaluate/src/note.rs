@@ -141,6 +141,8 @@ pub enum Note {
     },
     /// The way in which rows of two tables were paired.
     Paired(PairedBy),
+    /// Columns of tables that are taken as channels of unit 1, because nobody states their unit.
+    UnitOfOne(Vec<String>),
     /// Tables of truth and predictions with the same bytes.
     SameBytes,
     /// Something that a plan leaves out.

@@ -209,6 +209,7 @@ impl Scoring {
             Said {
                 is_independent: self.request.is_independent,
                 paired: self.matching.by.clone(),
+                unit_of_one: tables::unit_of_one(&self.request, self.plan.metrics.channels()),
                 shard: None,
             },
         )
@@ -252,6 +253,8 @@ struct Said {
     is_independent: bool,
     /// The pairing of rows, which the state records too.
     paired: PairedBy,
+    /// Columns that are taken as channels of unit 1.
+    unit_of_one: Option<Note>,
     /// The shard, which only the report states.
     shard: Option<Note>,
 }
@@ -281,6 +284,7 @@ fn finished(
     let context = Context {
         notes: std::iter::once(Note::Paired(said.paired))
             .chain(independence)
+            .chain(said.unit_of_one)
             .chain(same_bytes.then_some(Note::SameBytes))
             .collect(),
         fit: FitFacts {

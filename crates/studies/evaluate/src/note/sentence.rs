@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taceva_core::shown;
+use taceva_core::{Channel, shown};
 use taceva_results::OPTIMISTIC;
 
 use super::{Independence, Learning, Note, division};
@@ -154,6 +154,7 @@ impl fmt::Display for Note {
                 of,
             } => write!(f, "shard {shard}: rows {first} (from 0) up to but excluding {end}, of {of}"),
             Note::Paired(by) => write!(f, "rows were paired {by}"),
+            Note::UnitOfOne(names) => unit_of_one(names, f),
             Note::SameBytes => f.write_str(
                 "truth and predictions are byte-identical files: every error is 0, which no sensor reaches",
             ),
@@ -213,6 +214,31 @@ fn clusters(
             "; {recordings} are few: one more recording may change an interval much, since it has only {} degrees of freedom",
             recordings - 1
         )?;
+    }
+    Ok(())
+}
+
+/// Columns of unit 1, each with a remedy: `Fz_N` may be `Fz`.
+fn unit_of_one(names: &[String], f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    for (at, name) in names.iter().enumerate() {
+        let separator = if at == 0 { "" } else { "; " };
+        let start = name.split(['_', ' ', '(', '[']).next().unwrap_or_default();
+        let mut six = Channel::SIX.into_iter();
+        let meant = six.find(|channel| channel.name().eq_ignore_ascii_case(start));
+        let name = shown(name);
+        write!(
+            f,
+            "{separator}{name}: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1; "
+        )?;
+        match meant {
+            Some(channel) => write!(
+                f,
+                "rename it {}, or give --units {name}={}",
+                channel.name(),
+                channel.unit().symbol()
+            )?,
+            None => write!(f, "to state its unit, give --units {name}=UNIT")?,
+        }
     }
     Ok(())
 }

@@ -81,6 +81,7 @@ pub fn score_in_one_pass(
     let said = Said {
         is_independent: request.is_independent,
         paired: matching.by,
+        unit_of_one: tables::unit_of_one(request, plan.metrics.channels()),
         shard: None,
     };
     finished(evaluator, &plan.sensor, digests, taken, said).map(Some)

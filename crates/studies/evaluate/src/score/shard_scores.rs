@@ -195,6 +195,7 @@ impl ScoreTables {
         let said = Said {
             is_independent: request.is_independent,
             paired,
+            unit_of_one: tables::unit_of_one(request, understood.plan.metrics.channels()),
             shard: note,
         };
         finished(evaluator, &understood.plan.sensor, digests, taken, said)

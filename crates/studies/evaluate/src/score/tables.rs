@@ -15,6 +15,7 @@ use super::row_key::{KEY_NAMES, KeyPair, RowKeys, in_words, key_of, nearly};
 use super::table_parts::TableParts;
 use super::{ScoreRequest, parquet_parts};
 use crate::error::EvaluateError;
+use crate::note::Note;
 
 /// Pairing of rows.
 #[derive(Debug)]
@@ -165,6 +166,15 @@ pub(super) fn channels(
         return Err(wrong(prediction, problem));
     }
     Channels::new(found).map_err(|error| wrong(prediction, error.to_string()))
+}
+
+/// Note on those of `channels` that have unit 1 because nobody states another.
+pub(super) fn unit_of_one(request: &ScoreRequest, channels: &Channels) -> Option<Note> {
+    let is_six = |name: &str| Channel::SIX.iter().any(|channel| channel.name() == name);
+    let names = channels.iter().map(Channel::name);
+    let names = names.filter(|name| !is_six(name) && !is_declared(request, name));
+    let names: Vec<String> = names.map(str::to_owned).collect();
+    (!names.is_empty()).then_some(Note::UnitOfOne(names))
 }
 
 /// True if the unit of the column `name` is declared, so that it is a channel.
