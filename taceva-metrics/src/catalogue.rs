@@ -71,6 +71,19 @@ pub static GROUPS: [(&str, &[&Metric]); 2] = [
 /// Replaced names of metrics, each with its new name.
 const RENAMED: [(&str, &str); 1] = [("minimum_detectable_force", "noise_equivalent_force")];
 
+/// Names of other programs in lower case, each with the metric that is nearest in meaning.
+const SYNONYMS: [(&str, &str); 9] = [
+    ("mse", "rmse"),
+    ("r^2", "r2"),
+    ("r_squared", "r2"),
+    ("rsquared", "r2"),
+    ("r²", "r2"),
+    ("sd", "repeatability"),
+    ("std", "repeatability"),
+    ("mape", "smape"),
+    ("l1", "mae"),
+];
+
 /// The metric called `id`.
 pub fn find(id: &str) -> Option<&'static Metric> {
     ALL.into_iter().find(|metric| metric.id == id)
@@ -83,7 +96,7 @@ pub fn find(id: &str) -> Option<&'static Metric> {
 /// let ids: Vec<&str> = catalogue::select(["rmse", "accuracy"])?.iter().map(|metric| metric.id).collect();
 /// assert_eq!(ids, ["mae", "rmse", "r2", "smape"]);
 /// let error = catalogue::select(["smap"]).unwrap_err();
-/// assert_eq!(error.to_string(), "`smap`: unknown metric, did you mean `smape`?");
+/// assert!(error.to_string().starts_with("`smap`: unknown metric, did you mean `smape`? Known are mae, "));
 /// # Ok::<(), taceva_metrics::UnknownMetric>(())
 /// ```
 ///
@@ -105,9 +118,13 @@ pub fn select<'a>(
             (Some(metric), _) => wanted.push(metric.id),
             (None, Some((_, metrics))) => wanted.extend(metrics.iter().map(|metric| metric.id)),
             (None, None) => {
+                let lower = name.to_lowercase();
+                let mut synonyms = SYNONYMS.into_iter();
+                let synonym = synonyms.find(|(other, _)| *other == lower);
+                let synonym = synonym.map(|(_, metric)| metric);
                 return Err(UnknownMetric {
                     name: name.to_owned(),
-                    nearest: taceva_core::nearest(name, self::names()),
+                    nearest: synonym.or_else(|| taceva_core::nearest(name, self::names())),
                 });
             }
         }
@@ -125,6 +142,23 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_name_of_another_program_leads_to_the_metric_and_to_the_list() {
+        for (other, metric) in SYNONYMS {
+            assert!(find(metric).is_some() && find(other).is_none(), "{other}");
+            let upper = other.to_uppercase();
+            for name in [other, upper.as_str()] {
+                let error = select([name]).expect_err("unknown");
+                assert_eq!(error.nearest, Some(metric), "{name}");
+                let said = error.to_string();
+                assert!(
+                    said.contains("Known are ") && said.contains("sensitivity"),
+                    "{said}"
+                );
+            }
+        }
+    }
 
     #[test]
     fn every_metric_has_its_own_name_definition_and_text() {

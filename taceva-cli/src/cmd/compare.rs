@@ -18,10 +18,14 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     results::check_distinct(&args.results)?;
     let results::Found { studies, missing } = results::find_all(&args.results)?;
     if studies.len() < 2 {
-        return Err(Usage::error("one result: expected at least two"));
+        return Err(Usage::error(
+            "one result: expected at least two; `taceva catalogue list` names sensors to compare with",
+        ));
     }
     for line in missing {
-        context.say(format_args!("{line}"));
+        context.say(format_args!(
+            "{line}: compared by the intervals of both, not sample by sample"
+        ));
     }
     let request = CompareRequest {
         metrics: args.metrics.clone(),

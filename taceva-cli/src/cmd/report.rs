@@ -30,7 +30,9 @@ pub(crate) fn run(args: &ReportArgs, context: &Context) -> anyhow::Result<u8> {
     }
     let Reports { reports, missing } = results::reports(&args.result)?;
     for line in missing {
-        context.say(format_args!("{line}"));
+        context.say(format_args!(
+            "{line}: figures of samples are left out: write the table with `taceva evaluate … --samples-out NAME.samples.csv`"
+        ));
     }
     let drawn = Page::of(&title(&args.result, &reports), &reports)?;
     std::fs::create_dir_all(&folder)?;

@@ -5,13 +5,13 @@ use std::io::{self, Write};
 use taceva_check::{CheckReport, Finding};
 use taceva_report::Table;
 
+use super::counted;
+
 pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> {
     let count = |severity: &str| {
-        report
-            .findings
-            .iter()
-            .filter(|finding| finding.severity.to_string() == severity)
-            .count()
+        let findings = report.findings.iter();
+        let of_it = findings.filter(|finding| finding.severity.to_string() == severity);
+        counted(of_it.count(), severity)
     };
     for finding in &report.findings {
         writeln!(
@@ -29,7 +29,7 @@ pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> 
     }
     writeln!(
         out,
-        "{} samples, {} checks: {} errors, {} warnings, {} notes",
+        "{} samples, {} checks: {}, {}, {}",
         report.samples,
         report.looked_for.len(),
         count("error"),

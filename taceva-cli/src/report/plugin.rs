@@ -6,7 +6,7 @@ use serde::Serialize;
 use taceva_drivers::ListedDriver;
 use taceva_host::{Delivery, Place, Plugin, PluginHost, PythonModule, ReasonKind, Rejection};
 
-use super::{devices, json};
+use super::{counted, devices, json};
 use crate::args::ListFormat;
 
 /// Writes the plugins that were found; with `all`, also unused ones.
@@ -42,7 +42,7 @@ pub(crate) fn list(
     } else {
         ": --all says why"
     };
-    writeln!(out, "{used} plugins, {not} not used{hint}")
+    writeln!(out, "{}, {not} not used{hint}", counted(used, "plugin"))
 }
 
 /// Writes the content of a manifest.

@@ -135,7 +135,7 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     fs::create_dir(&cut_off).expect("made");
     fs::copy(&manifest, cut_off.join("plugin.toml")).expect("copied");
     let listed = bench.ok("plugin list");
-    assert!(listed.ends_with("1 plugins, 0 not used\n"), "{listed}");
+    assert!(listed.ends_with("1 plugin, 0 not used\n"), "{listed}");
 
     // Removed, it is gone whole; what it may reach stays and is said.
     bench.ok("plugin allow org.example.my-scale hid");

@@ -27,16 +27,14 @@ impl fmt::Display for UnknownMetric {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "`{}`: unknown metric", shown(&self.name))?;
         match self.nearest {
-            Some(nearest) => write!(f, ", did you mean `{nearest}`?"),
-            None => {
-                f.write_str(", expected one of ")?;
-                for (position, name) in names().enumerate() {
-                    let separator = if position == 0 { "" } else { ", " };
-                    write!(f, "{separator}{name}")?;
-                }
-                Ok(())
-            }
+            Some(nearest) => write!(f, ", did you mean `{nearest}`? Known are ")?,
+            None => f.write_str(", expected one of ")?,
         }
+        for (position, name) in names().enumerate() {
+            let separator = if position == 0 { "" } else { ", " };
+            write!(f, "{separator}{name}")?;
+        }
+        Ok(())
     }
 }
 

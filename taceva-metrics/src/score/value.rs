@@ -244,7 +244,8 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::Overflow => f.write_str("beyond the range of binary64"),
             UndefinedReason::TooFewClusters { have } => {
                 let least = crate::score::least::LEAST_CLUSTERS;
-                write!(f, "{have} clusters, {least} are needed")
+                let clusters = if *have == 1 { "cluster" } else { "clusters" };
+                write!(f, "{have} {clusters}, {least} are needed")
             }
             UndefinedReason::TooFewReplicates { defined, drawn } => {
                 let least = crate::score::least::LEAST_REPLICATES;

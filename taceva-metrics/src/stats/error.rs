@@ -120,7 +120,8 @@ impl fmt::Display for ComparisonError {
             ),
             ComparisonError::NoClusters => f.write_str("samples without point_id"),
             ComparisonError::TooFewClusters { have } => {
-                write!(f, "{have} clusters, {LEAST_CLUSTERS} are needed")
+                let clusters = if *have == 1 { "cluster" } else { "clusters" };
+                write!(f, "{have} {clusters}, {LEAST_CLUSTERS} are needed")
             }
             ComparisonError::Term { cluster, value } => {
                 let cluster = taceva_core::shown(cluster);

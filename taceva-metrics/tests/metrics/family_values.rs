@@ -60,7 +60,7 @@ fn one_press_has_a_sensitivity_and_one_bin_and_no_interval() {
     let Interval::Undefined(reason) = sensitivity.interval else {
         panic!("one cluster is not enough");
     };
-    assert_eq!(reason.to_string(), "1 clusters, 5 are needed");
+    assert_eq!(reason.to_string(), "1 cluster, 5 are needed");
     let uniformity = evaluation.score("uniformity", "Fz").expect("a score");
     assert_eq!(
         (&uniformity.value, &uniformity.flags[..]),

@@ -132,6 +132,6 @@ fn a_report_has_the_keys_that_scripts_rely_on() {
     );
     assert_eq!(
         undefined["metrics"]["mae"]["Fx"]["ci95"],
-        serde_json::json!({"undefined": "1 clusters, 5 are needed"})
+        serde_json::json!({"undefined": "1 cluster, 5 are needed"})
     );
 }

@@ -43,7 +43,7 @@ fn one_sample_has_an_error_and_no_explained_share() {
     assert_eq!(mae.value, Value::Scalar(0.5));
     assert_eq!(
         interval_said(&evaluation, "mae", "Fx"),
-        "1 clusters, 5 are needed"
+        "1 cluster, 5 are needed"
     );
 }
 

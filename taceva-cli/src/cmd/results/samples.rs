@@ -36,7 +36,7 @@ pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Fou
         match found {
             Some(path) => study.samples = Some(read(&path, study)?),
             None => missing.push(format!(
-                "{}: no samples of {} in {}: compared by the intervals of both, not sample by sample",
+                "{}: no samples of {} in {}",
                 shown(file),
                 escape_terminal(&study.sensor),
                 shown(&wanted)

@@ -12,6 +12,7 @@ use taceva_sweep::{
 use super::super::{Context, Usage};
 use super::summary::{folder_of, latest, print};
 use crate::args::SweepRun;
+use crate::report::counted;
 use crate::{exit, output};
 
 /// Submits the tasks at `wanted` that have no result yet.
@@ -50,12 +51,6 @@ pub(super) fn submit(
         shown(folder.path())
     ));
     Ok(exit::DONE)
-}
-
-/// `1 job`, `2 jobs`.
-fn counted(count: usize, what: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {what}{plural}")
 }
 
 /// Options of this call that jobs need too.

@@ -69,6 +69,12 @@ fn reports_of_a_run_are_written_again_without_acquiring() {
         "{}",
         ran.err
     );
+    let remedy = "figures of samples are left out: write the table with `taceva evaluate … --samples-out NAME.samples.csv`";
+    assert!(
+        ran.err.contains(remedy) && !ran.err.contains("compared by"),
+        "{}",
+        ran.err
+    );
     assert!(
         ran.err
             .contains("figures without data are not written: labels"),

@@ -42,13 +42,14 @@ pub fn limits_template(study: &Study) -> String {
     let name = toml::Value::String(format!("limits made from a result of {}", study.sensor));
     let mut out = format!(
         "# Limits made from a result of {}, serial {}, samples {}.\n\
-         # Each is {:.0} % worse than the value of the result (of R² and skill: so much more is unexplained), or the worse end of its interval if that is further: change limits as you need, delete the rest,\n\
+         # Each is {:.0} % worse than the value of the result (for R² and skill: 1 − value is {:.0} % larger), or the worse end of its interval if that is further: change limits as you need, delete the rest,\n\
          # then: taceva accept RESULT.json --limits THIS.toml\n\
          # `most` must not be exceeded, `least` must be reached; with `whole_interval = true` by the whole interval, not only by the value.\n\
          limits_version = {LIMITS_VERSION}\nname = {name}\n",
         line(&study.sensor),
         line(&study.serial),
         line(&study.source),
+        MARGIN * 100.0,
         MARGIN * 100.0
     );
     if study.is_simulated() {

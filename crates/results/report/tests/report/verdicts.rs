@@ -318,7 +318,7 @@ fn questions_without_room_are_counted_and_no_line_is_cut_away_from_a_terminal() 
 #[test]
 fn a_radar_places_nothing_without_an_interval_or_of_light_that_hardly_changed() {
     let names = ["dim", "other"];
-    let undefined = json!({"undefined": "1 clusters, 5 are needed"});
+    let undefined = json!({"undefined": "1 cluster, 5 are needed"});
     let studies = studies(&names, |at, metrics| {
         metrics["uniformity"]["Fz"]["ci95"] = undefined.clone();
         if at == 0 {
