@@ -173,8 +173,10 @@ pub(crate) enum Format {
     /// One row for each score or finding
     Csv,
     /// A Markdown table
+    #[value(alias = "markdown")]
     Md,
     /// A LaTeX table (booktabs)
+    #[value(alias = "latex")]
     Tex,
 }
 

@@ -1,6 +1,9 @@
 //! `taceva evaluate`.
 
-use taceva_core::Field;
+use std::path::PathBuf;
+
+use anyhow::Context as _;
+use taceva_core::{Field, shown};
 use taceva_dataset::{Dataset, SensorFile};
 use taceva_evaluate::{DataPart, Effort, EvaluateRequest, ModelChoice, evaluate, evaluate_plan};
 
@@ -15,6 +18,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.split_out.path {
         output::check_free(path, args.output.force)?;
     }
+    check_folders(&args.datasets)?;
     let models = context.models()?;
     let fitted = args
         .with
@@ -66,7 +70,11 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     let cache = cache::of(&args.cache);
     let planned = Effort::of_evaluation(&dataset, &request)?;
     effort::print(&planned, &dataset, cache.as_ref(), context);
-    let mut evaluated = evaluate(&dataset, &request, context.work(cache.as_ref()))?;
+    let evaluated = evaluate(&dataset, &request, context.work(cache.as_ref()));
+    let mut evaluated = match &args.with {
+        Some(model) => evaluated.with_context(|| applied(model, &args.datasets))?,
+        None => evaluated?,
+    };
     if scoring.samples_out.is_some() {
         super::attachments::note_samples(&mut evaluated.report)?;
     }
@@ -85,6 +93,31 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
         })?;
     }
     Ok(exit::DONE)
+}
+
+/// Rejects tables in the place of datasets.
+fn check_folders(datasets: &[PathBuf]) -> anyhow::Result<()> {
+    let is_table = |path: &&PathBuf| {
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        let is_table = extension.is_some_and(|name| matches!(name, "csv" | "tsv" | "parquet"));
+        is_table && path.is_file()
+    };
+    match datasets.iter().find(is_table) {
+        Some(path) => Err(Usage::error(format!(
+            "{} is a table, not a dataset; tables of predictions: `taceva score`; recordings: `taceva import FOLDER`",
+            shown(path)
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Use of a model file in words: `m.taceva on monday, tuesday`.
+fn applied(model: &std::path::Path, datasets: &[PathBuf]) -> String {
+    let datasets: Vec<String> = datasets
+        .iter()
+        .map(|path| shown(path).to_string())
+        .collect();
+    format!("model {} on {}", shown(&model), datasets.join(", "))
 }
 
 /// The model that is fitted where none is named: a small network for pictures, ridge regression for signals of taxels.

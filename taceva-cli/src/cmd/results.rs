@@ -16,6 +16,8 @@ use crate::output;
 
 /// The file of all results in the folder of a run.
 pub(super) const RESULTS: &str = "results.json";
+/// Header of a dataset.
+const HEADER: &str = "dataset.toml";
 
 /// Results with the samples behind them.
 #[derive(Default)]
@@ -111,17 +113,44 @@ pub(super) fn reports(path: &Path) -> anyhow::Result<Reports> {
 
 /// The file of results that `path` names: of the folder of a run, or itself.
 fn file_of(path: &Path) -> anyhow::Result<PathBuf> {
-    let file = match path.is_dir() {
-        true => path.join(RESULTS),
-        false => path.to_owned(),
+    let is_page = path
+        .extension()
+        .is_some_and(|extension| extension == "html");
+    let file = path.join(RESULTS);
+    let named = shown(path);
+    let problem = match (path.is_dir(), runs_in(path).as_slice()) {
+        (true, _) if file.is_file() => return Ok(file),
+        (false, _) if is_page => format!(
+            "{named} is a page; name the run folder or the JSON of `evaluate --format json --out`"
+        ),
+        (false, _) => return Ok(path.to_owned()),
+        (true, _) if path.join(HEADER).is_file() => {
+            format!("{named} is a dataset: `taceva evaluate {named}` makes a result")
+        }
+        (true, [first, others @ ..]) => {
+            let more = match others.len() {
+                0 => String::new(),
+                count => format!(" (and {count} more)"),
+            };
+            format!(
+                "{named}: a folder of runs; did you mean {}{more}?",
+                shown(first)
+            )
+        }
+        (true, []) => format!(
+            "{named}: a folder without {RESULTS}; expected the folder of a run, or the JSON of evaluate, score or run"
+        ),
     };
-    if path.is_dir() && !file.is_file() {
-        return Err(Usage::error(format!(
-            "{}: a folder without {RESULTS}; expected the folder of a run, or the JSON of evaluate, score or run",
-            shown(path)
-        )));
-    }
-    Ok(file)
+    Err(Usage::error(problem))
+}
+
+/// Runs in the folder at `path`, by name.
+fn runs_in(path: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(path).into_iter().flatten().flatten();
+    let folders = entries.map(|entry| entry.path());
+    let mut runs: Vec<PathBuf> = folders.filter(|run| run.join(RESULTS).is_file()).collect();
+    runs.sort();
+    runs
 }
 
 /// Writes `values` for people, in text or Markdown, and below them `rest`.

@@ -114,6 +114,7 @@ fn a_model_applied_to_frames_of_another_size_is_refused() {
     bench.record("large", 40);
     bench.ok("fit data --model ridge --out model -q");
     bench.refused("evaluate large --with model", 3, "32×32 gray8");
+    bench.refused("evaluate large --with model", 3, "model model on large: ");
     bench.refused(
         "predict large --with model --out pred.csv",
         3,
@@ -363,4 +364,28 @@ fn a_column_whose_unit_nobody_states_is_named_with_the_remedy() {
     let stated = bench.run(&format!("{score} --units Fz_N=N"));
     assert_eq!(stated.code, 0, "{}", stated.err);
     assert!(!stated.out.contains("unit 1") && !stated.err.contains("unit 1"));
+}
+
+#[test]
+fn a_table_and_a_channel_in_the_wrong_place_are_led_to_the_right_one() {
+    let bench = Bench::new();
+    bench.write("p.csv", "sample,Fz\n0,1\n");
+    bench.refused(
+        "evaluate p.csv",
+        2,
+        "p.csv is a table, not a dataset; tables of predictions: `taceva score`; recordings: `taceva import FOLDER`",
+    );
+    bench.record("data", 40);
+    let ran = bench.run("evaluate data --model ridge --channels fz -q");
+    assert!(
+        ran.code != 0 && ran.err.contains("did you mean `Fz`?"),
+        "{}",
+        ran.err
+    );
+    let ran = bench.run("evaluate data --model ridge --metrics mse -q");
+    assert!(
+        ran.code != 0 && ran.err.contains("did you mean `rmse`? Known are mae"),
+        "{}",
+        ran.err
+    );
 }

@@ -295,8 +295,9 @@ pub(crate) fn chosen_channels(
             known.by_name(name).cloned().ok_or_else(|| {
                 let list: Vec<&str> = known.iter().map(|channel| channel.name()).collect();
                 EvaluateError::Request(format!(
-                    "`{}`: no such channel, the dataset has {}",
+                    "`{}`: no such channel{}, the dataset has {}",
                     shown(name),
+                    hint(name, &list),
                     list.join(", ")
                 ))
             })
@@ -310,6 +311,22 @@ pub(crate) fn chosen_channels(
         ));
     }
     Ok(chosen)
+}
+
+/// Planes of two channels each, which scores have and models do not predict.
+const PLANES: [(&str, [&str; 2]); 2] = [("Pxy", ["Px", "Py"]), ("Fxy", ["Fx", "Fy"])];
+
+/// Meaning of the unknown channel `name`, if it is a plane or like one of `known`.
+fn hint(name: &str, known: &[&str]) -> String {
+    let mut planes = PLANES.into_iter();
+    let plane = planes.find(|(plane, _)| plane.eq_ignore_ascii_case(name));
+    match (plane, taceva_core::nearest(name, known.iter().copied())) {
+        (Some((plane, [x, y])), _) => {
+            format!("; {plane} is formed of {x} and {y}: --channels {x},{y}")
+        }
+        (None, Some(nearest)) => format!("; did you mean `{nearest}`?"),
+        (None, None) => String::new(),
+    }
 }
 
 /// The rows among `rows` that meet `need`.
@@ -337,4 +354,19 @@ pub struct Need<'a> {
     pub frame: bool,
     /// Channels that must each have a label.
     pub labels: Option<&'a Channels>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plane_and_another_case_of_a_channel_are_understood() {
+        let six = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"];
+        let plane = "; Fxy is formed of Fx and Fy: --channels Fx,Fy";
+        assert_eq!(hint("Fxy", &six), plane);
+        assert_eq!(hint("fxy", &six), plane);
+        assert_eq!(hint("fz", &six), "; did you mean `Fz`?");
+        assert_eq!(hint("temperature", &six), "");
+    }
 }

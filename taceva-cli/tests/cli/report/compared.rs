@@ -127,6 +127,15 @@ fn published_numbers_are_compared_and_chosen_from() {
         "`beauty`: unknown need, expected one of shear",
     );
     bench.refused(
+        "compare GelSight",
+        2,
+        "expected at least two; `taceva catalogue list` names sensors to compare with",
+    );
+    for (alias, format) in [("latex", "tex"), ("markdown", "md")] {
+        let of = |format: &str| bench.ok(&format!("compare ViTacTip GelSight --format {format}"));
+        assert_eq!(of(alias), of(format));
+    }
+    bench.refused(
         "compare ViTacTip Nobody",
         2,
         "`Nobody`: no such file, and no such name in the catalogue",

@@ -127,6 +127,24 @@ fn results_of_another_version_are_refused_in_words() {
     );
     fs::create_dir(bench.path("empty")).expect("made");
     bench.refused("report empty", 2, "a folder without results.json");
+    bench.write("runs/monday/results.json", "{}");
+    bench.refused(
+        "report runs",
+        2,
+        "runs: a folder of runs; did you mean runs/monday?",
+    );
+    bench.write("page.html", "<p>");
+    bench.refused(
+        "report page.html",
+        2,
+        "page.html is a page; name the run folder or the JSON of `evaluate --format json --out`",
+    );
+    bench.record("data", 20);
+    bench.refused(
+        "report data",
+        2,
+        "data is a dataset: `taceva evaluate data` makes a result",
+    );
 }
 
 #[test]
