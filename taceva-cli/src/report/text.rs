@@ -6,11 +6,11 @@ use std::io::{self, Write};
 use taceva_core::{Limit, PressOutcome};
 use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
-use taceva_results::{EvaluationReport, Interval};
+use taceva_results::{EvaluationReport, Interval, Provenance};
 
 use super::line::{Line, flags, pictures, read_lines, remedies, standings};
 use super::number::formatted;
-use super::recordings;
+use super::{counted, recordings};
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
@@ -128,12 +128,32 @@ fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
         let seed = provenance
             .seed
             .map_or_else(String::new, |seed| format!(", seed {seed}"));
-        writeln!(out, "split {split}{seed}: {}", parts.join(", "))?;
+        let made = folds(provenance).unwrap_or_else(|| parts.join(", "));
+        writeln!(out, "split {split}{seed}: {made}")?;
     }
-    if let Some(part) = &provenance.part {
+    let part = provenance.part.as_ref();
+    if let Some(part) = part.filter(|_| provenance.cross_validation().is_none()) {
         writeln!(out, "scored on the part `{part}`")?;
     }
     writeln!(out)
+}
+
+/// Samples and models of a cross-validation: `696 samples, each predicted once by one of 5 models`.
+fn folds(provenance: &Provenance) -> Option<String> {
+    provenance.cross_validation()?;
+    let tested = counted(*provenance.samples.get("test")?, "sample");
+    let models = match provenance.fold_models() {
+        Some(models) => format!("one of {models} models"),
+        None => "a model that has not seen its group".to_owned(),
+    };
+    let left_out = provenance.samples.get("left_out").copied();
+    let left_out = match left_out.unwrap_or_default() {
+        0 => String::new(),
+        count => format!("; left out {count}"),
+    };
+    Some(format!(
+        "{tested}, each predicted once by {models}{left_out}"
+    ))
 }
 
 fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {

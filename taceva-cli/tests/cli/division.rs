@@ -79,6 +79,15 @@ fn few_points_are_each_tested_on_once_and_no_frame_is_decoded_twice() {
     bench.record("data", 32);
     let report = bench.json("evaluate data --model ridge --set size=8 --metrics mae");
     assert_eq!(report["provenance"]["split"], "cv:5 by-point");
+    let text = bench.ok("evaluate data --model ridge --set size=8 --metrics mae -q");
+    let folds = format!(
+        "split cv:5 by-point, seed 0: {SAMPLES} samples, each predicted once by one of 5 models\n"
+    );
+    assert!(text.contains(&folds), "{text}");
+    assert!(!text.contains("scored on the part"), "{text}");
+    let table = bench.ok("evaluate data --model ridge --set size=8 --format tex -q");
+    let caption = "each held out once (5-fold cross-validation by point)";
+    assert!(table.contains(caption), "{table}");
     assert_eq!(report["metrics"]["mae"]["Fz"]["n"], SAMPLES);
     assert_eq!(report["provenance"]["frames_decoded"], SAMPLES);
     bench.refused(

@@ -65,6 +65,8 @@ pub struct Made {
     pub part: Option<String>,
     /// The number of recordings that were taken as one; 0 where there is one.
     pub recordings: usize,
+    /// Cross-validation in words, if each sample was held out once: `5-fold cross-validation by point`.
+    pub folds: Option<String>,
 }
 
 impl From<EvaluationReport> for Study {
@@ -72,8 +74,10 @@ impl From<EvaluationReport> for Study {
         let provenance = provenance::entries(&report.provenance);
         let presses = report.provenance.press_counts();
         let seen_part = seen_part(&report.provenance);
+        let folds = report.provenance.cross_validation();
         let samples = report.provenance.samples.into_iter();
         let made = Made {
+            folds,
             presses: presses.values().sum(),
             samples: samples.map(|(part, count)| (part, count as u64)).collect(),
             truth: report.provenance.tables.get("truth").cloned(),

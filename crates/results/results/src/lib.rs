@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod error;
+mod folds;
 mod formula;
 mod interval;
 mod ordered;

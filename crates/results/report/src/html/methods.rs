@@ -111,9 +111,21 @@ fn divided(studies: &[Study]) -> String {
     let Some(splits) = values(studies, "split") else {
         return String::new();
     };
+    let seeds = values(studies, "seed").map(|seeds| format!("seed {}", listed(&seeds)));
+    let folds = studies.iter().map(|study| study.made.folds.clone());
+    if let Some(mut folds) = folds.collect::<Option<Vec<String>>>() {
+        folds.sort();
+        folds.dedup();
+        let seeds = seeds.map_or_else(String::new, |seeds| format!(", {seeds}"));
+        return format!(
+            " Each sample was held out once, and predicted by a model that was fitted without its group ({}; split {}{seeds}).",
+            listed(&folds),
+            listed(&splits)
+        );
+    }
     let mut out = format!(" Samples were divided by the split {}", listed(&splits));
-    if let Some(seeds) = values(studies, "seed") {
-        out += &format!(" (seed {})", listed(&seeds));
+    if let Some(seeds) = seeds {
+        out += &format!(" ({seeds})");
     }
     let mut names: Vec<&str> = Vec::new();
     let all = studies.iter().flat_map(|study| &study.made.samples);

@@ -15,6 +15,8 @@ pub(super) struct About {
     recordings: usize,
     /// Notes that call the scores too good.
     pub(super) optimistic: Vec<String>,
+    /// Cross-validation in words, if each sample was held out once.
+    folds: Option<String>,
 }
 
 impl About {
@@ -28,6 +30,7 @@ impl About {
                 is_divided.then(|| "test".to_owned())
             }),
             recordings: study.made.recordings,
+            folds: study.made.folds.clone(),
             optimistic: study
                 .notes
                 .iter()
@@ -99,7 +102,15 @@ impl ScoreTable {
         };
         let parts: BTreeSet<Option<&str>> =
             self.about.iter().map(|of| of.part.as_deref()).collect();
+        let folds: BTreeSet<Option<&str>> =
+            self.about.iter().map(|of| of.folds.as_deref()).collect();
+        let has_folds = folds.iter().any(Option::is_some);
+        let held_out = match folds.first() {
+            Some(Some(words)) if folds.len() == 1 => format!(", each held out once ({words})"),
+            _ => String::new(),
+        };
         let part = match parts.first() {
+            _ if has_folds => "",
             Some(Some("test")) if parts.len() == 1 => "test ",
             Some(Some("validation")) if parts.len() == 1 => "validation ",
             Some(Some("train")) if parts.len() == 1 => "training ",
@@ -122,7 +133,7 @@ impl ScoreTable {
             [one] if one.recordings > 1 => format!(" of {} recordings", one.recordings),
             _ => String::new(),
         };
-        format!(" on {many}{source}{part}{noun}{each}{recordings}")
+        format!(" on {many}{source}{part}{noun}{each}{recordings}{held_out}")
     }
 
     /// The number of samples behind every value, where it is the same and known.

@@ -226,6 +226,28 @@ fn a_caption_of_many_recordings_counts_them() {
 }
 
 #[test]
+fn a_caption_of_folds_says_that_each_sample_was_held_out() {
+    let mut result = result("GelSight", &PLANES);
+    result["provenance"]["split"] = "cv:5 by-column:video".into();
+    result["provenance"]["samples"] = json!({"test": 20, "train": 0, "validation": 0});
+    let study = support::study(&result);
+    let caption = ScoreTable::of(std::slice::from_ref(&study)).caption();
+    assert_eq!(
+        caption,
+        "Accuracy of GelSight (ridge) on 20 simulated samples, each held out once (5-fold cross-validation by video), with 95 % intervals."
+    );
+    let page = taceva_report::report(&taceva_report::Report {
+        title: "folds",
+        studies: &[study],
+        pictures: &[],
+        triples: &[],
+    });
+    let methods = "Each sample was held out once, and predicted by a model that was fitted without its group (5-fold cross-validation by \
+        video; split cv:5 by-column:video).";
+    assert!(page.contains(methods), "{page}");
+}
+
+#[test]
 fn results_without_accuracy_keep_their_other_scores() {
     let mut result = result("GelSight", &["Fz"]);
     let metrics = result["metrics"].as_object_mut().expect("metrics");

@@ -1,0 +1,94 @@
+//! Folds of a cross-validation, as the provenance of a result states them.
+
+use crate::provenance::Provenance;
+
+impl Provenance {
+    /// Cross-validation behind the scores, in words. `None` if one model was fitted and other samples tested it.
+    ///
+    /// ```
+    /// use taceva_results::Provenance;
+    /// let mut made = Provenance::default();
+    /// made.split = Some("cv:5 by-column:video".to_owned());
+    /// made.part = Some("test".to_owned());
+    /// assert_eq!(made.cross_validation().as_deref(), Some("5-fold cross-validation by video"));
+    /// assert_eq!(made.fold_models(), Some(5));
+    /// ```
+    pub fn cross_validation(&self) -> Option<String> {
+        let split = self.split.as_deref()?;
+        let fitted = self.samples.get("train").copied().unwrap_or_default();
+        if fitted > 0 || self.part.as_deref() != Some("test") {
+            return None;
+        }
+        let (word, by) = split.split_once(' ').unwrap_or((split, ""));
+        let group = match by {
+            "random" => "sample",
+            by => by
+                .strip_prefix("by-column:")
+                .or_else(|| by.strip_prefix("by-"))
+                .unwrap_or_default(),
+        };
+        let by = match group {
+            "" => String::new(),
+            group => format!(" by {group}"),
+        };
+        match (word, word.strip_prefix("cv:")) {
+            ("leave-one-recording-out", _) => Some("cross-validation by recording".to_owned()),
+            ("loo", _) => Some(format!("leave-one-out cross-validation{by}")),
+            (_, Some(count)) => Some(format!("{count}-fold cross-validation{by}")),
+            _ => None,
+        }
+    }
+
+    /// Number of models of the [cross-validation](Provenance::cross_validation). `None` if the provenance does not state it.
+    pub fn fold_models(&self) -> Option<usize> {
+        self.cross_validation()?;
+        let split = self.split.as_deref()?;
+        let word = split.split(' ').next()?;
+        match word.strip_prefix("cv:") {
+            Some(count) => count.parse().ok(),
+            None => Some(self.recordings.len())
+                .filter(|count| *count > 0 && word == "leave-one-recording-out"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_form_of_folds_has_its_words_and_no_other_split_has() {
+        let words = |split: &str, train: usize| {
+            let made = Provenance {
+                split: Some(split.to_owned()),
+                part: Some("test".to_owned()),
+                samples: [("test".to_owned(), 9), ("train".to_owned(), train)].into(),
+                ..Provenance::default()
+            };
+            (made.cross_validation(), made.fold_models())
+        };
+        for (split, expected, models) in [
+            ("cv:5", "5-fold cross-validation", Some(5)),
+            ("cv:3 by-point", "3-fold cross-validation by point", Some(3)),
+            (
+                "cv:10 random",
+                "10-fold cross-validation by sample",
+                Some(10),
+            ),
+            (
+                "loo by-column:object",
+                "leave-one-out cross-validation by object",
+                None,
+            ),
+            (
+                "leave-one-recording-out 70/20/10",
+                "cross-validation by recording",
+                None,
+            ),
+        ] {
+            assert_eq!(words(split, 0), (Some(expected.to_owned()), models));
+            assert_eq!(words(split, 4), (None, None), "one model was fitted");
+        }
+        assert_eq!(words("by-point 70/20/10", 0), (None, None));
+    }
+}
