@@ -46,6 +46,7 @@ pub(crate) fn is_stopped() -> bool {
 /// Progress on standard error.
 pub(crate) struct TerminalProgress {
     mode: Mode,
+    is_verbose: bool,
     bar: Mutex<Option<ProgressBar>>,
     pace: Mutex<Option<Pace>>,
 }
@@ -124,15 +125,22 @@ enum Mode {
     Bar,
 }
 
-impl TerminalProgress {
-    pub(crate) fn new(quiet: bool) -> TerminalProgress {
-        let mode = match (quiet, std::io::stderr().is_terminal()) {
+impl Mode {
+    fn of(quiet: bool) -> Mode {
+        match (quiet, std::io::stderr().is_terminal()) {
             (true, _) => Mode::Quiet,
             (false, true) => Mode::Bar,
             (false, false) => Mode::Lines,
-        };
+        }
+    }
+}
+
+impl TerminalProgress {
+    /// Progress that prints stages of one step in plain lines only if `is_verbose`.
+    pub(crate) fn new(quiet: bool, is_verbose: bool) -> TerminalProgress {
         TerminalProgress {
-            mode,
+            mode: Mode::of(quiet),
+            is_verbose,
             bar: Mutex::new(None),
             pace: Mutex::new(None),
         }
@@ -158,9 +166,8 @@ impl Progress for TerminalProgress {
             Mode::Quiet => {}
             Mode::Lines => {
                 self.with_pace(|pace| *pace = Some(Pace::new(stage, steps)));
-                match steps {
-                    Some(steps) => stderr::say(format_args!("{stage} ({steps})")),
-                    None => stderr::say(format_args!("{stage}")),
+                if let Some(line) = first_line(stage, steps, self.is_verbose) {
+                    stderr::say(format_args!("{line}"));
                 }
             }
             Mode::Bar => self.with_bar(|bar| *bar = Some(draw(stage, steps))),
@@ -195,6 +202,15 @@ impl Progress for TerminalProgress {
     }
 }
 
+/// Plain line at the start of a stage: `leaving groups out (13)`. A stage of one step has none, unless `is_verbose`.
+fn first_line(stage: &str, steps: Option<u64>, is_verbose: bool) -> Option<String> {
+    match steps {
+        Some(0 | 1) if !is_verbose => None,
+        Some(steps) => Some(format!("{stage} ({steps})")),
+        None => Some(stage.to_owned()),
+    }
+}
+
 /// A status line on standard error for work without a known end: updated in place on a terminal, else printed every half minute.
 pub(crate) struct StatusLine {
     mode: Mode,
@@ -204,7 +220,7 @@ pub(crate) struct StatusLine {
 
 impl StatusLine {
     pub(crate) fn new(quiet: bool) -> StatusLine {
-        let mode = TerminalProgress::new(quiet).mode;
+        let mode = Mode::of(quiet);
         let bar = match mode {
             Mode::Bar => ProgressBar::new_spinner(),
             Mode::Quiet | Mode::Lines => ProgressBar::hidden(),
@@ -285,6 +301,21 @@ mod tests {
         assert_eq!(left(1, u64::MAX, Duration::MAX), None);
         let said = [0, 89, 90, 5399, 5400].map(|seconds| spoken(Duration::from_secs(seconds)));
         assert_eq!(said, ["0 s", "89 s", "2 min", "90 min", "1 h 30 min"]);
+    }
+
+    #[test]
+    fn a_stage_of_one_step_has_a_line_only_if_more_is_asked_for() {
+        let line = |steps, is_verbose| first_line("products of features", steps, is_verbose);
+        assert_eq!(line(Some(1), false), None);
+        assert_eq!(
+            line(Some(1), true).as_deref(),
+            Some("products of features (1)")
+        );
+        assert_eq!(
+            line(Some(2), false).as_deref(),
+            Some("products of features (2)")
+        );
+        assert_eq!(line(None, false).as_deref(), Some("products of features"));
     }
 
     #[test]

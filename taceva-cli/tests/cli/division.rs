@@ -79,6 +79,15 @@ fn few_points_are_each_tested_on_once_and_no_frame_is_decoded_twice() {
     bench.record("data", 32);
     let report = bench.json("evaluate data --model ridge --set size=8 --metrics mae");
     assert_eq!(report["provenance"]["split"], "cv:5 by-point");
+    let ran = bench.run("evaluate data --model ridge --set size=8 --metrics mae");
+    let fits: Vec<&str> = ran
+        .err
+        .lines()
+        .filter(|line| line.starts_with("taceva: fit ridge, fold "))
+        .collect();
+    assert_eq!(fits.len(), 5, "{}", ran.err);
+    assert_eq!(fits[1], "taceva: fit ridge, fold 2 of 5");
+    assert!(!ran.err.contains("(1)"), "{}", ran.err);
     let text = bench.ok("evaluate data --model ridge --set size=8 --metrics mae -q");
     let folds = format!(
         "split cv:5 by-point, seed 0: {SAMPLES} samples, each predicted once by one of 5 models\n"

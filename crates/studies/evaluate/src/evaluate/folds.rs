@@ -317,8 +317,12 @@ impl<'a> Folds<'a> {
         let mut rows = Vec::new();
         let mut decoded = BTreeSet::new();
         let (mut passes, mut unlearnt, mut unpredicted) = (1, 0, 0);
-        for fold in &self.folds {
+        for (number, fold) in (1_usize..).zip(&self.folds) {
             let plan = self.plan(fit, fold)?;
+            let (name, count) = (fit.model.name(), self.folds.len());
+            let stage = format!("fit {name}, fold {number} of {count}");
+            work.progress.begin(&stage, None);
+            work.progress.end();
             if plan.reads_frames() {
                 decoded.extend(plan.train.iter().chain(&plan.validation).copied());
                 passes = plan.passes();
