@@ -319,7 +319,9 @@ const PLANES: [(&str, [&str; 2]); 2] = [("Pxy", ["Px", "Py"]), ("Fxy", ["Fx", "F
 /// Meaning of the unknown channel `name`, if it is a plane or like one of `known`.
 fn hint(name: &str, known: &[&str]) -> String {
     let mut planes = PLANES.into_iter();
-    let plane = planes.find(|(plane, _)| plane.eq_ignore_ascii_case(name));
+    let plane = planes.find(|(plane, of)| {
+        plane.eq_ignore_ascii_case(name) && of.iter().all(|channel| known.contains(channel))
+    });
     match (plane, taceva_core::nearest(name, known.iter().copied())) {
         (Some((plane, [x, y])), _) => {
             format!("; {plane} is formed of {x} and {y}: --channels {x},{y}")
@@ -368,5 +370,6 @@ mod tests {
         assert_eq!(hint("fxy", &six), plane);
         assert_eq!(hint("fz", &six), "; did you mean `Fz`?");
         assert_eq!(hint("temperature", &six), "");
+        assert_eq!(hint("Fxy", &["Px", "Fz"]), "");
     }
 }

@@ -199,6 +199,8 @@ mod tests {
                 "tolerance": {"Fz": {"value": 0.5, "unit": "1", "n": 46}}}}"#,
         );
         let text = limits_template(&study.expect("a result").remove(0));
+        let margin = "(for R² and skill: 1 − value is 20 % larger)";
+        assert!(text.contains(margin), "{text}");
         let limits = LimitsFile::read(&text).expect("limits").limits;
         let least: Vec<_> = limits
             .iter()
