@@ -148,11 +148,9 @@ fn a_machine_that_reads_late_is_refused_with_what_helps() {
 
 #[test]
 fn emulated_devices_that_are_late_for_a_while_are_waited_for_and_real_ones_are_not() {
-    for (simulated, late_until_s, presses) in [
-        (true, 17.0, 1),
-        (false, 17.0, 0),
-        (true, f64::INFINITY, 0),
-    ] {
+    for (simulated, late_until_s, presses) in
+        [(true, 17.0, 1), (false, 17.0, 0), (true, f64::INFINITY, 0)]
+    {
         let bench = Bench::new(MOUNTED);
         bench.state().latency_s = 0.04;
         bench.state().late_until_s = late_until_s;
