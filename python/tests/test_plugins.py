@@ -147,6 +147,17 @@ def test_an_interpreter_that_is_gone_or_has_no_taceva_is_named_with_the_remedy(t
     assert "not a package, expected __init__.py beside the manifest" in listed
 
 
+def test_checks_without_a_required_argument_are_counted_by_the_reason_that_names_it(tmp_path: Path, program: Program) -> None:
+    scale = SCALE.replace("    readings = 0\n", "    readings = 0\n    def __init__(self, file: str) -> None: ...\n")
+    argument = '\n[[provides.args]]\nkey = "file"\ntype = "text"\n'
+    made = package(tmp_path, code=scale, manifest=MANIFEST + argument)
+    done = program.run("plugin", "check", KEY, "--plugin-dir", str(made), "--only", "force/reads,force/interrupt")
+    last = done.stdout.rstrip().splitlines()[-1]
+    remedy = f"give it with `--with {KEY}/scale:file=…`"
+    assert re.fullmatch(r"\d+ skipped: `file`: missing, expected .*: " + re.escape(remedy), last), done.stdout + done.stderr
+    assert "same reason" not in done.stdout
+
+
 @pytest.mark.skipif(os.geteuid() != 0, reason="a plugin runs as another user for root alone")
 def test_what_the_user_of_the_sandbox_may_not_read_is_refused_with_the_folder_that_closes_it(
     tmp_path: Path, program: Program
