@@ -56,6 +56,13 @@ fn plugins_are_listed_with_what_they_provide_and_how_they_would_run() {
     assert_eq!(trusted["plugins"][1]["delivery"], "in-process");
     let out = bench.ok("plugin list --plugin-dir plugins");
     assert!(out.contains("needs usb (none of it allowed)"), "{out}");
+    let columns: Vec<&str> = out
+        .lines()
+        .next()
+        .unwrap_or("")
+        .split_whitespace()
+        .collect();
+    assert_eq!(columns, ["id", "version", "runs-in", "found-by", "name"]);
     // What is enforced was tried, by a child that loads nothing.
     let isolation = plugins[0]["isolation"].as_str().expect("words");
     assert!(
@@ -228,5 +235,23 @@ fn the_robot_of_the_template_reaches_what_the_example_scenes_press() {
         assert_ne!(text, replaced, "{scene}");
         bench.write("scene.toml", &replaced);
         bench.ok("plan scene.toml --plugin-dir my-arm");
+    }
+}
+
+#[test]
+fn a_new_plugin_is_also_begun_by_another_word_for_its_kind() {
+    let bench = Bench::new();
+    for (word, kind) in [
+        ("camera", "sensor"),
+        ("transducer", "force"),
+        ("model", "estimator"),
+    ] {
+        bench.ok(&format!("plugin new {word} my-{word} --language python"));
+        let manifest = bench.path(&format!("my-{word}/src/my_{word}/plugin.toml"));
+        let manifest = fs::read_to_string(manifest).expect("written");
+        assert!(
+            manifest.contains(&format!("kind = \"{kind}\"")),
+            "{manifest}"
+        );
     }
 }

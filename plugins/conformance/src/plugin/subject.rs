@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use taceva_abi as abi;
 use taceva_core::{
-    ArgError, Args, Deadline, Descriptor, DescriptorError, Device, DriverError, DriverKey, DriverSource,
-    Factory, Rig,
+    ArgError, Args, Deadline, Descriptor, DescriptorError, Device, DriverError, DriverKey,
+    DriverSource, Factory, Rig,
 };
 use taceva_host::bare::{ArgList, Entry, Opened, RigHandle, Source, Table, call, open};
 use taceva_host::{Failure, InProcess, Library, Manifest, Provided, Session};
@@ -90,9 +90,7 @@ impl Subject {
                 ArgError::Missing { key, .. } => key.as_str(),
                 _ => "KEY",
             };
-            Unmet::Skipped(format!(
-                "{error}: give it with `--with {key}:{argument}=…`"
-            ))
+            Unmet::Skipped(format!("{error}: give it with `--with {key}:{argument}=…`"))
         })
     }
 
