@@ -170,6 +170,8 @@ def test_what_the_user_of_the_sandbox_may_not_read_is_refused_with_the_folder_th
     assert "runs as user 65534" in done.stderr
     listed = program.run("plugin", "list", "--plugin-dir", str(made)).stdout
     assert f"    cannot run: let every user read {tmp_path / 'closed'} (`chmod o+rx`)" in listed, listed
+    doctor = program.run("doctor", "--plugin-dir", str(made)).stdout
+    assert f"`--trust {KEY}` runs it unconfined, in a process of its own" in doctor, doctor
     trusted = program.run("plugin", "check", KEY, "--plugin-dir", str(made), "--trust", KEY, "--only", "library/loads,force/reads")
     assert trusted.returncode == 0, trusted.stdout + trusted.stderr
 

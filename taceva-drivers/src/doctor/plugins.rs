@@ -16,8 +16,14 @@ pub fn examine_plugins(host: &Arc<PluginHost>) -> Vec<Diagnosis> {
                 (State::Good, format!("runs {keeping}"), None)
             }
             Keeping::Refused(_) => {
-                let remedy = format!("`--trust {id}` runs it unconfined, in this process");
-                (State::Problem, keeping.to_string(), Some(remedy))
+                let place = match (plugin.library(), &plugin.interpreter) {
+                    (Some(_), _) => Some("in this process"),
+                    (None, Some(_)) => Some("in a process of its own"),
+                    (None, None) => None,
+                };
+                let remedy =
+                    place.map(|place| format!("`--trust {id}` runs it unconfined, {place}"));
+                (State::Problem, keeping.to_string(), remedy)
             }
         };
         let finding = Diagnosis {
