@@ -255,3 +255,21 @@ fn a_new_plugin_is_also_begun_by_another_word_for_its_kind() {
         );
     }
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_plugin_in_python_cannot_run_without_an_interpreter() {
+    let bench = Bench::new();
+    bench.ok("plugin new sensor my-eye --language python");
+    let folder = "--plugin-dir my-eye/src/my_eye";
+    let out = bench.ok(&format!("plugin list {folder}"));
+    let why = "    cannot run: it is written in Python, and no interpreter is known";
+    assert!(out.contains(why), "{out}");
+    let doctor = bench.run(&format!("doctor {folder}"));
+    assert!(
+        doctor.out.contains("cannot run: it is written in Python"),
+        "{}",
+        doctor.out
+    );
+    assert!(!doctor.out.contains("--trust"), "{}", doctor.out);
+}
