@@ -33,9 +33,28 @@ fn the_list_for_people_names_facts_and_arguments() {
         .lines()
         .skip_while(|line| !line.starts_with("sim/gelsight "));
     let lines: Vec<&str> = gelsight.take(4).collect();
-    assert!(lines[0].contains("simulated"), "{out}");
+    assert!(lines[0].ends_with(" simulated: GelSight"), "{out}");
     assert!(lines[1].contains("opaque, markers, Pz up to 1 mm"), "{out}");
     assert!(lines[2].trim().starts_with("rig "), "{out}");
+    let camera = |line: &&str| line.starts_with("camera/v4l2 ");
+    let camera = out.lines().skip_while(|line| !camera(line));
+    let lines: Vec<&str> = camera
+        .take_while(|line| !line.starts_with("sim/"))
+        .collect();
+    assert!(
+        lines[0].ends_with(" real: a camera of this machine"),
+        "{out}"
+    );
+    let exposure = lines
+        .iter()
+        .find(|line| line.trim().starts_with("exposure_ms "));
+    let device = lines.iter().find(|line| line.trim().starts_with("device "));
+    let (exposure, device) = (exposure.expect("listed"), device.expect("listed"));
+    let value = exposure.find("a number").expect("what it takes");
+    assert!(
+        device[..value].ends_with(' ') && !device[value..].starts_with(' '),
+        "{out}"
+    );
 }
 
 #[test]
