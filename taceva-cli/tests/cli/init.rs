@@ -116,6 +116,27 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
     bench.ok("init scene --yes --out scene.toml");
     let planned = bench.run("plan scene.toml --rig lab.toml");
     assert!(!planned.err.contains("lab.toml, line"), "{}", planned.err);
+    // No driver of a camera knows the gel before it: the plan says which line is missing.
+    assert_eq!(planned.code, 2, "{}", planned.err);
+    let line = "write `footprint = { shape = \"disc\", radius_mm = … }`";
+    assert!(planned.err.contains(line), "{}", planned.err);
+    bench.refused("run scene.toml --rig lab.toml", 2, line);
+    let answers = "my gel\nsim/gelsight\nround\nrect 6 8\n24\n1\nridge\naccuracy\n7\n";
+    let asked = bench.answered("init scene --out stated.toml", answers);
+    assert_eq!(asked.code, 0, "{}", asked.err);
+    assert!(
+        asked.err.contains("expected `driver`, `disc RADIUS`"),
+        "{}",
+        asked.err
+    );
+    let stated = read(&bench, "stated.toml");
+    let line = "footprint = { shape = \"rect\", half_x_mm = 6.0, half_y_mm = 8.0 }";
+    assert!(stated.contains(line), "{stated}");
+    let planned = bench.run("plan stated.toml --rig lab.toml");
+    assert_eq!(planned.code, 0, "{}", planned.err);
+    assert!(planned.out.contains("24 presses"), "{}", planned.out);
+    let few = "the test part has 2 contact points, and intervals need 5";
+    assert!(planned.err.contains(few), "{}", planned.err);
     bench.refused(
         "init rig --yes --out other.toml",
         2,
@@ -126,7 +147,7 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
 #[test]
 fn without_a_subject_it_asks_which() {
     let bench = Bench::new();
-    let ran = bench.answered("init", "scene\n\n\n\n\n\n\n\n");
+    let ran = bench.answered("init", "scene\n\n\n\n\n\n\n\n\n");
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(bench.path("scene.toml").exists());
 }

@@ -44,6 +44,10 @@ pub(super) fn write(
     };
     let question = format!("sensors, separated by commas ({known})");
     let chosen = interview.ask(&question, sensors.first().map(String::as_str), is_known)?;
+    let sensing_area = match chosen.contains(',') {
+        true => None,
+        false => footprint(interview)?,
+    };
     let points = interview.count("contact points", "200", [4, 100_000])?;
     let presses = interview.count("depths at each point", "4", [1, 1000])?;
     let models = ["ridge", "fast", "default", "best", "auto"];
@@ -55,7 +59,8 @@ pub(super) fn write(
     );
     let sensors: Vec<&str> = chosen.split(',').map(str::trim).collect();
     if let [sensor] = sensors.as_slice() {
-        text += &format!("[sensor]\ndriver = {sensor:?}\n\n");
+        let footprint = sensing_area.map_or_else(String::new, |line| format!("{line}\n"));
+        text += &format!("[sensor]\ndriver = {sensor:?}\n{footprint}\n");
     }
     text += &format!(
         "{BENCH}\n[model]\nname = {model:?}                  # ridge, fast, default, best, auto …: taceva fit --help\n\n[metrics]\nwant = [{wanted:?}]\n\n[protocol.calibration]\npoints = {points}\nindentations = {presses}\n"
@@ -83,4 +88,41 @@ pub(super) fn write(
             format!("taceva run {path_word}"),
         ],
     )
+}
+
+/// The line of the scene that states the sensing surface; `None` if the driver states it.
+fn footprint(interview: &mut Interview) -> anyhow::Result<Option<String>> {
+    interview.say("on a real rig the scene states the sensing area, which the driver of a camera does not know");
+    let check = |answer: &str| match answer == "driver" || footprint_line(answer).is_some() {
+        true => Ok(()),
+        false => Err(
+            "expected `driver`, `disc RADIUS` or `rect HALF_X HALF_Y` with lengths above 0"
+                .to_owned(),
+        ),
+    };
+    let question =
+        "sensing area in mm (disc RADIUS, rect HALF_X HALF_Y, or driver if that states it)";
+    let answer = interview.ask(question, Some("driver"), check)?;
+    Ok(footprint_line(&answer))
+}
+
+/// The line for `disc RADIUS` or `rect HALF_X HALF_Y`.
+fn footprint_line(answer: &str) -> Option<String> {
+    let mut words = answer.split_whitespace();
+    let shape = words.next()?;
+    let lengths: Vec<f64> = words
+        .map(|word| {
+            let length = word.parse::<f64>().ok()?;
+            (length > 0.0 && length.is_finite()).then_some(length)
+        })
+        .collect::<Option<_>>()?;
+    match (shape, lengths.as_slice()) {
+        ("disc", [radius]) => Some(format!(
+            "footprint = {{ shape = \"disc\", radius_mm = {radius:?} }}"
+        )),
+        ("rect", [half_x, half_y]) => Some(format!(
+            "footprint = {{ shape = \"rect\", half_x_mm = {half_x:?}, half_y_mm = {half_y:?} }}"
+        )),
+        _ => None,
+    }
 }
