@@ -64,6 +64,21 @@ fn a_recording_without_answers_keeps_its_open_places_with_yes() {
 }
 
 #[test]
+fn an_import_without_a_map_names_the_command_that_writes_one() {
+    let bench = lab();
+    bench.refused(
+        "import lab --out data",
+        2,
+        "no map: `taceva init recording lab` writes one, and `taceva import --presets` lists layouts that need none",
+    );
+    bench.refused(
+        "import lab --map none.toml --out data",
+        3,
+        "none.toml: no such map: `taceva init recording lab --out none.toml` writes one",
+    );
+}
+
+#[test]
 fn answers_that_end_are_refused_with_the_question() {
     let bench = lab();
     let ran = bench.answered("init recording lab --out first.toml", "mm\n");
