@@ -7,7 +7,8 @@ use taceva_dataset::internal::{is_foreign_folder, quoted};
 
 use crate::layouts::Preset;
 
-/// Returns the command that begins the import of the folder at `path`, if files are in it: by its known layout, or by a map to write first.
+/// Returns the command that begins the import of the folder at `path`: by its known layout, or by a map to write first.
+/// `None` for a dataset, and for a folder without files.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
