@@ -139,7 +139,7 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
     let line = "write `footprint = { shape = \"disc\", radius_mm = … }`";
     assert!(planned.err.contains(line), "{}", planned.err);
     bench.refused("run scene.toml --rig lab.toml", 2, line);
-    let answers = "my gel\nsim/gelsight\nround\nrect 6 8\n24\n1\nridge\naccuracy\n7\n";
+    let answers = "my gel\nsim/gelsight\nround\nrect 16 18\n24\n1\nridge\naccuracy\n7\n";
     let asked = bench.answered("init scene --out stated.toml", answers);
     assert_eq!(asked.code, 0, "{}", asked.err);
     assert!(
@@ -148,8 +148,12 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
         asked.err
     );
     let stated = read(&bench, "stated.toml");
-    let line = "footprint = { shape = \"rect\", half_x_mm = 6.0, half_y_mm = 8.0 }";
+    let line = "footprint = { shape = \"rect\", half_x_mm = 16.0, half_y_mm = 18.0 }";
     assert!(stated.contains(line), "{stated}");
+    assert!(
+        !stated.contains("sim/"),
+        "the rig file names the devices: {stated}"
+    );
     let planned = bench.run("plan stated.toml --rig lab.toml");
     assert_eq!(planned.code, 0, "{}", planned.err);
     assert!(planned.out.contains("24 presses"), "{}", planned.out);
