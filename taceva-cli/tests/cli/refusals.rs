@@ -1,6 +1,6 @@
 //! What cannot be meant or read: an exit code, one line that says where, and nothing written.
 
-use crate::support::{Bench, leftovers, of_format};
+use crate::support::{Bench, MAP, leftovers, of_format};
 
 fn imported() -> Bench {
     let bench = Bench::new();
@@ -54,10 +54,7 @@ fn arguments_that_cannot_be_meant_are_usage_errors() {
 #[test]
 fn a_map_with_an_unknown_key_names_the_nearest_and_the_line() {
     let bench = imported();
-    bench.write(
-        "bad.toml",
-        &crate::support::MAP.replace("channel_order", "chanel_order"),
-    );
+    bench.write("bad.toml", &MAP.replace("channel_order", "chanel_order"));
     bench.refused("import lab --map bad.toml --out new", 3, "channel_order");
     bench.refused("import lab --map bad.toml --out new", 3, "line 6");
 }
@@ -100,7 +97,7 @@ fn labels_a_thousand_times_too_large_are_a_warning_with_a_code() {
     bench.lab();
     bench.write(
         "map.toml",
-        &crate::support::MAP.replace("unit = \"N\"", "unit = \"kN\", scale = 1"),
+        &MAP.replace("unit = \"N\"", "unit = \"kN\", scale = 1"),
     );
     let out = bench.ok("import lab --map map.toml --out data -q");
     assert!(out.contains("warning  magnitude-large"), "{out}");
@@ -343,4 +340,19 @@ fn a_signal_ends_an_import_with_its_own_code_and_leaves_nothing() {
         }
     }
     assert!(!seen.is_empty());
+}
+
+#[test]
+fn a_recording_without_labels_is_answered_with_the_section_that_names_them() {
+    let bench = Bench::new();
+    bench.lab();
+    let (before, rest) = MAP.split_once("[columns]").expect("there");
+    let (_, after) = rest.split_once("[ids]").expect("there");
+    bench.write("bare.toml", &format!("{before}[ids]{after}"));
+    bench.ok("import lab --map bare.toml --out bare -q");
+    bench.refused(
+        "evaluate bare --model ridge",
+        2,
+        "no channel to predict: import it again with a map that names labels under [columns]",
+    );
 }

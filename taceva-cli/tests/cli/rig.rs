@@ -68,3 +68,21 @@ fn the_doctor_says_what_was_looked_at_and_its_exit_code_follows() {
     assert_eq!(ran.code, i32::from(is_problem));
     assert_eq!(bench.run("doctor").code, ran.code);
 }
+
+#[test]
+fn a_camera_that_does_not_open_is_named_with_the_rig_and_the_command_that_lists_cameras() {
+    let bench = Bench::new();
+    bench.write(
+        "lab.toml",
+        "rig_version = 1\n[sensor]\ndriver = \"camera/v4l2:device=/dev/video-of-nobody\"\n",
+    );
+    let ran = bench.run("rig check lab.toml");
+    assert_ne!(ran.code, 0, "{}", ran.out);
+    for part in [
+        "lab.toml: sensor: camera/v4l2",
+        "`taceva devices` lists cameras",
+    ] {
+        assert!(ran.err.contains(part), "no `{part}` in {}", ran.err);
+    }
+    assert!(!ran.err.contains("study"), "{}", ran.err);
+}
