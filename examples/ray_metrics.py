@@ -1,6 +1,6 @@
 """Scores of a test set that several machines predict: each sends back its sums, a few kB, and no sample travels.
 
-    pip install taceva ray
+    pip install PATH/TO/dist/taceva-*.whl ray   # the wheel that `.ci/wheel dist` builds in a clone: taceva is not on PyPI yet
     python examples/ray_metrics.py              # a cluster of this machine
     python examples/ray_metrics.py ADDRESS      # a cluster that is there, such as 10.0.0.1:6379
 

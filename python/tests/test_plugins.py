@@ -138,13 +138,24 @@ def test_an_interpreter_that_is_gone_or_has_no_taceva_is_named_with_the_remedy(t
     program.python = tmp_path / "bare/bin/python"
     listed = program.run("plugin", "list", "--all").stdout
     assert "the package `taceva` is not installed in its environment" in listed
-    assert f"{program.python} -m pip install taceva==" in listed
+    assert f"{program.python} -m pip install PATH/TO/dist/taceva-" in listed
     other = package(tmp_path / "other", name="lab_other")
     listed = program.run("plugin", "list", "--all", "--plugin-dir", str(other)).stdout
     assert "the manifest of a module must be in its package, expected a folder called `lab_scale`" in listed
     (made / "__init__.py").unlink()
     listed = program.run("plugin", "list", "--all", "--plugin-dir", str(made)).stdout
     assert "not a package, expected __init__.py beside the manifest" in listed
+
+
+def test_checks_without_a_required_argument_are_counted_by_the_reason_that_names_it(tmp_path: Path, program: Program) -> None:
+    scale = SCALE.replace("    readings = 0\n", "    readings = 0\n    def __init__(self, file: str) -> None: ...\n")
+    argument = '\n[[provides.args]]\nkey = "file"\ntype = "text"\n'
+    made = package(tmp_path, code=scale, manifest=MANIFEST + argument)
+    done = program.run("plugin", "check", KEY, "--plugin-dir", str(made), "--only", "force/reads,force/interrupt")
+    last = done.stdout.rstrip().splitlines()[-1]
+    remedy = f"give it with `--with {KEY}/scale:file=…`"
+    assert re.fullmatch(r"\d+ skipped: `file`: missing, expected .*: " + re.escape(remedy), last), done.stdout + done.stderr
+    assert "same reason" not in done.stdout
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="a plugin runs as another user for root alone")
@@ -158,7 +169,9 @@ def test_what_the_user_of_the_sandbox_may_not_read_is_refused_with_the_folder_th
     assert f"{tmp_path / 'closed'} denies it" in done.stderr, done.stderr
     assert "runs as user 65534" in done.stderr
     listed = program.run("plugin", "list", "--plugin-dir", str(made)).stdout
-    assert f"runs not at all: let every user read {tmp_path / 'closed'} (`chmod o+rx`)" in listed, listed
+    assert f"    cannot run: let every user read {tmp_path / 'closed'} (`chmod o+rx`)" in listed, listed
+    doctor = program.run("doctor", "--plugin-dir", str(made)).stdout
+    assert f"`--trust {KEY}` runs it unconfined, in a process of its own" in doctor, doctor
     trusted = program.run("plugin", "check", KEY, "--plugin-dir", str(made), "--trust", KEY, "--only", "library/loads,force/reads")
     assert trusted.returncode == 0, trusted.stdout + trusted.stderr
 

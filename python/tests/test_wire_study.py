@@ -113,7 +113,8 @@ def test_the_example_packages_measure_in_a_whole_study_on_the_wire_bench(model: 
             above.chmod(above.stat().st_mode | 0o055)
     program = Program(tmp_path / "home", make_environment(tmp_path / "venv"))
     scene = (EXAMPLES / "scenes/wire.toml").read_text()
-    scene = scene.replace("points = 60", f"points = {PRESSES}").replace('name = "ridge"', MODELS[model])
+    scene = scene.replace("points = 100", f"points = {PRESSES}").replace("indentations = 4", "indentations = 1")
+    scene = scene.replace('name = "fast"', MODELS[model])
     (tmp_path / "wire.toml").write_text(scene)
     with wire_bench(tmp_path / "rig.toml") as rig, serial_port(found(rig, r"JSON lines on ([0-9.]+:[0-9]+)")) as port:
         stream = re.search(r"http://([0-9.]+):([0-9]+)/", rig)

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cargo run --release --example make_recording -- demo
-//! cargo run --release -- evaluate demo --model ridge
+//! cargo run --release -- evaluate demo --model ridge --split by-point --metrics accuracy
 //! ```
 //!
 //! After the folder may come the number of contact points and the seed: `make_recording -- demo 5000` draws 20,000 pictures, `make_recording --
@@ -215,7 +215,9 @@ fn record(path: &Path, drawing: Drawing) -> Result<(), Box<dyn std::error::Error
 )]
 fn main() -> std::process::ExitCode {
     let mut words = std::env::args_os().skip(1);
-    let path = words.next();
+    let path = words
+        .next()
+        .filter(|path| !path.to_string_lossy().starts_with('-'));
     let words = words.map(|word| word.to_string_lossy().into_owned());
     let (Some(path), Some(drawing)) = (path, Drawing::of(words)) else {
         eprintln!("usage: make_recording FOLDER [POINTS [SEED]]");
@@ -226,7 +228,9 @@ fn main() -> std::process::ExitCode {
         Ok(()) => {
             let (shown, samples) = (path.display(), drawing.points * DEPTHS);
             println!("{shown}: {samples} drawn pictures with closed-form labels (synthetic)");
-            println!("next: cargo run --release -- evaluate {shown} --model ridge");
+            println!(
+                "next: cargo run --release -- evaluate {shown} --model ridge --split by-point --metrics accuracy"
+            );
             std::process::ExitCode::SUCCESS
         }
         Err(error) => {

@@ -30,15 +30,22 @@ const SCENE: &str = "wire.toml";
 /// The folder of a run on the wire.
 pub const RUN: &str = "wire";
 
-/// The scene `examples/scenes/wire.toml` with so many presses.
+/// The scene `examples/scenes/wire.toml` with so many presses to one depth each, and a model that is fitted at once.
 ///
 /// # Panics
 /// If it cannot be read, which ends the test.
 pub fn scene_of(presses: usize) -> String {
     let text = read("examples/scenes/wire.toml");
-    let changed = text.replace("points = 60", &format!("points = {presses}"));
-    assert!(presses == 60 || changed != text, "the scene has 60 presses");
-    changed
+    let points = format!("points = {presses}");
+    let changes = [
+        ("points = 100", points.as_str()),
+        ("indentations = 4", "indentations = 1"),
+        ("name = \"fast\"", "name = \"ridge\""),
+    ];
+    changes.into_iter().fold(text, |text, (from, to)| {
+        assert!(text.contains(from), "the scene has `{from}`");
+        text.replace(from, to)
+    })
 }
 
 impl OnTheWire {

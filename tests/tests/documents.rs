@@ -1,6 +1,8 @@
 //! Numbers in documents are those that their commands print.
 
+use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 use taceva_tests::renew::{Document, Kind, Passage, Runner, documents, unexplained_tables};
 use taceva_tests::{example, root, taceva};
@@ -43,6 +45,21 @@ fn quick_numbers_of_documents_are_what_their_commands_print() {
         compared > 0,
         "no document has a passage that a command wrote"
     );
+}
+
+#[test]
+fn an_option_is_no_folder_for_the_drawn_recording() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ran = Command::new(example("make_recording"))
+        .arg("--help")
+        .current_dir(folder.path())
+        .output()
+        .expect("the example starts");
+    assert_eq!(ran.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert!(said.starts_with("usage: make_recording FOLDER"), "{said}");
+    let written = fs::read_dir(folder.path()).expect("readable").count();
+    assert_eq!(written, 0);
 }
 
 #[test]

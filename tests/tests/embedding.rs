@@ -68,6 +68,16 @@ fn first_example(document: &str) -> String {
 }
 
 #[test]
+fn the_program_on_the_page_is_the_example_that_is_built() {
+    let read = |path: &str| fs::read_to_string(root().join(path)).expect("there");
+    let page = read("docs/embedding.md");
+    let (_, from) = page.split_once("```rust\n").expect("a program");
+    let (program, _) = from.split_once("```").expect("its end");
+    let example = read("taceva-metrics/examples/ten_lines.rs");
+    assert!(example.ends_with(program), "{program}");
+}
+
+#[test]
 fn the_first_example_of_the_metrics_runs_in_a_fresh_project_from_packaged_crates() {
     let folder = tempfile::tempdir().expect("a folder");
     let crates = unpacked(folder.path());

@@ -222,7 +222,7 @@ pub fn check(
         let mut only = request.only.iter();
         request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
     };
-    // First check by driver and cause of a failure or skip, so that each cause is reported once.
+    // First check by driver and cause of a failure, so that each cause fails one check.
     let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
     let wanted: Vec<Check> = checks().into_iter().filter(is_wanted).collect();
     let held = held_together(&examination, request, &wanted, plugin);
@@ -237,15 +237,10 @@ pub fn check(
                     (outcome, begun.elapsed().as_secs_f64())
                 }
             };
-            let cause = match &outcome {
-                Outcome::Failed(why) => Some((why.clone(), "failed")),
-                Outcome::Skipped(why) => Some((why.clone(), "was skipped")),
-                Outcome::Passed => None,
-            };
-            if let Some((why, how)) = cause {
-                match causes.entry((key.map(ToString::to_string), why)) {
+            if let Outcome::Failed(why) = &outcome {
+                match causes.entry((key.map(ToString::to_string), why.clone())) {
                     Entry::Occupied(first) => {
-                        let why = format!("same reason as `{}`, which {how}", first.get());
+                        let why = format!("same reason as `{}`, which failed", first.get());
                         outcome = Outcome::Skipped(why);
                     }
                     Entry::Vacant(first) => {

@@ -67,6 +67,13 @@ impl Kind {
         }
     }
 
+    /// Noun with its article, at the beginning of a sentence.
+    pub(crate) fn noun_with_article(self) -> String {
+        let noun = self.noun();
+        let is_vowel = noun.starts_with(['a', 'e', 'i', 'o', 'u']);
+        format!("{} {noun}", if is_vowel { "An" } else { "A" })
+    }
+
     pub(crate) const fn files(self) -> Files {
         match self {
             Kind::Sensor => files!("sensor"),

@@ -53,6 +53,7 @@ pub fn project(kind: Kind, name: &Name, sources: Sources) -> Vec<File> {
         text.replace("@name@", name.as_str())
             .replace("@crate@", &name.as_crate())
             .replace("@kind@.rs", &format!("{}.rs", kind.name()))
+            .replace("@A kind@", &kind.noun_with_article())
             .replace("@kind@", kind.noun())
             .replace("@dependencies@", dependencies(sources))
             .replace("@version@", VERSION)

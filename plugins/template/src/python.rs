@@ -44,6 +44,7 @@ fn files(kind: Kind, name: &Name, module: &str, manifest: &str, dependencies: &s
     let fill = |text: &str| {
         text.replace("@name@", name.as_str())
             .replace("@crate@", &name.as_crate())
+            .replace("@A kind@", &kind.noun_with_article())
             .replace("@kind@", kind.noun())
             .replace("@dependencies@", dependencies)
     };
@@ -74,6 +75,7 @@ fn files(kind: Kind, name: &Name, module: &str, manifest: &str, dependencies: &s
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::project::{Sources, project};
 
     #[test]
     fn a_project_in_python_is_a_package_with_its_manifest_in_it() {
@@ -83,10 +85,31 @@ mod tests {
             let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
             assert!(paths.contains(&"src/my_device/plugin.toml"), "{paths:?}");
             for file in &files {
-                for left in ["@name@", "@crate@", "@kind@", "@dependencies@"] {
+                for left in ["@name@", "@crate@", "kind@", "@dependencies@"] {
                     assert!(!file.text.contains(left), "{}: {left}", file.path);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_description_of_a_project_has_an_article_that_fits() {
+        let name: Name = "my-device".parse().expect("a name");
+        let expected = [
+            (Kind::Sensor, "A sensor for TacEva"),
+            (Kind::Force, "A force transducer for TacEva"),
+            (Kind::Estimator, "An estimator for TacEva"),
+        ];
+        for (kind, description) in expected {
+            let in_rust = project(kind, &name, Sources::Registry);
+            let files = in_rust.into_iter().chain(python_project(kind, &name));
+            let described = files.filter(|file| file.text.contains(description));
+            let paths: Vec<String> = described.map(|file| file.path).collect();
+            assert_eq!(
+                paths,
+                ["README.md", "pyproject.toml", "README.md"],
+                "{kind}"
+            );
         }
     }
 }

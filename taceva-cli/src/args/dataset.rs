@@ -8,7 +8,7 @@ use super::{ExplainArgs, ListFormat, Output, SplitArgs};
 
 /// The map states, in TOML, the column and unit of each channel, and the location of the pictures.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("layout").required(true).args(["map", "preset", "draft", "presets"]))]
+#[command(group = ArgGroup::new("layout").args(["map", "preset", "draft", "presets"]))]
 pub(crate) struct Import {
     /// The folder with the table and the pictures, or a tar of it (.tar, .tar.gz, .tgz)
     #[arg(required_unless_present = "presets")]

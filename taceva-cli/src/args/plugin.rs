@@ -101,11 +101,14 @@ pub(crate) enum Language {
 /// Kind of a new plugin.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum NewKind {
+    #[value(alias = "camera")]
     Sensor,
     Robot,
+    #[value(alias = "transducer")]
     Force,
     Lighting,
     Changer,
+    #[value(alias = "model")]
     Estimator,
 }
 

@@ -26,6 +26,13 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         })?;
         return Ok(exit::DONE);
     }
+    if args.map.is_none() && args.preset.is_none() && !args.draft {
+        let folder = args.source.as_deref().unwrap_or(Path::new("FOLDER"));
+        return Err(Usage::error(format!(
+            "no map: `taceva init recording {}` writes one, and `taceva import --presets` lists layouts that need none",
+            quoted(folder)
+        )));
+    }
     let source = Source::open(args, target)?;
     if let Some(list) = &args.verify {
         let sums = SourceSums::read(list)?;
@@ -226,6 +233,14 @@ fn map(args: &Import, source: &Source) -> anyhow::Result<ImportMap> {
         .map
         .as_deref()
         .ok_or_else(|| Usage::error("either --map or --preset is needed"))?;
+    if !path.exists() {
+        anyhow::bail!(
+            "{}: no such map: `taceva init recording {} --out {}` writes one",
+            shown(path),
+            quoted(args.source.as_deref().unwrap_or(source.folder())),
+            quoted(path)
+        );
+    }
     Ok(ImportMap::read(path)?)
 }
 

@@ -21,14 +21,15 @@ pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     let planned = scene::planned(&args.scene, &drivers)?;
     scene::print_cost(&planned, Path::new("."), context)?;
     scene::print_rigs(&planned, &drivers, context);
+    scene::warn_of_few_points(&planned, context);
     output::write_as(to.format, to.path.as_deref(), |out| {
         report::plan::write(&planned, to.format, out)
     })?;
-    Ok(if say_withheld(&planned, &host) {
-        exit::CHECK_FAILED
-    } else {
-        exit::DONE
-    })
+    if say_withheld(&planned, &host) {
+        return Ok(exit::CHECK_FAILED);
+    }
+    scene::check_metrics(&planned)?;
+    Ok(exit::DONE)
 }
 
 /// Prints the devices of the scene with needs that their user does not allow, each once; returns true if there are any.

@@ -27,6 +27,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let table = super::table_scores(&args.table, args.format)?;
     let (drivers, models) = context.equipment(Path::new(&args.scene.scene))?;
     let planned = scene::to_run(args, &drivers)?;
+    scene::check_metrics(&planned)?;
     check_models(&planned, &models)?;
     let attended = Attended::open(args, &planned.scene.name)?;
     if attended.operator().is_none() {
@@ -53,6 +54,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         .unwrap_or_else(|| RunFolder::numbered(Path::new(RUNS), &planned.scene.name, existing));
     scene::print_cost(&planned, &path, context)?;
     scene::print_rigs(&planned, &drivers, context);
+    scene::warn_of_few_points(&planned, context);
     let _held = planned.hold_rigs()?;
     let folder = RunFolder::open(&path, &planned, existing)?;
     context.say(format_args!("run in {}", shown(&path)));

@@ -1,15 +1,22 @@
 //! The named scene: a file or a built-in one.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use taceva_acquire::{Overrides, PlannedScene, SceneText};
-use taceva_core::shown;
+use taceva_core::{Field, SkipReason, shown};
 use taceva_drivers::Drivers;
-use taceva_protocol::BuiltinScene;
+use taceva_models::{SplitInput, SplitSpec};
+use taceva_protocol::{BuiltinScene, PhaseKind, Plan, PlanReason, Subject};
 
 use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
 use crate::disk_space::{self, Need};
+
+/// The contact points that an interval needs.
+const LEAST_POINTS: usize = 5;
+/// The contact points of which the test part, a tenth, is enough for an interval.
+const ENOUGH_POINTS: usize = 10 * LEAST_POINTS;
 
 /// The scene of `args`, planned with `drivers`.
 pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
@@ -88,6 +95,65 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             "rig: taceva is no safety function; the emergency stop and the guards of the site must hold without it (docs/rig.md)"
         ));
     }
+}
+
+/// Refuses a scene that would measure nothing, because no study keeps a metric.
+///
+/// # Errors
+/// [`Usage`] with the reason that skips most metrics.
+pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
+    let studies = &planned.studies;
+    if studies.iter().any(|study| !study.plan.metrics.is_empty()) {
+        return Ok(());
+    }
+    let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
+    for skip in studies.iter().flat_map(|study| &study.plan.skipped) {
+        let is_wanted = skip.reason != PlanReason::Skip(SkipReason::NotWanted);
+        if is_wanted && matches!(skip.subject, Subject::Metric(_)) {
+            *reasons.entry(skip.reason.to_string()).or_default() += 1;
+        }
+    }
+    let most = reasons.into_iter().max_by_key(|(_, metrics)| *metrics);
+    let reason = most.map_or_else(|| "none is requested".to_owned(), |(reason, _)| reason);
+    Err(Usage::error(format!(
+        "{}: no metric is kept, so nothing would be measured: {reason}",
+        shown(&planned.text.name)
+    )))
+}
+
+/// Warns of each study whose test part has too few contact points for intervals.
+pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
+    for study in &planned.studies {
+        let Some(points) = tested_points(&study.plan).filter(|points| *points < LEAST_POINTS)
+        else {
+            continue;
+        };
+        context.say(format_args!(
+            "{}: the test part has {points} contact points, and intervals need {LEAST_POINTS}: raise `points` under [protocol.calibration] to {ENOUGH_POINTS}, or score every point of the recording afterwards (taceva evaluate, --split cv:{LEAST_POINTS})",
+            shown(&study.plan.name)
+        ));
+    }
+}
+
+/// The number of contact points in the test part of the fit, if metrics read its predictions there.
+fn tested_points(plan: &Plan) -> Option<usize> {
+    let is_fitted = plan.fits.iter().any(|fit| fit.field == Field::Prediction);
+    let mut metrics = plan.metrics.iter();
+    if !is_fitted || !metrics.any(|metric| metric.phase == PhaseKind::Calibration) {
+        return None;
+    }
+    let presses = plan.presses_of(PhaseKind::Calibration);
+    let points: Vec<String> = presses.map(|planned| planned.press.point_id()).collect();
+    let input = SplitInput {
+        rows: points.len(),
+        points: Some(&points),
+        ..SplitInput::default()
+    };
+    // The number does not depend on the seed; a run refuses what cannot be divided.
+    let split = "by-point".parse::<SplitSpec>().ok()?;
+    let split = split.assign(&input, 0).ok()?;
+    let tested: BTreeSet<&String> = split.test.iter().map(|row| &points[*row]).collect();
+    Some(tested.len())
 }
 
 /// The text of a scene; a file of that name comes first, so that a built-in scene never hides it.

@@ -108,14 +108,19 @@ fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
 /// One driver: its name, facts about its device, and its arguments.
 pub(super) fn driver(driver: &ListedDriver, out: &mut dyn Write) -> io::Result<()> {
     let (key, kind) = (&driver.key, driver.kind.to_string());
-    let (title, source) = (&driver.title, driver.source);
-    writeln!(out, "{key:<22} {kind:<9} {source:<10} {title}")?;
+    let source = driver.source.to_string();
+    // The title of a simulation may begin with the word too.
+    let title = driver.title.strip_prefix(&format!("{source} "));
+    let title = title.unwrap_or(&driver.title);
+    writeln!(out, "{key:<22} {kind:<9} {source}: {title}")?;
     let facts = facts(driver);
     if !facts.is_empty() {
         writeln!(out, "    {}", facts.join(", "))?;
     }
+    let lengths = driver.arguments.iter().map(|argument| argument.key.len());
+    let width = lengths.max().unwrap_or(0);
     for argument in &driver.arguments {
-        describe(argument, out)?;
+        describe(argument, width, out)?;
     }
     Ok(())
 }
@@ -147,12 +152,13 @@ fn facts(driver: &ListedDriver) -> Vec<String> {
     .collect()
 }
 
-fn describe(argument: &ListedArgument, out: &mut dyn Write) -> io::Result<()> {
+/// One argument; its key stands in a column of `width` letters.
+fn describe(argument: &ListedArgument, width: usize, out: &mut dyn Write) -> io::Result<()> {
     let presence = match (&argument.default, argument.required) {
         (Some(default), _) => format!(" [{default}]"),
         (None, true) => " (required)".to_owned(),
         (None, false) => String::new(),
     };
     let (key, takes, help) = (&argument.key, &argument.takes, &argument.help);
-    writeln!(out, "    {key:<10} {takes}{presence}: {help}")
+    writeln!(out, "    {key:<width$} {takes}{presence}: {help}")
 }

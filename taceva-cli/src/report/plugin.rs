@@ -29,6 +29,9 @@ pub(crate) fn list(
         };
         return json::write(&written, out);
     }
+    if !plugins.is_empty() {
+        columns(["id", "version", "runs-in", "found-by", "name"], out)?;
+    }
     for plugin in plugins.iter() {
         line(&Listed::of(host, plugin), out)?;
     }
@@ -88,16 +91,22 @@ pub(crate) fn info(
     Ok(())
 }
 
+/// One line of the table of plugins.
+fn columns([id, version, delivery, place, name]: [&str; 5], out: &mut dyn Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "{id:<30} {version:<10} {delivery:<14} {place:<12} {name}"
+    )
+}
+
 fn line(plugin: &Listed, out: &mut dyn Write) -> io::Result<()> {
     let Listed {
         id, version, name, ..
     } = plugin;
-    let (place, delivery) = (plugin.place, plugin.delivery);
-    writeln!(
-        out,
-        "{id:<30} {version:<10} {delivery:<14} {place:<12} {name}"
-    )?;
-    writeln!(out, "    runs {}", plugin.isolation)?;
+    let (place, delivery) = (plugin.place.to_string(), plugin.delivery.to_string());
+    columns([id, version, &delivery, &place, name], out)?;
+    let runs = if plugin.can_run { "runs " } else { "" };
+    writeln!(out, "    {runs}{}", plugin.isolation)?;
     if let Some(reason) = &plugin.quarantined {
         writeln!(
             out,
@@ -150,6 +159,8 @@ struct Listed {
     delivery: Delivery,
     /// Isolation from the rest of the machine, tested by confining a process without the plugin.
     isolation: String,
+    #[serde(skip)]
+    can_run: bool,
     needs: Vec<String>,
     allowed: Vec<String>,
     /// The command that allows its remaining needs.
@@ -173,6 +184,7 @@ impl Listed {
         let words = |needs: std::collections::BTreeSet<taceva_host::Need>| {
             needs.iter().map(ToString::to_string).collect()
         };
+        let keeping = host.keeping(plugin);
         Listed {
             id: manifest.id.to_string(),
             name: manifest.name.clone(),
@@ -198,7 +210,8 @@ impl Listed {
                 )
             }),
             delivery: host.config().delivery(plugin),
-            isolation: host.keeping(plugin).to_string(),
+            isolation: keeping.to_string(),
+            can_run: keeping.is_possible(),
             needs: manifest.needs.iter().map(ToString::to_string).collect(),
             allowed: words(host.config().allowed(plugin)),
             remedy: remedy(host, plugin),

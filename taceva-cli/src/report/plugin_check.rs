@@ -8,7 +8,7 @@ use taceva_conformance::{CheckResult, Outcome};
 use super::json;
 use crate::args::ListFormat;
 
-/// All checks; in text without the lines that were already shown.
+/// All checks; in text without the lines that were already shown, and with the reasons of skipped checks at the end.
 pub(crate) fn write(
     plugin: &str,
     seed: u64,
@@ -46,15 +46,35 @@ pub(crate) fn write(
     writeln!(
         out,
         "{plugin}: {passed} passed, {failed} failed, {skipped} skipped (seed {seed})"
-    )
+    )?;
+    skips(results)
+        .iter()
+        .try_for_each(|(why, checks)| writeln!(out, "{checks} skipped: {why}"))
 }
 
+/// Reasons for which checks were skipped, with the number of those checks, the most frequent reason last.
+fn skips(results: &[CheckResult]) -> Vec<(&str, usize)> {
+    let mut skips: Vec<(&str, usize)> = Vec::new();
+    for result in results {
+        let Outcome::Skipped(why) = &result.outcome else {
+            continue;
+        };
+        match skips.iter_mut().find(|skip| skip.0 == why.as_str()) {
+            Some(skip) => skip.1 += 1,
+            None => skips.push((why.as_str(), 1)),
+        }
+    }
+    skips.sort_by_key(|skip| skip.1);
+    skips
+}
+
+/// A check that was tried; a skipped one has no line, but counts in the reasons at the end.
 pub(crate) fn line(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
     let subject = result.subject.as_deref().unwrap_or("");
     let (word, why) = match &result.outcome {
         Outcome::Passed => ("pass", ""),
         Outcome::Failed(why) => ("FAIL", why.as_str()),
-        Outcome::Skipped(why) => ("skip", why.as_str()),
+        Outcome::Skipped(_) => return Ok(()),
     };
     let (check, took) = (result.check, result.took_s);
     writeln!(out, "{word}  {took:6.2}s  {check:<42} {subject}")?;
@@ -73,4 +93,40 @@ struct Written<'a> {
     failed: usize,
     skipped: usize,
     results: &'a [CheckResult],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn result(check: &'static str, outcome: Outcome) -> CheckResult {
+        CheckResult {
+            check,
+            subject: None,
+            outcome,
+            took_s: 0.25,
+        }
+    }
+
+    #[test]
+    fn skipped_checks_are_counted_by_their_reason_at_the_end() {
+        let missing = || Outcome::Skipped("`file`: missing".to_owned());
+        let results = [
+            result("driver/opens", missing()),
+            result("driver/memory", Outcome::Passed),
+            result("force/numbers", Outcome::Skipped("no number".to_owned())),
+            result("force/reads", missing()),
+        ];
+        let mut out = Vec::new();
+        write("id", 7, &results, false, ListFormat::Text, &mut out).expect("memory");
+        let text = String::from_utf8(out).expect("text");
+        let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
+        let expected = [
+            "pass    0.25s  driver/memory",
+            "id: 1 passed, 0 failed, 3 skipped (seed 7)",
+            "1 skipped: no number",
+            "2 skipped: `file`: missing",
+        ];
+        assert_eq!(lines, expected);
+    }
 }

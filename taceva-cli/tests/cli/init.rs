@@ -34,6 +34,7 @@ fn a_recording_gets_a_map_by_questions_that_imports_and_evaluates() {
             .any(|line| !line.starts_with('#') && line.contains("\"?\"")),
         "{map}"
     );
+    assert!(!ran.out.contains("fill in"), "{}", ran.out);
     for line in ran
         .out
         .lines()
@@ -51,12 +52,29 @@ fn a_recording_gets_a_map_by_questions_that_imports_and_evaluates() {
 fn a_recording_without_answers_keeps_its_open_places_with_yes() {
     let bench = lab();
     let said = bench.ok("init recording lab --yes --out first.toml");
-    assert!(said.contains("fill in the 4 places"), "{said}");
+    assert!(said.contains("fill in the 3 places"), "{said}");
+    let contacts = "name the contact points, on which intervals depend";
+    assert!(said.contains(contacts), "{said}");
     assert!(read(&bench, "first.toml").contains("unit = \"?\""));
     bench.refused(
         "init recording lab --yes",
         3,
         "map.toml exists already; --force replaces it",
+    );
+}
+
+#[test]
+fn an_import_without_a_map_names_the_command_that_writes_one() {
+    let bench = lab();
+    bench.refused(
+        "import lab --out data",
+        2,
+        "no map: `taceva init recording lab` writes one, and `taceva import --presets` lists layouts that need none",
+    );
+    bench.refused(
+        "import lab --map none.toml --out data",
+        3,
+        "none.toml: no such map: `taceva init recording lab --out none.toml` writes one",
     );
 }
 
@@ -116,17 +134,42 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
     bench.ok("init scene --yes --out scene.toml");
     let planned = bench.run("plan scene.toml --rig lab.toml");
     assert!(!planned.err.contains("lab.toml, line"), "{}", planned.err);
+    // No driver of a camera knows the gel before it: the plan says which line is missing.
+    assert_eq!(planned.code, 2, "{}", planned.err);
+    let line = "write `footprint = { shape = \"disc\", radius_mm = … }`";
+    assert!(planned.err.contains(line), "{}", planned.err);
+    bench.refused("run scene.toml --rig lab.toml", 2, line);
+    let answers = "my gel\nsim/gelsight\nround\nrect 16 18\n24\n1\nridge\naccuracy\n7\n";
+    let asked = bench.answered("init scene --out stated.toml", answers);
+    assert_eq!(asked.code, 0, "{}", asked.err);
+    assert!(
+        asked.err.contains("expected `driver`, `disc RADIUS`"),
+        "{}",
+        asked.err
+    );
+    let stated = read(&bench, "stated.toml");
+    let line = "footprint = { shape = \"rect\", half_x_mm = 16.0, half_y_mm = 18.0 }";
+    assert!(stated.contains(line), "{stated}");
+    assert!(
+        !stated.contains("sim/"),
+        "the rig file names the devices: {stated}"
+    );
+    let planned = bench.run("plan stated.toml --rig lab.toml");
+    assert_eq!(planned.code, 0, "{}", planned.err);
+    assert!(planned.out.contains("24 presses"), "{}", planned.out);
+    let few = "the test part has 2 contact points, and intervals need 5";
+    assert!(planned.err.contains(few), "{}", planned.err);
     bench.refused(
         "init rig --yes --out other.toml",
         2,
-        "no default for: driver of the robot",
+        "no default for: driver of the robot (",
     );
 }
 
 #[test]
 fn without_a_subject_it_asks_which() {
     let bench = Bench::new();
-    let ran = bench.answered("init", "scene\n\n\n\n\n\n\n\n");
+    let ran = bench.answered("init", "scene\n\n\n\n\n\n\n\n\n");
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(bench.path("scene.toml").exists());
 }

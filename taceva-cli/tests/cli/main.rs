@@ -26,6 +26,7 @@ mod plugin_pack;
 mod presets;
 mod recomputed;
 mod refusals;
+mod remedies;
 mod report;
 mod rig;
 mod run;

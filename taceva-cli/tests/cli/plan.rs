@@ -72,5 +72,13 @@ fn what_cannot_be_done_is_refused_with_the_line_and_what_is_known() {
         2,
         "`qick`: no such scene, expected a file or one of quick, paper",
     );
-    bench.refused("plan nowhere.toml", 3, "nowhere.toml: ");
+    bench.refused(
+        "plan nowhere.toml",
+        3,
+        "nowhere.toml: No such file or directory (os error 2): `taceva init scene --out nowhere.toml` writes one",
+    );
+    let no_rig = "`taceva init rig --out lab.toml` writes one";
+    bench.refused("plan --rig lab.toml", 3, no_rig);
+    bench.refused("rig check lab.toml", 3, no_rig);
+    bench.refused("preview --rig lab.toml", 3, no_rig);
 }

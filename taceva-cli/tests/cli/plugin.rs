@@ -56,6 +56,13 @@ fn plugins_are_listed_with_what_they_provide_and_how_they_would_run() {
     assert_eq!(trusted["plugins"][1]["delivery"], "in-process");
     let out = bench.ok("plugin list --plugin-dir plugins");
     assert!(out.contains("needs usb (none of it allowed)"), "{out}");
+    let columns: Vec<&str> = out
+        .lines()
+        .next()
+        .unwrap_or("")
+        .split_whitespace()
+        .collect();
+    assert_eq!(columns, ["id", "version", "runs-in", "found-by", "name"]);
     // What is enforced was tried, by a child that loads nothing.
     let isolation = plugins[0]["isolation"].as_str().expect("words");
     assert!(
@@ -229,4 +236,40 @@ fn the_robot_of_the_template_reaches_what_the_example_scenes_press() {
         bench.write("scene.toml", &replaced);
         bench.ok("plan scene.toml --plugin-dir my-arm");
     }
+}
+
+#[test]
+fn a_new_plugin_is_also_begun_by_another_word_for_its_kind() {
+    let bench = Bench::new();
+    for (word, kind) in [
+        ("camera", "sensor"),
+        ("transducer", "force"),
+        ("model", "estimator"),
+    ] {
+        bench.ok(&format!("plugin new {word} my-{word} --language python"));
+        let manifest = bench.path(&format!("my-{word}/src/my_{word}/plugin.toml"));
+        let manifest = fs::read_to_string(manifest).expect("written");
+        assert!(
+            manifest.contains(&format!("kind = \"{kind}\"")),
+            "{manifest}"
+        );
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_plugin_in_python_cannot_run_without_an_interpreter() {
+    let bench = Bench::new();
+    bench.ok("plugin new sensor my-eye --language python");
+    let folder = "--plugin-dir my-eye/src/my_eye";
+    let out = bench.ok(&format!("plugin list {folder}"));
+    let why = "    cannot run: it is written in Python, and no interpreter is known";
+    assert!(out.contains(why), "{out}");
+    let doctor = bench.run(&format!("doctor {folder}"));
+    assert!(
+        doctor.out.contains("cannot run: it is written in Python"),
+        "{}",
+        doctor.out
+    );
+    assert!(!doctor.out.contains("--trust"), "{}", doctor.out);
 }

@@ -1,6 +1,6 @@
 //! What cannot be meant or read: an exit code, one line that says where, and nothing written.
 
-use crate::support::{Bench, leftovers, of_format};
+use crate::support::{Bench, MAP, leftovers, of_format};
 
 fn imported() -> Bench {
     let bench = Bench::new();
@@ -54,10 +54,7 @@ fn arguments_that_cannot_be_meant_are_usage_errors() {
 #[test]
 fn a_map_with_an_unknown_key_names_the_nearest_and_the_line() {
     let bench = imported();
-    bench.write(
-        "bad.toml",
-        &crate::support::MAP.replace("channel_order", "chanel_order"),
-    );
+    bench.write("bad.toml", &MAP.replace("channel_order", "chanel_order"));
     bench.refused("import lab --map bad.toml --out new", 3, "channel_order");
     bench.refused("import lab --map bad.toml --out new", 3, "line 6");
 }
@@ -100,7 +97,7 @@ fn labels_a_thousand_times_too_large_are_a_warning_with_a_code() {
     bench.lab();
     bench.write(
         "map.toml",
-        &crate::support::MAP.replace("unit = \"N\"", "unit = \"kN\", scale = 1"),
+        &MAP.replace("unit = \"N\"", "unit = \"kN\", scale = 1"),
     );
     let out = bench.ok("import lab --map map.toml --out data -q");
     assert!(out.contains("warning  magnitude-large"), "{out}");
@@ -347,45 +344,16 @@ fn a_signal_ends_an_import_with_its_own_code_and_leaves_nothing() {
 }
 
 #[test]
-fn a_column_whose_unit_nobody_states_is_named_with_the_remedy() {
+fn a_recording_without_labels_is_answered_with_the_section_that_names_them() {
     let bench = Bench::new();
-    let table = |off: f64| {
-        let rows = (0..12_u32).map(|row| format!("{row},{}\n", f64::from(row) * 0.3 + off));
-        format!("sample,Fz_N\n{}", rows.collect::<String>())
-    };
-    bench.write("t.csv", &table(0.1));
-    bench.write("p.csv", &table(0.2));
-    let score = "score --truth t.csv --pred p.csv --format json";
-    let ran = bench.run(score);
-    assert_eq!(ran.code, 0, "{}", ran.err);
-    let note = "Fz_N: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1; rename it Fz, or give --units Fz_N=N";
-    assert!(ran.err.contains(note), "{}", ran.err);
-    assert!(ran.out.contains(note), "{}", ran.out);
-    let stated = bench.run(&format!("{score} --units Fz_N=N"));
-    assert_eq!(stated.code, 0, "{}", stated.err);
-    assert!(!stated.out.contains("unit 1") && !stated.err.contains("unit 1"));
-}
-
-#[test]
-fn a_table_and_a_channel_in_the_wrong_place_are_led_to_the_right_one() {
-    let bench = Bench::new();
-    bench.write("p.csv", "sample,Fz\n0,1\n");
+    bench.lab();
+    let (before, rest) = MAP.split_once("[columns]").expect("there");
+    let (_, after) = rest.split_once("[ids]").expect("there");
+    bench.write("bare.toml", &format!("{before}[ids]{after}"));
+    bench.ok("import lab --map bare.toml --out bare -q");
     bench.refused(
-        "evaluate p.csv",
+        "evaluate bare --model ridge",
         2,
-        "p.csv is a table, not a dataset; tables of predictions: `taceva score`; recordings: `taceva import FOLDER`",
-    );
-    bench.record("data", 40);
-    let ran = bench.run("evaluate data --model ridge --channels fz -q");
-    assert!(
-        ran.code != 0 && ran.err.contains("did you mean `Fz`?"),
-        "{}",
-        ran.err
-    );
-    let ran = bench.run("evaluate data --model ridge --metrics mse -q");
-    assert!(
-        ran.code != 0 && ran.err.contains("did you mean `rmse`? Known are mae"),
-        "{}",
-        ran.err
+        "no channel to predict: import it again with a map that names labels under [columns]",
     );
 }

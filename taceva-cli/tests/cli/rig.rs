@@ -33,9 +33,28 @@ fn the_list_for_people_names_facts_and_arguments() {
         .lines()
         .skip_while(|line| !line.starts_with("sim/gelsight "));
     let lines: Vec<&str> = gelsight.take(4).collect();
-    assert!(lines[0].contains("simulated"), "{out}");
+    assert!(lines[0].ends_with(" simulated: GelSight"), "{out}");
     assert!(lines[1].contains("opaque, markers, Pz up to 1 mm"), "{out}");
     assert!(lines[2].trim().starts_with("rig "), "{out}");
+    let camera = |line: &&str| line.starts_with("camera/v4l2 ");
+    let camera = out.lines().skip_while(|line| !camera(line));
+    let lines: Vec<&str> = camera
+        .take_while(|line| !line.starts_with("sim/"))
+        .collect();
+    assert!(
+        lines[0].ends_with(" real: a camera of this machine"),
+        "{out}"
+    );
+    let exposure = lines
+        .iter()
+        .find(|line| line.trim().starts_with("exposure_ms "));
+    let device = lines.iter().find(|line| line.trim().starts_with("device "));
+    let (exposure, device) = (exposure.expect("listed"), device.expect("listed"));
+    let value = exposure.find("a number").expect("what it takes");
+    assert!(
+        device[..value].ends_with(' ') && !device[value..].starts_with(' '),
+        "{out}"
+    );
 }
 
 #[test]
@@ -48,4 +67,22 @@ fn the_doctor_says_what_was_looked_at_and_its_exit_code_follows() {
     let is_problem = findings.iter().any(|finding| finding["state"] == "problem");
     assert_eq!(ran.code, i32::from(is_problem));
     assert_eq!(bench.run("doctor").code, ran.code);
+}
+
+#[test]
+fn a_camera_that_does_not_open_is_named_with_the_rig_and_the_command_that_lists_cameras() {
+    let bench = Bench::new();
+    bench.write(
+        "lab.toml",
+        "rig_version = 1\n[sensor]\ndriver = \"camera/v4l2:device=/dev/video-of-nobody\"\n",
+    );
+    let ran = bench.run("rig check lab.toml");
+    assert_ne!(ran.code, 0, "{}", ran.out);
+    for part in [
+        "lab.toml: sensor: camera/v4l2",
+        "`taceva devices` lists cameras",
+    ] {
+        assert!(ran.err.contains(part), "no `{part}` in {}", ran.err);
+    }
+    assert!(!ran.err.contains("study"), "{}", ran.err);
 }

@@ -252,7 +252,7 @@ fn a_folder_that_is_no_dataset_is_answered_with_the_line_to_type() {
     bench.refused(
         "check lab",
         3,
-        "taceva import lab --map MAP.toml --out DATASET",
+        "write a map first: taceva init recording lab",
     );
     bench.write("old/targets.csv", "x\n");
     bench.refused(

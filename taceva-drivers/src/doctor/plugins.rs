@@ -11,18 +11,26 @@ pub fn examine_plugins(host: &Arc<PluginHost>) -> Vec<Diagnosis> {
     let findings = host.plugins().iter().map(|plugin| {
         let id = plugin.id();
         let keeping = host.keeping(plugin);
-        let (state, remedy) = match &keeping {
-            Keeping::Trusted(_) | Keeping::Apart(_) | Keeping::Confined(_) => (State::Good, None),
+        let (state, detail, remedy) = match &keeping {
+            Keeping::Trusted(_) | Keeping::Apart(_) | Keeping::Confined(_) => {
+                (State::Good, format!("runs {keeping}"), None)
+            }
             Keeping::Refused(_) => {
-                let remedy = format!("`--trust {id}` runs it unconfined, in this process");
-                (State::Problem, Some(remedy))
+                let place = match (plugin.library(), &plugin.interpreter) {
+                    (Some(_), _) => Some("in this process"),
+                    (None, Some(_)) => Some("in a process of its own"),
+                    (None, None) => None,
+                };
+                let remedy =
+                    place.map(|place| format!("`--trust {id}` runs it unconfined, {place}"));
+                (State::Problem, keeping.to_string(), remedy)
             }
         };
         let finding = Diagnosis {
             code: "plugin-isolation",
             state,
             subject: id.to_string(),
-            detail: format!("runs {keeping}"),
+            detail,
             remedy,
         };
         let quarantined = host.quarantined(plugin).map(|reason| Diagnosis {

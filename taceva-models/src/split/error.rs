@@ -97,7 +97,9 @@ pub enum SplitError {
         part: Part,
     },
     /// The recording names no contact points.
-    #[error("split by-point: the recording names no `point_id`")]
+    #[error(
+        "split by-point: the recording names no `point_id`: name the column of contact points under [ids] of the map, or divide by-column:NAME or by-block"
+    )]
     NoPoints,
     /// The recording has no times.
     #[error("split chronological: the recording has no times")]

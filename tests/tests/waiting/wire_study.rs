@@ -1,4 +1,4 @@
-//! A study over real sockets is the one that is simulated in the program. `TACEVA_WIRE_PRESSES=60` makes it the whole scene.
+//! A study over real sockets is the one that is simulated in the program. `TACEVA_WIRE_PRESSES=60` compares scores too.
 
 use taceva_tests::wire::{OnTheWire, RUN, compare, finished, scene_of};
 use taceva_wire::{BenchOptions, ServeOptions};
@@ -6,7 +6,7 @@ use taceva_wire::{BenchOptions, ServeOptions};
 const SEED: u64 = 7;
 /// Presses of the usual test, which takes a minute and a half.
 const FEW: usize = 10;
-/// Presses of the whole scene.
+/// Presses from which scores are compared.
 const WHOLE: usize = 60;
 const DEPTH_APART_MM: f64 = 5e-5;
 const FORCE_APART_N: f64 = 2e-3;

@@ -1,7 +1,7 @@
 //! Checked opening of foreign files, and durable writing of our own.
 
 use std::fs::{self, File, Metadata};
-use std::io::{Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Component, Path};
 
@@ -75,9 +75,21 @@ pub fn check_relative(written: &str) -> Result<(), &'static str> {
     Ok(())
 }
 
+/// Creates an empty file at `path`. What stands there is unlinked first, so that no link is followed.
+pub(crate) fn create_anew(path: &Path) -> Result<File, DatasetError> {
+    let created = match File::create_new(path) {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+            fs::remove_file(path).map_err(DatasetError::io("remove", path))?;
+            File::create_new(path)
+        }
+        created => created,
+    };
+    created.map_err(DatasetError::io("create", path))
+}
+
 /// Writes a new file and returns once its bytes are on the disk. Its name is durable only after `make_names_durable`.
 pub fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
-    let mut file = File::create(path).map_err(DatasetError::io("create", path))?;
+    let mut file = create_anew(path)?;
     file.write_all(bytes)
         .and_then(|()| file.sync_all())
         .map_err(DatasetError::io("write", path))

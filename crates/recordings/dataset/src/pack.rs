@@ -130,6 +130,7 @@ impl PackWriter {
     /// Continues at `end` in the dataset at `folder`; its name is durable on return.
     pub(crate) fn open(folder: &Path, end: PackEnd) -> Result<PackWriter, DatasetError> {
         let path = folder.join(layout::pack_path(end.number));
+        refuse_link(&path)?;
         let file = OpenOptions::new()
             .append(true)
             .create(true)
@@ -194,9 +195,22 @@ impl PackWriter {
     }
 }
 
+/// Refuses a link in place of a pack: its target would be cut or written.
+fn refuse_link(path: &Path) -> Result<(), DatasetError> {
+    match path.is_symlink() {
+        false => Ok(()),
+        true => Err(DatasetError::Damaged {
+            path: path.to_owned(),
+            problem: "a symbolic link, expected a file that the recorder made: remove the link"
+                .to_owned(),
+        }),
+    }
+}
+
 /// Cuts unacknowledged bytes after `end` in the packs of the dataset at `folder`.
 pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError> {
     let path = folder.join(layout::pack_path(end.number));
+    refuse_link(&path)?;
     match fs::metadata(&path) {
         Ok(found) if found.len() > end.length => OpenOptions::new()
             .write(true)

@@ -3,11 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use taceva_dataset::internal::{is_foreign_folder, quoted, shown};
+use taceva_dataset::internal::{is_foreign_folder, quoted};
 
 use crate::layouts::Preset;
 
-/// Returns the command that imports the folder at `path`, if it has a known layout or a table.
+/// Returns the command that begins the import of the folder at `path`: by its known layout, or by a map to write first.
+/// `None` for a dataset, and for a folder without files.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -21,43 +22,14 @@ pub fn advice(path: &Path) -> Option<String> {
         return None;
     }
     let folder = quoted(path);
-    let command =
-        |layout: &str| format!("import it first: taceva import {folder} {layout} --out DATASET");
     if let Some(preset) = Preset::recognised(path) {
-        return Some(command(&format!("--preset {}", preset.name())));
+        let preset = preset.name();
+        return Some(format!(
+            "import it first: taceva import {folder} --preset {preset} --out DATASET"
+        ));
     }
-    tables(path).first().map(|table| {
-        format!(
-            "{}, where MAP.toml says which column of {} is which channel",
-            command("--map MAP.toml"),
-            shown(table)
-        )
-    })
-}
-
-/// CSV tables in the folder at `path` and in its direct subfolders, sorted by name.
-fn tables(path: &Path) -> Vec<String> {
-    let inside = |folder: &Path| fs::read_dir(folder).into_iter().flatten().flatten();
-    let deeper = inside(path).filter(|entry| entry.path().is_dir());
-    let deeper = deeper.flat_map(|entry| inside(&entry.path()));
-    let all = inside(path).chain(deeper).map(|entry| entry.path());
-    let mut names: Vec<String> = all
-        .filter(|path| {
-            path.extension()
-                .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
-        })
-        .filter_map(|table| {
-            Some(
-                table
-                    .strip_prefix(path)
-                    .ok()?
-                    .to_string_lossy()
-                    .into_owned(),
-            )
-        })
-        .collect();
-    names.sort_by_key(|name| (name.matches('/').count(), name.clone()));
-    names
+    fs::read_dir(path).ok()?.next()?.ok()?;
+    Some(format!("write a map first: taceva init recording {folder}"))
 }
 
 #[cfg(test)]
@@ -75,25 +47,26 @@ mod tests {
     }
 
     #[test]
-    fn a_known_layout_is_answered_with_its_preset_and_another_with_its_table() {
+    fn a_known_layout_is_answered_with_its_preset_and_another_with_the_draft_of_a_map() {
         for (file, part) in [
-            ("targets.csv", "--preset bristol --out DATASET"),
+            (
+                "targets.csv",
+                "import it first: taceva import FOLDER --preset bristol --out DATASET",
+            ),
             (
                 "annotations/probe_data.csv",
-                "--preset py3dcal --out DATASET",
+                "import it first: taceva import FOLDER --preset py3dcal --out DATASET",
             ),
             (
-                "labels.csv",
-                "--map MAP.toml --out DATASET, where MAP.toml says which column of labels.csv",
+                "deep/labels.csv",
+                "write a map first: taceva init recording FOLDER",
             ),
-            ("deep/labels.csv", "which column of deep/labels.csv"),
         ] {
             let folder = folder(&[file]);
             let said = advice(folder.path()).expect("a command");
-            assert!(
-                said.contains("taceva import ") && said.contains(part),
-                "{said}"
-            );
+            assert_eq!(said.replace(&quoted(folder.path()), "FOLDER"), part);
         }
+        let empty = tempfile::tempdir().expect("a folder");
+        assert_eq!(advice(empty.path()), None);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use taceva_core::{DriverError, ErrorKind};
+use taceva_core::{DriverError, DriverKind, ErrorKind};
 use taceva_dataset::DatasetError;
 use taceva_drivers::OpenError;
 use taceva_models::{FeatureError, SettingError};
@@ -29,6 +29,20 @@ pub enum AcquireError {
     Open {
         /// The study.
         study: String,
+        /// Reason.
+        source: Box<OpenError>,
+    },
+    /// A device of a rig file did not open.
+    #[error(
+        "{}: {device}: {source}; {}",
+        taceva_core::shown(rig),
+        lister(*device)
+    )]
+    OpenOfRig {
+        /// Name of the rig file.
+        rig: String,
+        /// Kind of the device.
+        device: DriverKind,
         /// Reason.
         source: Box<OpenError>,
     },
@@ -104,6 +118,14 @@ pub enum AcquireError {
     Request(String),
 }
 
+/// Names the command that lists devices of this kind.
+fn lister(device: DriverKind) -> &'static str {
+    match device {
+        DriverKind::Sensor => "`taceva devices` lists cameras",
+        _ => "`taceva devices` lists drivers and devices, `taceva doctor` missing permissions",
+    }
+}
+
 /// Describes the state of a broken capture, and the command that closes it.
 fn kept(path: &Path, frames: u64, is_whole: bool) -> String {
     let path = taceva_core::shown(path);
@@ -120,7 +142,9 @@ impl AcquireError {
     pub fn kind(&self) -> ErrorKind {
         match self {
             AcquireError::Dataset(error) => error.kind(),
-            AcquireError::Open { source, .. } | AcquireError::OpenLive(source) => source.kind(),
+            AcquireError::Open { source, .. }
+            | AcquireError::OpenOfRig { source, .. }
+            | AcquireError::OpenLive(source) => source.kind(),
             AcquireError::Device(error) => error.kind(),
             AcquireError::CaptureEnded { source, .. } => source.kind(),
             AcquireError::CaptureBroken { source, .. } => source.kind(),
@@ -138,7 +162,9 @@ impl AcquireError {
     /// True if a device failed, rather than the request, a file or a write.
     pub fn is_of_device(&self) -> bool {
         match self {
-            AcquireError::Open { source, .. } | AcquireError::OpenLive(source) => {
+            AcquireError::Open { source, .. }
+            | AcquireError::OpenOfRig { source, .. }
+            | AcquireError::OpenLive(source) => {
                 matches!(**source, OpenError::Device(_))
             }
             AcquireError::Device(_) | AcquireError::CaptureEnded { .. } => true,

@@ -77,6 +77,8 @@ pub(crate) struct SplitFields {
     times_s: Option<Vec<f64>>,
     parts: Option<Vec<String>>,
     column: Option<(String, Vec<String>)>,
+    /// All columns if the wanted one is missing, for the suggestion of another.
+    alternatives: Vec<(String, Vec<String>)>,
     recordings: Option<Vec<String>>,
     sections: Vec<usize>,
     blocks: Option<Blocks>,
@@ -94,14 +96,21 @@ impl SplitFields {
             },
             _ => None,
         };
-        let column = wanted.and_then(|name| {
+        let filled = |name: &str| {
             let cells = table.as_text(name)?;
             // A sample without the value is in no part: no request can name the empty text.
             let filled = rows
                 .iter()
                 .map(|&row| cells[row].clone().unwrap_or_default());
-            Some((name.to_owned(), filled.collect()))
-        });
+            Some((name.to_owned(), filled.collect::<Vec<String>>()))
+        };
+        let column = wanted.and_then(filled);
+        let alternatives = if wanted.is_some() && column.is_none() {
+            let columns = table.columns().into_iter();
+            columns.filter_map(|column| filled(column.name)).collect()
+        } else {
+            Vec::new()
+        };
         let by_blocks = match kind {
             SplitKind::ByBlock => true,
             SplitKind::Folds(folds) => folds.by == FoldGroups::Blocks,
@@ -112,6 +121,7 @@ impl SplitFields {
             times_s: rows.iter().map(|&row| table.t_s()[row]).collect(),
             parts: all_texts(table.part(), rows),
             column,
+            alternatives,
             recordings: recordings::names(dataset, rows),
             sections: recordings::sections(dataset, rows),
             blocks: by_blocks.then(|| Blocks::of(dataset, rows)).flatten(),
@@ -128,6 +138,7 @@ impl SplitFields {
             columns: self
                 .column
                 .iter()
+                .chain(&self.alternatives)
                 .map(|(name, cells)| (name.as_str(), cells.as_slice()))
                 .collect(),
             recordings: self.recordings.as_deref(),

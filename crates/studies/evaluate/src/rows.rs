@@ -307,7 +307,9 @@ pub(crate) fn chosen_channels(
     };
     if chosen.is_empty() {
         return Err(EvaluateError::Request(
-            "the dataset has no channel to predict".to_owned(),
+            "the dataset has no channel to predict: import it again with a map that names labels under [columns], such as \
+             Fz = { from = \"COLUMN\", unit = \"N\" }"
+                .to_owned(),
         ));
     }
     Ok(chosen)

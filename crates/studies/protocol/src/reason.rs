@@ -6,6 +6,10 @@ use taceva_core::{Field, SkipReason};
 
 use crate::phase_kind::PhaseKind;
 
+/// The lines of a scene that state the sensing surface; either suffices.
+const FOOTPRINT_LINE: &str = "`footprint = { shape = \"disc\", radius_mm = … }` or \
+     `footprint = { shape = \"rect\", half_x_mm = …, half_y_mm = … }`";
+
 /// A skipped part of a plan, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanSkip {
@@ -174,6 +178,12 @@ impl PlanReason {
 impl fmt::Display for PlanReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            PlanReason::Skip(reason @ SkipReason::FactAbsent("footprint")) => {
+                write!(
+                    f,
+                    "{reason}: write {FOOTPRINT_LINE} under [sensor] of the scene"
+                )
+            }
             PlanReason::Skip(reason) => write!(f, "{reason}"),
             PlanReason::Unresolved { field, cause } => write!(f, "needs `{field}` ← needs {cause}"),
             PlanReason::Unmeasured { channel, cause } => {

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use taceva_abi as abi;
 use taceva_core::{
-    Args, Deadline, Descriptor, DescriptorError, Device, DriverError, DriverKey, DriverSource,
-    Factory, Rig,
+    ArgError, Args, Deadline, Descriptor, DescriptorError, Device, DriverError, DriverKey,
+    DriverSource, Factory, Rig,
 };
 use taceva_host::bare::{ArgList, Entry, Opened, RigHandle, Source, Table, call, open};
 use taceva_host::{Failure, InProcess, Library, Manifest, Provided, Session};
@@ -86,7 +86,11 @@ impl Subject {
         let args = Args::parse(self.entry()?.arguments(), &self.probe.arguments);
         args.map_err(|error| {
             let key = &self.probe.driver;
-            Unmet::Skipped(format!("{error}: give it with `--with {key}:…`"))
+            let argument = match &error {
+                ArgError::Missing { key, .. } => key.as_str(),
+                _ => "KEY",
+            };
+            Unmet::Skipped(format!("{error}: give it with `--with {key}:{argument}=…`"))
         })
     }
 

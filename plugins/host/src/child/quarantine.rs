@@ -1,7 +1,7 @@
 //! Quarantine of crashed plugins, which do not start again until their user releases them.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -96,14 +96,8 @@ impl Quarantine {
     pub fn put(&self, entry: &Quarantined) -> io::Result<()> {
         fs::create_dir_all(&self.folder)?;
         let text = toml::to_string(entry).map_err(io::Error::other)?;
-        // Written to a temporary file and renamed, so that an entry is never partial.
-        let beside = self
-            .folder
-            .join(format!(".{}-{}", entry.sha256, std::process::id()));
-        let mut file = fs::File::create(&beside)?;
-        file.write_all(text.as_bytes())?;
-        file.sync_all()?;
-        fs::rename(&beside, self.file(entry.sha256))
+        // Staged below a random name, so that an entry is never partial and no link is followed.
+        taceva_files::replace(&self.file(entry.sha256), |staged| fs::write(staged, text))
     }
 
     /// Releases every library of `plugin`, or the library with this digest. Returns the number released.
@@ -159,6 +153,30 @@ mod tests {
         assert_eq!(quarantine.release("org.example.x").expect("released"), 1);
         assert_eq!(quarantine.get(digest).expect("readable"), None);
         assert_eq!(quarantine.entries().expect("readable"), [other]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_at_the_name_of_an_entry_is_replaced_and_not_followed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let theirs = folder.path().join("thesis.tex");
+        fs::write(&theirs, "theirs").expect("written");
+        let quarantine = Quarantine::of_folder(folder.path().join("quarantine"));
+        fs::create_dir(quarantine.folder()).expect("made");
+        let entry = Quarantined::new(Sha256Digest([7; 32]), "org.example.x", "signal 11");
+        let digest = entry.sha256;
+        // The second name is the one that earlier versions wrote to.
+        let foretold = format!(".{digest}-{}", std::process::id());
+        for name in [format!("{digest}.toml"), foretold] {
+            let link = quarantine.folder().join(name);
+            std::os::unix::fs::symlink(&theirs, link).expect("linked");
+        }
+        quarantine.put(&entry).expect("written");
+        assert_eq!(fs::read_to_string(&theirs).expect("there"), "theirs");
+        assert!(!quarantine.file(digest).is_symlink());
+        assert_eq!(quarantine.get(digest).expect("readable"), Some(entry));
+        let names = fs::read_dir(quarantine.folder()).expect("there").count();
+        assert_eq!(names, 2, "the entry and the other link alone");
     }
 
     #[test]

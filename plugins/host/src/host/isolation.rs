@@ -19,7 +19,7 @@ pub enum Keeping {
     Apart(Trust),
     /// In a separate process with these restrictions, in words.
     Confined(String),
-    /// Not at all: this machine cannot confine the plugin, for this reason.
+    /// None: this machine cannot confine the plugin, for this reason.
     Refused(String),
 }
 
@@ -36,7 +36,7 @@ impl fmt::Display for Keeping {
             Keeping::Trusted(trust) => write!(f, "in this process, unconfined: {trust}"),
             Keeping::Apart(trust) => write!(f, "in a process of its own, unconfined: {trust}"),
             Keeping::Confined(words) => write!(f, "in {words}"),
-            Keeping::Refused(why) => write!(f, "not at all: {why}"),
+            Keeping::Refused(why) => write!(f, "cannot run: {why}"),
         }
     }
 }

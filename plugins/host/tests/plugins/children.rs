@@ -220,4 +220,5 @@ fn how_a_plugin_is_isolated_is_found_out_by_doing_it_and_loads_nothing() {
     let host = PluginHost::with_children(fixture.found(), config, log, nobody);
     let keeping = host.keeping(&fixture.plugin());
     assert!(!keeping.is_possible(), "{keeping}");
+    assert!(keeping.to_string().starts_with("cannot run: "), "{keeping}");
 }

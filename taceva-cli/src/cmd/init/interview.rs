@@ -56,8 +56,9 @@ impl<R: BufRead> Interview<R> {
             let mut line = String::new();
             if self.answers.read_line(&mut line)? == 0 {
                 stderr::write("\n");
+                let remedy = default.map_or("", |_| "; --yes takes defaults");
                 return Err(Usage::error(format!(
-                    "standard input ended before an answer to: {question}; --yes takes defaults"
+                    "standard input ended before an answer to: {question}{remedy}"
                 )));
             }
             let typed = line.trim();
@@ -172,7 +173,11 @@ mod tests {
     #[test]
     fn answers_that_end_and_questions_without_default_are_refused() {
         let ended = interview("", false).number("depth", None, [0.0, 1.0]);
-        assert!(ended.expect_err("no answer").to_string().contains("depth"));
+        let ended = ended.expect_err("no answer").to_string();
+        assert!(ended.ends_with("answer to: depth"), "{ended}");
+        let ended = interview("", false).number("depth", Some("0.5"), [0.0, 1.0]);
+        let ended = ended.expect_err("no answer").to_string();
+        assert!(ended.ends_with("depth; --yes takes defaults"), "{ended}");
         let unasked = interview("", true).number("depth", None, [0.0, 1.0]);
         assert!(
             unasked

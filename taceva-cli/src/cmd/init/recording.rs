@@ -3,14 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use taceva_core::shown;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::quoted;
 use taceva_import::{ImportMap, MapDraft};
 
 use super::{Interview, finish, target};
 use crate::args::InitTarget;
-use crate::stderr;
 
 /// A place that a draft leaves open.
 const OPEN: &str = "\"?\"";
@@ -23,19 +21,58 @@ pub(super) fn write(
     let path = target(args, "map.toml")?;
     let draft = MapDraft::of(folder)?;
     let text = filled(draft.text(), &path, interview)?;
-    let open = text.matches(OPEN).count();
     let import = format!("taceva import {} --map {}", quoted(folder), quoted(&path));
-    let mut next = Vec::new();
-    if open > 0 {
-        next.push(format!(
-            "fill in the {open} places {OPEN} of {}",
-            quoted(&path)
-        ));
-    }
+    let mut next = remarks(&text, &quoted(&path));
     next.push(format!("{import} --explain"));
     next.push(format!("{import} --out my-dataset"));
     next.push("taceva evaluate my-dataset".to_owned());
     finish(&path, &text, &next)
+}
+
+/// Sections of a map that hold labels.
+const LABELS: [&str; 3] = ["[columns]", "[classes]", "[[matrix]]"];
+
+/// Steps by hand before an import of `map`, which is written to `path`: open places, guesses, labels and contact points.
+fn remarks(map: &str, path: &str) -> Vec<String> {
+    let lines = || {
+        map.lines()
+            .filter(|line| !line.trim_start().starts_with('#'))
+    };
+    let code = |line: &str| line.split('#').next().unwrap_or(line).matches(OPEN).count();
+    let open: usize = lines().map(code).sum();
+    let guesses = lines().filter(|line| line.contains("a guess")).count();
+    let mut remarks = Vec::new();
+    match open {
+        0 => {}
+        1 => remarks.push(format!("fill in the place {OPEN} of {path}")),
+        _ => remarks.push(format!("fill in the {open} places {OPEN} of {path}")),
+    }
+    match guesses {
+        0 => {}
+        1 => remarks.push(format!("check the line with \"a guess\" in {path}")),
+        _ => remarks.push(format!(
+            "check the {guesses} lines with \"a guess\" in {path}"
+        )),
+    }
+    let mut section = "";
+    let has_labels = lines().any(|line| {
+        if line.starts_with('[') {
+            section = line.trim_end();
+            return false;
+        }
+        LABELS.contains(&section) && !line.trim().is_empty()
+    });
+    if !has_labels {
+        remarks.push(format!(
+            "name the labels, of which none was found: under [columns] of {path} write a line such as Fz = {{ from = \"COLUMN\", unit = \"N\" }}"
+        ));
+    }
+    if !lines().any(|line| line.starts_with("point_id")) {
+        remarks.push(format!(
+            "name the contact points, on which intervals depend: under [ids] of {path} write point_id = \"COLUMN\", a column with one value for each contact"
+        ));
+    }
+    remarks
 }
 
 /// `draft` with an answer in each open place of a line that is no comment. With `--yes` places stay open.
@@ -44,13 +81,6 @@ fn filled(draft: &str, path: &Path, interview: &mut Interview) -> anyhow::Result
         return Ok(draft.to_owned());
     }
     let mut lines: Vec<String> = draft.lines().map(str::to_owned).collect();
-    let guesses = lines.iter().filter(|line| line.contains("a guess")).count();
-    if guesses > 0 {
-        stderr::write(&format!(
-            "{guesses} lines are guesses: read them in {} before you import\n",
-            shown(path)
-        ));
-    }
     let mut earlier: BTreeMap<String, String> = BTreeMap::new();
     for at in 0..lines.len() {
         while let Some(place) = Place::of(&lines[at]) {
@@ -133,7 +163,34 @@ impl Place {
 
 #[cfg(test)]
 mod tests {
-    use super::Place;
+    use super::{Place, remarks};
+
+    #[test]
+    fn remarks_count_lines_of_the_map_and_no_comments() {
+        let map = "# Replace every \"?\": lines with \"a guess\" may be wrong.\n[columns]\nFz = { from = \"f\", unit = \"?\" }   # a guess\n";
+        let contacts = "name the contact points, on which intervals depend: under [ids] of m.toml write point_id = \"COLUMN\", a column with one value for each contact";
+        assert_eq!(
+            remarks(map, "m.toml"),
+            [
+                "fill in the place \"?\" of m.toml",
+                "check the line with \"a guess\" in m.toml",
+                contacts,
+            ]
+        );
+        let twice = map.replace("from = \"f\"", "from = \"?\"");
+        assert_eq!(
+            remarks(&twice, "m.toml")[0],
+            "fill in the 2 places \"?\" of m.toml"
+        );
+        let bare =
+            "[columns]\n# No channels: a, b\n[frame]\ncolumn = \"file\"\n[ids]\npoint_id = \"p\"\n";
+        let said = remarks(bare, "m.toml");
+        assert_eq!(said.len(), 1, "{said:?}");
+        assert!(
+            said[0].starts_with("name the labels, of which none was found"),
+            "{said:?}"
+        );
+    }
 
     #[test]
     fn an_open_place_says_its_key_and_its_channel() {

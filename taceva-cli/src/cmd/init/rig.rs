@@ -102,7 +102,7 @@ fn device(
         false => Err(format!("expected one of {}", keys.join(", "))),
     };
     let answer = interview.ask(
-        &format!("driver of the {what}"),
+        &format!("driver of the {what} ({})", keys.join(", ")),
         present.first().copied(),
         check,
     )?;

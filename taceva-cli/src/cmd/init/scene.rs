@@ -1,4 +1,4 @@
-//! A scene of the simulated bench.
+//! A scene of the simulated bench, or of a real rig if the sensing area is stated.
 
 use std::path::Path;
 
@@ -6,6 +6,7 @@ use taceva_acquire::{Overrides, PlannedScene, SceneText};
 use taceva_core::{DriverKind, DriverSource};
 use taceva_dataset::internal::quoted;
 use taceva_drivers::{ListedDriver, devices};
+use taceva_protocol::Scene;
 
 use super::{Context, Interview, finish, target};
 use crate::args::InitTarget;
@@ -44,21 +45,31 @@ pub(super) fn write(
     };
     let question = format!("sensors, separated by commas ({known})");
     let chosen = interview.ask(&question, sensors.first().map(String::as_str), is_known)?;
+    let sensing_area = match chosen.contains(',') {
+        true => None,
+        false => footprint(interview)?,
+    };
     let points = interview.count("contact points", "200", [4, 100_000])?;
     let presses = interview.count("depths at each point", "4", [1, 1000])?;
     let models = ["ridge", "fast", "default", "best", "auto"];
     let model = interview.choose("model", &models, Some("fast"))?;
     let wanted = interview.choose("metrics", &["all", "accuracy"], Some("accuracy"))?;
     let seed = interview.count("seed of all random numbers", "7", [0, u32::MAX])?;
+    let about = match sensing_area {
+        Some(_) => "A study on a real rig, whose file names the devices.",
+        None => "A study on the simulated bench: nothing of it is measured.",
+    };
     let mut text = format!(
-        "# A study on the simulated bench: nothing of it is measured. `taceva plan` says what it would do.\nscene_version = 1\nname = {name:?}\nseed = {seed}\n\n"
+        "# {about} `taceva plan` says what it would do.\nscene_version = 1\nname = {name:?}\nseed = {seed}\n\n"
     );
     let sensors: Vec<&str> = chosen.split(',').map(str::trim).collect();
-    if let [sensor] = sensors.as_slice() {
-        text += &format!("[sensor]\ndriver = {sensor:?}\n\n");
+    match (&sensing_area, sensors.as_slice()) {
+        (Some(line), _) => text += &format!("[sensor]\n{line}\n"),
+        (None, [sensor]) => text += &format!("[sensor]\ndriver = {sensor:?}\n\n{BENCH}"),
+        (None, _) => text += BENCH,
     }
     text += &format!(
-        "{BENCH}\n[model]\nname = {model:?}                  # ridge, fast, default, best, auto …: taceva fit --help\n\n[metrics]\nwant = [{wanted:?}]\n\n[protocol.calibration]\npoints = {points}\nindentations = {presses}\n"
+        "\n[model]\nname = {model:?}                  # ridge, fast, default, best, auto …: taceva fit --help\n\n[metrics]\nwant = [{wanted:?}]\n\n[protocol.calibration]\npoints = {points}\nindentations = {presses}\n"
     );
     if sensors.len() > 1 {
         for sensor in sensors {
@@ -67,6 +78,13 @@ pub(super) fn write(
                 &format!("\n[[study]]\nname = {short:?}\n[study.sensor]\ndriver = {sensor:?}\n");
         }
     }
+    let path_word = quoted(&path);
+    if sensing_area.is_some() {
+        Scene::parse_for_rig(&path.display().to_string(), &text)?;
+        let plan =
+            format!("taceva plan {path_word} --rig rig.toml     the file of taceva init rig");
+        return finish(&path, &text, &[plan]);
+    }
     // Whatever `run` would refuse is refused here.
     let scene = SceneText {
         name: path.display().to_string(),
@@ -74,7 +92,6 @@ pub(super) fn write(
         folder: path.parent().unwrap_or(Path::new("")).to_owned(),
     };
     PlannedScene::with(scene, &drivers, &Overrides::default())?;
-    let path_word = quoted(&path);
     finish(
         &path,
         &text,
@@ -83,4 +100,40 @@ pub(super) fn write(
             format!("taceva run {path_word}"),
         ],
     )
+}
+
+/// The line of the scene that states the sensing surface; `None` if a simulated driver states it.
+fn footprint(interview: &mut Interview) -> anyhow::Result<Option<String>> {
+    interview.say("for a real rig state the sensing area, which no driver of a camera knows; the rig file then names the devices");
+    let check = |answer: &str| match answer == "driver" || footprint_line(answer).is_some() {
+        true => Ok(()),
+        false => Err(
+            "expected `driver`, `disc RADIUS` or `rect HALF_X HALF_Y` with lengths above 0"
+                .to_owned(),
+        ),
+    };
+    let question = "sensing area of a real sensor in mm (disc RADIUS, rect HALF_X HALF_Y, or driver if simulated)";
+    let answer = interview.ask(question, Some("driver"), check)?;
+    Ok(footprint_line(&answer))
+}
+
+/// The line for `disc RADIUS` or `rect HALF_X HALF_Y`.
+fn footprint_line(answer: &str) -> Option<String> {
+    let mut words = answer.split_whitespace();
+    let shape = words.next()?;
+    let lengths: Vec<f64> = words
+        .map(|word| {
+            let length = word.parse::<f64>().ok()?;
+            (length > 0.0 && length.is_finite()).then_some(length)
+        })
+        .collect::<Option<_>>()?;
+    match (shape, lengths.as_slice()) {
+        ("disc", [radius]) => Some(format!(
+            "footprint = {{ shape = \"disc\", radius_mm = {radius:?} }}"
+        )),
+        ("rect", [half_x, half_y]) => Some(format!(
+            "footprint = {{ shape = \"rect\", half_x_mm = {half_x:?}, half_y_mm = {half_y:?} }}"
+        )),
+        _ => None,
+    }
 }

@@ -19,7 +19,7 @@ pub(super) fn run(args: &RigCheckArgs, context: &Context) -> anyhow::Result<u8> 
     let mut terminal = operator::terminal(None);
     if terminal.is_none() && !rig.simulated && rig.robot.is_some() {
         context.say(format_args!(
-            "motion of the robot cannot be permitted without a terminal: its halt is not timed"
+            "the halt is not timed: start `taceva rig check` from a terminal"
         ));
     }
     let asked = terminal

@@ -27,7 +27,9 @@ pub(super) fn empty_folder(path: &Path) -> Result<File, DatasetError> {
     for entry in entries {
         let entry = entry.map_err(DatasetError::io("list", path))?;
         let name = entry.file_name();
-        if name != layout::JOURNAL && name != layout::FRAMES {
+        let kind = (entry.file_type()).map_err(DatasetError::io("read", &entry.path()))?;
+        // A link at a name of ours would lead what is recorded elsewhere.
+        if kind.is_symlink() || (name != layout::JOURNAL && name != layout::FRAMES) {
             return Err(taken());
         }
     }

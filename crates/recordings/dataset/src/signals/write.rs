@@ -17,6 +17,7 @@ use super::{SignalsInfo, SignalsSpec, rows_of_group};
 use crate::decoder_panic::guarded;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
+use crate::file::create_anew;
 
 /// A file of signals that is being written.
 #[doc(hidden)]
@@ -35,7 +36,7 @@ impl SignalsWriter {
     pub fn create(path: &Path, spec: &SignalsSpec) -> Result<SignalsWriter, DatasetError> {
         let damaged = |problem| DatasetError::damaged(path, problem);
         spec.check().map_err(damaged)?;
-        let file = File::create(path).map_err(DatasetError::io("create", path))?;
+        let file = create_anew(path)?;
         let writer = guarded(|| {
             let properties = Arc::new(properties(spec));
             SerializedFileWriter::new(BufWriter::new(file), schema(spec)?, properties)

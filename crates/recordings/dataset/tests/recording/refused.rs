@@ -1,7 +1,7 @@
 //! What a recorder refuses.
 
 use taceva_core::{Frame, FrameInfo, PixelFormat, Readings, Stamp};
-use taceva_dataset::{DatasetError, Recorder};
+use taceva_dataset::{Dataset, DatasetError, Recorder};
 
 use super::{sample, spec};
 
@@ -102,4 +102,48 @@ fn another_recording_is_not_continued() {
     other.facts.sensor.serial = "2".into();
     let error = Recorder::open(&path, &other).expect_err("another sensor");
     assert!(error.to_string().contains("has another sensor"), "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn links_at_names_of_a_recording_lead_nothing_elsewhere() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().expect("a folder");
+    let theirs = folder.path().join("theirs");
+    let thesis = theirs.join("thesis.tex");
+    std::fs::create_dir(&theirs).expect("made");
+    std::fs::write(&thesis, "theirs").expect("written");
+    // Beforehand, in a folder that looks as if its creation was interrupted.
+    for (name, leads_to) in [("journal", &thesis), ("frames", &theirs)] {
+        let path = folder.path().join(format!("begun-{name}"));
+        std::fs::create_dir(&path).expect("made");
+        symlink(leads_to, path.join(name)).expect("linked");
+        let refused = Recorder::create(&path, &spec()).expect_err("a link");
+        assert!(
+            matches!(refused, DatasetError::TargetExists { .. }),
+            "{name}: {refused}"
+        );
+    }
+    // At the name of the first pack, before the first frame.
+    let path = folder.path().join("pack");
+    let mut recorder = Recorder::create(&path, &spec()).expect("created");
+    let frames = path.join("frames");
+    let packs = (0..3).map(|number| frames.join(format!("{number:04}.pack")));
+    packs.for_each(|pack| symlink(&thesis, pack).expect("linked"));
+    recorder.append(&sample(1)).expect_err("a link");
+    drop(recorder);
+    // While it records, at the names of its last files.
+    let path = folder.path().join("set");
+    let mut recorder = Recorder::create(&path, &spec()).expect("created");
+    recorder.append(&sample(1)).expect("recorded");
+    for name in ["samples.parquet", "dataset.toml"] {
+        symlink(&thesis, path.join(format!("{name}.partial"))).expect("linked");
+        symlink(&thesis, path.join(name)).expect("linked");
+    }
+    recorder.close().expect("closed");
+    let dataset = Dataset::open(&path).expect("opens");
+    assert_eq!(dataset.table().rows(), 1);
+    assert!(!path.join("dataset.toml").is_symlink());
+    assert_eq!(std::fs::read_to_string(&thesis).expect("there"), "theirs");
+    assert_eq!(theirs.read_dir().expect("there").count(), 1);
 }

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use taceva_core::{
-    Deadline, Descriptor, Device, DriverSource, ForceTransducer, Registry, Rig, Robot, Sensor,
+    Deadline, Descriptor, Device, DriverKind, DriverSource, ForceTransducer, Registry, Rig, Robot,
+    Sensor,
 };
 use taceva_drivers::{Drivers, OpenError};
 use taceva_protocol::{RigFile, SceneProblem, Setting};
@@ -42,7 +43,7 @@ impl<'a> FileOpener<'a> {
     /// Opens all devices, mapped into the frame of the sensor.
     ///
     /// # Errors
-    /// [`AcquireError::Scene`] for an invalid driver or argument, [`AcquireError::Open`] if a device does not open.
+    /// [`AcquireError::Scene`] for an invalid driver or argument, [`AcquireError::OpenOfRig`] if a device does not open.
     pub(crate) fn all(&self) -> Result<FileDevices, AcquireError> {
         let [_, force_latency, sensor_latency] = written_latencies_ms(self.rig);
         let sensor = self.open(&self.drivers.sensors, self.spec.sensor.as_ref())?;
@@ -55,7 +56,8 @@ impl<'a> FileOpener<'a> {
             (Some((robot, descriptor)), Some(registered)) => {
                 let deadline = Deadline::after(FIRST_POSE);
                 let mapped = Registered::new(robot, registered, deadline);
-                let mapped = mapped.map_err(|error| self.failed(OpenError::Device(error)))?;
+                let mapped = mapped
+                    .map_err(|error| self.failed(DriverKind::Robot, OpenError::Device(error)))?;
                 let mapped: Box<dyn Robot> = Box::new(mapped);
                 Some((mapped, descriptor))
             }
@@ -117,12 +119,13 @@ impl<'a> FileOpener<'a> {
             unit: "1",
         };
         let opened = opener.open(registry, Some(device), &mut Rig::new());
-        opened.map_err(|error| self.failed(error))
+        opened.map_err(|error| self.failed(D::KIND, error))
     }
 
-    fn failed(&self, source: OpenError) -> AcquireError {
-        AcquireError::Open {
-            study: self.rig.name().to_owned(),
+    fn failed(&self, device: DriverKind, source: OpenError) -> AcquireError {
+        AcquireError::OpenOfRig {
+            rig: self.rig.name().to_owned(),
+            device,
             source: Box::new(source),
         }
     }

@@ -142,7 +142,7 @@ impl fmt::Display for RigProblem {
 /// Measures the devices of `rig`, and halts its robot once on its way up, if `operator` allows it or the rig is emulated.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] with the line of the rig file, [`AcquireError::Open`] if a device does not open, [`AcquireError::Device`] if one
+/// [`AcquireError::Scene`] with the line of the rig file, [`AcquireError::OpenOfRig`] if a device does not open, [`AcquireError::Device`] if one
 /// fails.
 pub fn check_rig(
     rig: &RigFile,

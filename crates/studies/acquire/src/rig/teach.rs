@@ -18,8 +18,8 @@ const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 /// nothing.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] with the line of the rig file if it names no robot or the places define no frame; [`AcquireError::Open`] and
-/// [`AcquireError::Device`] if the robot does not answer; [`AcquireError::Request`] if the operator stopped.
+/// [`AcquireError::Scene`] with the line of the rig file if it names no robot or the places define no frame; [`AcquireError::OpenOfRig`]
+/// and [`AcquireError::Device`] if the robot does not answer; [`AcquireError::Request`] if the operator stopped.
 pub fn teach_rig(
     rig: &RigFile,
     drivers: &Drivers,

@@ -1,9 +1,10 @@
 //! Text of a scene with its location, so that errors name the line and relative paths resolve.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+use taceva_dataset::internal::quoted;
 use taceva_protocol::{BuiltinScene, GREATEST_SCENE, RigFile, SceneError, SceneProblem};
 
 use crate::error::AcquireError;
@@ -35,7 +36,7 @@ impl SceneText {
     /// [`AcquireError::Scene`] if it cannot be read.
     pub fn read(path: &Path) -> Result<SceneText, AcquireError> {
         let name = path.display().to_string();
-        let text = read_text(path)?;
+        let text = read_text(path, "scene")?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         Ok(SceneText { name, text, folder })
     }
@@ -59,21 +60,31 @@ impl SceneText {
 /// # Errors
 /// [`AcquireError::Scene`] if it cannot be read or is invalid.
 pub(crate) fn read_rig_file(path: &Path) -> Result<RigFile, AcquireError> {
-    let text = read_text(path)?;
+    let text = read_text(path, "rig")?;
     Ok(RigFile::parse(&path.display().to_string(), &text)?)
 }
 
-fn read_text(path: &Path) -> Result<String, AcquireError> {
+/// Reads a file whose first version `taceva init` writes for this `subject`.
+fn read_text(path: &Path, subject: &str) -> Result<String, AcquireError> {
     let mut text = String::new();
     // One byte beyond the limit is enough to detect a text that is too long.
     let most = GREATEST_SCENE as u64 + 1;
     let read = File::open(path).and_then(|file| file.take(most).read_to_string(&mut text));
     match read {
         Ok(_) => Ok(text),
-        Err(error) => Err(AcquireError::from(SceneError {
-            source_name: path.display().to_string(),
-            line: None,
-            problem: Box::new(SceneProblem::Syntax(error.to_string())),
-        })),
+        Err(error) => {
+            let remedy = match error.kind() {
+                ErrorKind::NotFound => format!(
+                    ": `taceva init {subject} --out {}` writes one",
+                    quoted(path)
+                ),
+                _ => String::new(),
+            };
+            Err(AcquireError::from(SceneError {
+                source_name: path.display().to_string(),
+                line: None,
+                problem: Box::new(SceneProblem::Syntax(format!("{error}{remedy}"))),
+            }))
+        }
     }
 }

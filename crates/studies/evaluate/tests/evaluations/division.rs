@@ -285,8 +285,19 @@ fn fewer_groups_than_folds_and_parts_of_folds_are_refused() {
     );
     let part = refused("cv:3 by-column:unit_id", Some(DataPart::Test));
     assert!(part.contains("scores every sample"), "{part}");
-    assert!(refused("cv:3 by-point", None).contains("names no `point_id`"));
-    assert!(refused("cv:3 by-column:clip", None).contains("no column `clip`"));
+    let points = refused("cv:3 by-point", None);
+    assert!(points.contains("names no `point_id`"), "{points}");
+    assert!(points.contains("under [ids] of the map"), "{points}");
+    for split in ["cv:3 by-column:clip", "by-column:clip"] {
+        let column = refused(split, None);
+        assert!(
+            column.contains("no column `clip`, expected one of"),
+            "{column}"
+        );
+        assert!(column.contains("unit_id"), "{column}");
+    }
+    let near = refused("by-column:unit_ld", None);
+    assert!(near.contains("did you mean `unit_id`?"), "{near}");
     assert!(refused("random 35/20/10", None).contains("adds up to 65"));
     // A part is asked of one division, which is the default then.
     let request = EvaluateRequest {

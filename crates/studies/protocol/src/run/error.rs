@@ -101,6 +101,15 @@ impl StopCause {
         )
     }
 
+    /// True if force or pose came too late. A busy machine does that to emulated devices.
+    pub(super) fn is_late(&self) -> bool {
+        matches!(
+            self,
+            StopCause::Tripped(Trip::StaleForce { .. } | Trip::StalePose { .. })
+                | StopCause::SlowGuard { .. }
+        )
+    }
+
     /// True if the enabling switch was released: the press is repeated once it is held.
     pub fn is_release(&self) -> bool {
         matches!(self, StopCause::Tripped(Trip::Released))

@@ -31,6 +31,8 @@ pub(super) struct Run<'a> {
     silences: u32,
     /// Presses interrupted by a released switch.
     releases: u32,
+    /// True for emulated devices, which a busy machine makes late.
+    is_emulated: bool,
     /// Longest wait for a held enabling switch, in s.
     pub(super) patience_s: f64,
     /// Steps that the operator skipped.
@@ -45,6 +47,8 @@ pub(super) struct Run<'a> {
 const SILENCES_OF_A_PRESS: u32 = 3;
 /// Interruptions by stale signals in a run that end it.
 const SILENCES_OF_A_RUN: u32 = 20;
+/// Factor of both counts for late signals of emulated devices.
+const EMULATED: u32 = 10;
 
 impl<'a> Run<'a> {
     pub(super) fn new(
@@ -82,6 +86,7 @@ impl<'a> Run<'a> {
             let supervisor = Supervisor::new(limits, devices.robot.halt_handle());
             Oversight::new(SharedSupervisor::new(supervisor))
         });
+        let is_emulated = session.as_ref().is_some_and(|of| of.rig.simulated);
         let tip = Tip {
             is_guarded,
             ..Tip::new(
@@ -111,11 +116,20 @@ impl<'a> Run<'a> {
             lit: None,
             silences: 0,
             releases: 0,
+            is_emulated,
             patience_s,
             skipped: Vec::new(),
             is_reach_unknown: false,
             session,
         })
+    }
+
+    /// Number of interruptions that end a run, of which a real rig has `usual`. A late controller of an emulated rig is waited for.
+    pub(super) fn most_silences(&self, usual: u32, cause: &StopCause) -> u32 {
+        match self.is_emulated && cause.is_late() {
+            true => usual * EMULATED,
+            false => usual,
+        }
     }
 
     pub(super) fn stop(&mut self) -> Step<()> {
@@ -238,7 +252,9 @@ impl<'a> Run<'a> {
             } else {
                 silences += 1;
                 self.silences += 1;
-                if silences == SILENCES_OF_A_PRESS || self.silences == SILENCES_OF_A_RUN {
+                let of_a_press = self.most_silences(SILENCES_OF_A_PRESS, &error.cause);
+                let of_a_run = self.most_silences(SILENCES_OF_A_RUN, &error.cause);
+                if silences >= of_a_press || self.silences >= of_a_run {
                     return Err(error);
                 }
             }

@@ -42,7 +42,7 @@ pub(super) fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> 
     }
     if let Some(column) = columns.find(several) {
         return format!(
-            "# point_id = {:?}   # groups repeats, for intervals and --split by-point\n",
+            "# point_id = {:?}   # only if each of its values is one contact point, for intervals and --split by-point\n",
             column.name
         );
     }

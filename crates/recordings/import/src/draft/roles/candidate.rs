@@ -55,7 +55,7 @@ impl fmt::Display for Reason {
             Reason::Name => "its name",
             Reason::NameWithUnit => "its name and unit",
             Reason::Words => "the words of its name",
-            Reason::MoreWords => "some words of its name",
+            Reason::MoreWords => "a guess: some words of its name",
             Reason::Parent => "the name of its parent",
             Reason::NoAxis => "a guess: a force without an axis is usually the normal force",
             Reason::Position => "a guess: its place among these numbers",

@@ -3,7 +3,7 @@ mod taps;
 
 use bench::{Bench, MOUNTED, Memory, SURFACE_MM, Sees, Session, State, begun, rig_file};
 
-use crate::rig_file::SignedAxes;
+use crate::rig_file::{RigFile, SignedAxes};
 use crate::run::{Answer, Left, Question, RunError, SessionRecord, StopCause, TouchFault};
 
 /// On a rig file with these axes of the transducer.
@@ -144,6 +144,34 @@ fn a_machine_that_reads_late_is_refused_with_what_helps() {
         "{said}"
     );
     assert_eq!((left, presses), (Left::Clear, 0));
+}
+
+#[test]
+fn emulated_devices_that_are_late_for_a_while_are_waited_for_and_real_ones_are_not() {
+    for (simulated, late_until_s, presses) in
+        [(true, 17.0, 1), (false, 17.0, 0), (true, f64::INFINITY, 0)]
+    {
+        let bench = Bench::new(MOUNTED);
+        bench.state().latency_s = 0.04;
+        bench.state().late_until_s = late_until_s;
+        let rig = RigFile {
+            simulated,
+            ..rig_file(MOUNTED)
+        };
+        let session = Session {
+            rig: &rig,
+            robot: None,
+            touched: &[],
+            answer: None,
+        };
+        let (done, log, _) = begun(&bench, session);
+        assert_eq!(log.presses, presses, "{simulated}, {late_until_s} s");
+        let cause = done.map_err(|error| error.cause).err();
+        assert!(
+            matches!(cause, Some(StopCause::SlowGuard { .. })) == (presses == 0),
+            "{cause:?}"
+        );
+    }
 }
 
 #[test]

@@ -51,6 +51,7 @@ pub(super) struct State {
     pub(super) surface_mm: f64,
     pub(super) stiffness: f64,
     pub(super) latency_s: f64,
+    pub(super) late_until_s: f64,
     pub(super) clings_n: f64,
     pub(super) sees: Sees,
 }
@@ -79,6 +80,7 @@ impl Bench {
             surface_mm: SURFACE_MM,
             stiffness: 1.0,
             latency_s: 0.0,
+            late_until_s: f64::INFINITY,
             clings_n: 0.0,
             sees: Sees::Touches,
         })))
@@ -180,7 +182,8 @@ impl ForceTransducer for Transducer {
             ..Wrench::default()
         };
         let stamp = state.stamp();
-        let now_s = state.now_s + state.latency_s;
+        let is_late = state.now_s < state.late_until_s;
+        let now_s = state.now_s + if is_late { state.latency_s } else { 0.0 };
         state.now_s = now_s;
         let supervisor = state.supervisor.clone().expect("it is guarded");
         let seen = Observation::Numbered(wrench, stamp, u64::from(state.readings));
