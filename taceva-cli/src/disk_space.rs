@@ -125,7 +125,7 @@ mod tests {
         };
         assert_eq!(
             said(Some(50_000)),
-            "at most 200 kB of pictures, 50.0 kB are free: it may not fit"
+            "at most 200 kB of pictures, but only 50.0 kB are free: the disk may become full"
         );
         assert_eq!(
             said(Some(200_000)),

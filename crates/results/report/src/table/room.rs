@@ -44,7 +44,8 @@ pub(super) fn breakable(text: &str) -> String {
         if at > 0 {
             out.push(' ');
         }
-        let is_long = word.chars().count() > WHOLE;
+        // LaTeX breaks a word behind each hyphen by itself.
+        let is_long = word.split('-').any(|part| part.chars().count() > WHOLE);
         let mut whole = String::new();
         for letter in word.chars() {
             whole.push(letter);
@@ -123,5 +124,7 @@ mod tests {
     fn long_words_of_a_caption_may_break() {
         let broken = breakable("of recording_of_monday_morning");
         assert!(broken.starts_with("of reco\\allowbreak{}rdin"), "{broken}");
+        let hyphen = "by 5-fold cross-validation";
+        assert_eq!(breakable(hyphen), hyphen);
     }
 }
