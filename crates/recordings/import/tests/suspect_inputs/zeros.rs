@@ -101,7 +101,7 @@ fn a_zero_beyond_the_recording_or_without_rows_or_columns_is_refused_with_the_li
         ("from = \"last 10\"", "expected `from = \"first 10\"`"),
         (
             "from = \"first 1\"\nchannels = [\"Fx\"]",
-            "`Fx` is no channel",
+            "`Fx` is not a channel",
         ),
     ] {
         let problem = planned(folder.path(), &map(&format!("[zero]\n{zero}\n")));
@@ -202,7 +202,7 @@ fn gravity_without_orientation_or_with_half_of_one_is_refused() {
         ),
         (
             format!("{body}orientation = [\"fx\", \"fy\", \"rz\", \"rz\"]\n"),
-            "no quaternion",
+            "is not a unit quaternion",
         ),
     ] {
         let problem = planned(folder.path(), &gravity(&rest, "")).expect_err("refused");

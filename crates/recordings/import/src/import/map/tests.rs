@@ -112,7 +112,7 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
         (
             "clock = \"unknown\"",
             "clock = \"unix\"\ncolumn = \"t\"\nunit = \"mm\"",
-            "no unit of time",
+            "is not a unit of time",
         ),
         (
             "map_version = 2",
