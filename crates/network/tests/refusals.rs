@@ -273,7 +273,7 @@ fn networks_that_cannot_be_built_are_refused() {
             input: nothing,
             ..architecture()
         })
-        .contains("expected numbers above 0")
+        .contains("expected sizes and outputs above 0")
     );
     let huge = Picture {
         height: 1 << 20,

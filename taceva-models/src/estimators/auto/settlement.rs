@@ -263,7 +263,7 @@ mod tests {
             let left = race.network[0].left.as_deref();
             assert_eq!(
                 left,
-                Some("not ahead of ridge by more than chance and 5 % of its squared error")
+                Some("not better than ridge by more than chance and 5 % of its squared error")
             );
         });
     }
@@ -290,7 +290,7 @@ mod tests {
             let left = race.network[0].left.as_deref().expect("said");
             assert_eq!(
                 left,
-                "with half of its squared error it would still be behind ridge"
+                "worse than ridge even with half of its squared error"
             );
         });
     }

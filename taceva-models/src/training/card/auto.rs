@@ -153,7 +153,7 @@ mod tests {
         assert_eq!(
             card().to_string(),
             "auto chose ridge; error relative to the standard deviation of labels, and on how many of 5 folds of whole groups: ridge \
-             0.250 on 5; knn 0.200 on 1, 25 % of its training (why); baseline 1.010 on 5; trying took 3.0 s of work of 60 s; not tried: cnn (too dear)"
+             0.250 on 5; knn 0.200 on 1, 25 % of its training (why); baseline 1.010 on 5; trials took 3.0 s of work of a budget of 60 s; not tried: cnn (too dear)"
         );
     }
 }
