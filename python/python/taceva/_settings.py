@@ -29,7 +29,8 @@ def metric_names(metrics: str | Sequence[str]) -> list[str]:
     """
     if isinstance(metrics, str):
         return [metrics]
-    if callable(metrics) or any(callable(name) for name in metrics):
+    given: Any = metrics
+    if callable(given) or any(callable(name) for name in given):
         raise TypeError("metrics: a function, expected names; taceva.score_function scores by a function of your own")
     for name in metrics:
         if not isinstance(name, str):
