@@ -39,7 +39,7 @@ mod _taceva {
     #[pymodule_export]
     use super::inventory::{found_plugins, metric_titles, model_names};
     #[pymodule_export]
-    use super::metrics::{Sums, unit_of};
+    use super::metrics::{Sums, channel_order, unit_of};
     #[pymodule_export]
     use super::plugin::{Deadline, Interrupted, Training};
     #[pymodule_export]

@@ -26,6 +26,14 @@ pub(crate) fn unit_of(channel: &str) -> Option<&'static str> {
     known.map(|channel| channel.unit().symbol())
 }
 
+/// Positions in `channels`, which have their units, in the order in which sums and recordings have them: the six, then others by name.
+#[pyfunction]
+pub(crate) fn channel_order(channels: Vec<(String, String)>) -> PyResult<Vec<usize>> {
+    let ordered = channels_of(&channels)?;
+    let position = |channel: &Channel| channels.iter().position(|(name, _)| name == channel.name());
+    Ok(ordered.iter().filter_map(position).collect())
+}
+
 /// Fields that a row may have besides its numbers and its contact point.
 const FIELDS: [Field; 7] = [
     Field::Scene,

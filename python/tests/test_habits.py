@@ -242,8 +242,13 @@ def test_a_function_that_gives_no_number_is_refused_and_what_it_raises_comes_out
 def test_labels_with_names_are_recorded_by_name(tmp_path: Path) -> None:
     columns = {"Fz": [1.0, 2.0, 3.0], "point_id": ["a", "a", "b"], "Px": [0.0, 0.1, 0.2]}
     dataset = taceva.from_arrays(tmp_path / "dict", columns, sensor="gel", source="synthetic")
-    assert dataset.channels == ("Fz", "Px") and dataset.points() == ["a", "a", "b"]
-    assert dataset.labels().tolist() == [[1.0, 0.0], [2.0, 0.1], [3.0, 0.2]]
+    # A dataset has its channels in one order, whatever the order of the columns.
+    assert dataset.channels == ("Px", "Fz") and dataset.points() == ["a", "a", "b"]
+    assert dataset.labels().tolist() == [[0.0, 1.0], [0.1, 2.0], [0.2, 3.0]]
+    plain = taceva.from_arrays(tmp_path / "plain", [[1.0, 0.0], [2.0, 0.1]], channels=["Fz", "Px"], sensor="gel", source="synthetic")
+    assert plain.channels == ("Px", "Fz") and plain.labels().tolist() == [[0.0, 1.0], [0.1, 2.0]]
+    with pytest.raises(ValueError, match="expected .rows, 2."):
+        taceva.from_arrays(tmp_path / "wide", [[1.0, 0.0, 7.0]], channels=["Fz", "Px"], sensor="gel", source="synthetic")
     chosen = taceva.from_arrays(tmp_path / "chosen", columns, sensor="gel", source="synthetic", channels=["Px"])
     assert chosen.labels()[:, 0].tolist() == [0.0, 0.1, 0.2]
     with pytest.raises(ValueError, match="no column 'Py'"):

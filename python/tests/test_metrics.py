@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import taceva
 from conftest import taceva as command
@@ -225,3 +226,19 @@ def test_a_comparison_says_which_is_better() -> None:
     assert "better" in str(comparison)
     with pytest.raises(ValueError, match="at least two"):
         taceva.compare(near)
+
+
+@pytest.mark.parametrize("channels", [["Fz", "Px"], ["Fz", "b", "Px", "a"], ["b", "a"]])
+def test_columns_of_arrays_are_those_of_the_channels_in_any_order(channels: list[str]) -> None:
+    truth = np.random.default_rng(3).uniform(1, 2, (50, len(channels)))
+    errors = 0.25 * np.arange(len(channels))
+    scores = taceva.score(truth, truth + errors, channels=channels, metrics="bias")
+    assert [scores["bias", channel].value for channel in channels] == pytest.approx(errors.tolist())
+    frame = pd.DataFrame(truth, columns=channels)
+    named = taceva.score(frame, frame + errors, metrics="bias")
+    assert [named["bias", channel].value for channel in channels] == pytest.approx(errors.tolist())
+    parts = taceva.TactileMetrics(channels, "bias")
+    parts.merge_states(parts.states())
+    parts = pickle.loads(pickle.dumps(parts))
+    parts(truth, truth + errors)
+    assert [float(parts.compute()["bias", channel]) for channel in channels] == pytest.approx(errors.tolist())

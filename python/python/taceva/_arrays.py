@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from taceva import _taceva
+
 Numbers = npt.NDArray[np.float32] | npt.NDArray[np.float64]
 
 #: The most rows of one call. An array of more is one that was made by broadcasting, or a mistake; it is refused before anything of it is copied.
@@ -49,6 +51,21 @@ def native(array: npt.NDArray[Any], name: str, *, allow_invalid: bool = False) -
     if not allow_invalid:
         require_finite(found, name)
     return found
+
+
+def column_order(channels: list[tuple[str, str]]) -> list[int] | None:
+    """Return the columns of ``channels`` in the order that sums and recordings have; ``None`` if they are in it.
+
+    >>> column_order([("Fz", "N"), ("Px", "mm")]), column_order([("Px", "mm"), ("Fz", "N")])
+    ([1, 0], None)
+    """
+    order = _taceva.channel_order(channels)
+    return None if order == list(range(len(channels))) else order
+
+
+def in_order(table: npt.NDArray[Any], order: list[int] | None) -> npt.NDArray[Any]:
+    """Return the columns of ``table`` in ``order``; a table of another width is returned as it is, and refused later."""
+    return table if order is None or table.shape[1:] != (len(order),) else table[:, order]
 
 
 def require_finite(array: Numbers, name: str, first: int = 0) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
-from taceva._arrays import BLOCK_ROWS, native, real, require_finite
+from taceva._arrays import BLOCK_ROWS, column_order, in_order, native, real, require_finite
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._fields import columns, require_unweighted
@@ -80,9 +80,15 @@ class TactileMetrics:
                 raise ValueError(f"{said} of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
         units = dict.fromkeys(periods, "deg") | units
         with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
-        self._asked = (with_units, metric_names(metrics), independent, list(fields), periods)
-        self._sums = _taceva.Sums(*self._asked)
+        self._begin((with_units, metric_names(metrics), independent, list(fields), periods))
         self._paired: set[str] = set()
+
+    def _begin(self, asked: tuple[list[tuple[str, str]], list[str], bool, list[str], dict[str, int]]) -> None:
+        """Make empty sums of what was ``asked`` for."""
+        self._asked = asked
+        self._sums = _taceva.Sums(*asked)
+        #: Columns of arrays in the order of the sums; ``None`` if it is theirs.
+        self._order = column_order(asked[0])
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -140,13 +146,13 @@ class TactileMetrics:
         sums = self._sums if rows <= BLOCK_ROWS else _taceva.Sums(*self._asked)
         for first in range(0, rows, BLOCK_ROWS):
             block = slice(first, first + BLOCK_ROWS)
-            rows_of = {name: native(table[block], name, allow_invalid=True) for name, table in tables.items()}
+            rows_of = {name: native(in_order(table[block], self._order), name, allow_invalid=True) for name, table in tables.items()}
             points_of = None if names is None else names[block]
             fields_of = [(name, column[block]) for name, column in said]
             is_apart = sums is not self._sums
             if not sums.update(rows_of["truth"], rows_of["prediction"], points_of, fields_of, allow_invalid, is_apart):
-                for name, found in rows_of.items():
-                    require_finite(found, name, first)
+                for name, table in tables.items():
+                    require_finite(native(table[block], name, allow_invalid=True), name, first)
         if sums is not self._sums:
             self._sums.merge(sums)
         if both.paired_by is not None:
@@ -193,8 +199,7 @@ class TactileMetrics:
     def _emptied(self) -> TactileMetrics:
         """Return an object of the same channels and metrics without samples."""
         found = TactileMetrics.__new__(TactileMetrics)
-        found._asked = self._asked
-        found._sums = _taceva.Sums(*self._asked)
+        found._begin(self._asked)
         found._paired = set()
         return found
 
@@ -225,8 +230,7 @@ class TactileMetrics:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         require_version(state.get("version"))
-        self._asked = state["asked"]
-        self._sums = _taceva.Sums(*self._asked)
+        self._begin(state["asked"])
         self._sums.merge_bytes(opened(state["states"]))
         self._paired = set(state.get("paired", ()))
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from taceva import _taceva
-from taceva._arrays import numbers, real
+from taceva._arrays import column_order, in_order, numbers, real
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._column_names import named_columns
@@ -88,7 +88,9 @@ def from_arrays(
     for name, column in {"frames": frames, "points": points, "times": times, "scenes": scenes}.items():
         if column is not None and len(column) != rows:
             raise ValueError(f"{name} has {len(column)} rows, labels has {rows}")
-    table = numbers(labels, "labels", allow_invalid=True)
+    order = column_order(with_units)
+    table = np.ascontiguousarray(in_order(numbers(labels, "labels", allow_invalid=True), order))
+    with_units = with_units if order is None else [with_units[at] for at in order]
     if np.isinf(table).any():
         raise ValueError("labels: an infinite number; expected finite numbers, and NaN for an absent label")
     pictures = None if frames is None else _pixels(frames, 3)

@@ -288,10 +288,7 @@ mod tests {
             race.look_again().expect("nothing is fitted");
             assert_eq!(race.network.len(), 1);
             let left = race.network[0].left.as_deref().expect("said");
-            assert_eq!(
-                left,
-                "worse than ridge even with half of its squared error"
-            );
+            assert_eq!(left, "worse than ridge even with half of its squared error");
         });
     }
 

@@ -162,7 +162,11 @@ order = "place-first""#;
             "\"x\", \"x\"",
             "two numbers of a place are called `x`",
         ),
-        ("\"x\", \"y\"", "\"x\", \"y z\"", "is not a valid column name"),
+        (
+            "\"x\", \"y\"",
+            "\"x\", \"y z\"",
+            "is not a valid column name",
+        ),
         ("\"count\"", "\"?\"", "a draft leaves open"),
         ("\"count\"", "\"counts\"", "unknown unit `counts`"),
         ("[\"a\", \"b\", \"c\", \"d\"]", "[]", "no column"),
