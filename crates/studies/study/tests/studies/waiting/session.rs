@@ -235,8 +235,8 @@ fn a_disk_that_takes_no_session_stops_it_before_its_first_press() {
     let rig = rig_file(folder.path(), UPRIGHT);
     let run = folder.path().join("run");
     let person = Mutex::new(Person::default());
-    // Written beside its place first, where a folder stands in the way.
-    let in_the_way = run.join("recordings/.1-wall.sessions.csv.partial");
+    // A folder stands in its place.
+    let in_the_way = run.join("recordings/1-wall.sessions.csv");
     let blocks = Blocks(in_the_way.clone());
     let stopped = record_on(&world, &run, &blocks, (&scene(), Some(&rig), Some(&person)));
     let Err(StudyError::Acquire(AcquireError::Acquisition { source, .. })) = stopped else {
