@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Branch of a press. No variant will be added: an indenter moves in, moves out, or rests, and samples at rest have no branch.
+/// Branch of a press. It gets no further variant: an indenter moves in, moves out, or rests, and samples at rest have no branch.
 ///
 /// ```
 /// use taceva_core::Phase;

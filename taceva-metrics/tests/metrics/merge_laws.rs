@@ -8,7 +8,7 @@ use taceva_metrics::{Evaluator, ExactSum, MetricError, State};
 
 fn config() -> ProptestConfig {
     ProptestConfig {
-        cases: 200,
+        cases: 50,
         rng_seed: RngSeed::Fixed(2025),
         failure_persistence: None,
         ..ProptestConfig::default()
