@@ -236,12 +236,13 @@ fn what_links_at_foretold_names_lead_to_keeps_its_bytes() {
             (Err(why), _) | (_, Err(why)) => return skip(Need::Strace, why),
         };
         let foretold: Vec<&PathBuf> = first.intersection(&second).collect();
-        // A command that foretells no name meets links at some of those that it made before.
-        let linked: Vec<&PathBuf> = match foretold.is_empty() {
-            true => first.iter().take(SOME).collect(),
-            false => foretold.clone(),
-        };
         bench.anew();
+        let is_free = |path: &&PathBuf| std::fs::symlink_metadata(path).is_err();
+        let mut linked: Vec<&PathBuf> = foretold.iter().copied().filter(is_free).collect();
+        if linked.is_empty() {
+            // No new name is foretold: links stand at some of those that it made before.
+            linked = first.iter().filter(is_free).take(SOME).collect();
+        }
         let work = bench.path("work");
         let elsewhere = bench.path("theirs");
         let mut tried = 0;

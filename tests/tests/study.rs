@@ -5,14 +5,15 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use taceva_needs::{Need, skip};
-use taceva_tests::power_cut::{Disk, Trace, TraceError, Tree, read_tree};
+use taceva_tests::power_cut::{Counted, Disk, Trace, TraceError, Tree, read_tree};
 use taceva_tests::{Random, scratch, taceva};
 
 const SEED: u64 = 20_261_121;
 /// Kills, where `TACEVA_STUDY_KILLS` says no other number.
 const KILLS: usize = 60;
-/// States of a power cut that are continued, where `TACEVA_STUDY_CUTS` says no other number: each is a study.
-const STATES: usize = 120;
+/// Moments of a power cut, where `TACEVA_STUDY_CUTS` says no other number, and states of each that are continued: every one is a study.
+const CUTS: usize = 40;
+const STATES: usize = 2;
 /// Of so many kills one is of a run that goes on after a kill.
 const RESUMED: usize = 5;
 
@@ -144,25 +145,31 @@ fn a_study_whose_power_is_cut_goes_on_to_the_same_bytes() {
         trace => trace.expect("every call can be followed"),
     };
     assert!(trace.status.success(), "{}", trace.complaint);
-    let cuts = 0..trace.operations.len() + 1;
-    let states = trace.each_state(cuts.clone(), |_| Ok(())).states;
     let asked = std::env::var("TACEVA_STUDY_CUTS");
-    let most = asked.map_or(STATES, |asked| asked.parse().expect("a number"));
-    let (mut state_number, step) = (0, states.div_ceil(most).max(1));
+    let most = asked.map_or(CUTS, |asked| asked.parse().expect("a number"));
     let mut continued = 0;
-    let counted = trace.each_state(cuts, |state| {
-        state_number += 1;
-        if state_number % step != 0 {
-            return Ok(());
-        }
-        continued += 1;
-        let restarted = scratch();
-        state
-            .write_to(restarted.path())
-            .expect("room for a small folder");
-        same(&finished(restarted.path())?, &expected)
-    });
+    let mut counted = Counted::default();
+    let cuts = trace.operations.len() + 1;
+    for cut in (0..cuts).step_by(cuts.div_ceil(most)) {
+        let states = trace.each_state(cut..cut + 1, |_| Ok(())).states;
+        let (mut number, step) = (0, states.div_ceil(STATES).max(1));
+        counted = counted.and(trace.each_state(cut..cut + 1, |state| {
+            number += 1;
+            if number % step != 0 {
+                return Ok(());
+            }
+            continued += 1;
+            let restarted = scratch();
+            state
+                .write_to(restarted.path())
+                .expect("room for a small folder");
+            same(&finished(restarted.path())?, &expected)
+        }));
+    }
     eprintln!("power cut during a study: {counted}; {continued} of them were continued");
     assert_eq!(counted.violations, 0, "{counted}");
-    assert!(counted.states > 300, "{counted}");
+    assert!(
+        counted.states > 300 && continued > 40,
+        "{continued}: {counted}"
+    );
 }
