@@ -50,7 +50,17 @@ impl Claim {
     pub fn take(path: &Path) -> io::Result<Option<Claim>> {
         let mut file = match File::options().write(true).create_new(true).open(path) {
             Ok(file) => file,
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => return Ok(None),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                // Nobody would ever release it.
+                let is_other = fs::symlink_metadata(path).is_ok_and(|found| !found.is_file());
+                return match is_other {
+                    true => Err(io::Error::other(format!(
+                        "`{}` is a link or a folder, expected a claim: remove it",
+                        path.display()
+                    ))),
+                    false => Ok(None),
+                };
+            }
             Err(error) => return Err(error),
         };
         let owner = unique_name();
@@ -245,6 +255,16 @@ fn ended_here(owner: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_in_the_place_of_a_claim_is_refused() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("claim");
+        std::os::unix::fs::symlink(folder.path(), &path).expect("linked");
+        let refused = Claim::take(&path).map(|_| ()).expect_err("no claim");
+        assert!(refused.to_string().ends_with("remove it"), "{refused}");
+    }
 
     #[test]
     fn a_claim_is_had_once_and_free_when_it_is_given_back() {
