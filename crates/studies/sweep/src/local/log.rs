@@ -18,14 +18,12 @@ pub(super) struct TaskLog<'a> {
 
 impl<'a> TaskLog<'a> {
     pub(super) fn new(folder: &SweepFolder, task: &Task, whole: &'a dyn Progress) -> TaskLog<'a> {
+        let path = folder.log(&task.key);
+        // A link may lead to a file of somebody else: the task then has no log.
+        let is_link = std::fs::symlink_metadata(&path).is_ok_and(|found| found.is_symlink());
+        let open = || File::options().create(true).append(true).open(&path).ok();
         let log = TaskLog {
-            file: Mutex::new(
-                File::options()
-                    .create(true)
-                    .append(true)
-                    .open(folder.log(&task.key))
-                    .ok(),
-            ),
+            file: Mutex::new((!is_link).then(open).flatten()),
             whole,
         };
         let split = task.split.as_deref().unwrap_or("as recorded");
