@@ -57,7 +57,7 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// What can be compared, with the answers, in the width of a terminal if there is one.
+/// Comparability and answers, folded to the width of the terminal if there is one.
 fn answers(comparison: &Comparison, args: &Compare, width: Option<usize>) -> String {
     let narrow = width.map(|width| width.min(OVERVIEW_WIDTH));
     match (args.output.format, args.all) {
