@@ -64,7 +64,7 @@ def test_rmse_and_bias_are_there_and_a_table_says_what_it_leaves_out() -> None:
     for shown in (str(result), result._repr_html_()):
         assert "Left out, since scores of their planes are shown: Px, Py, Fx, Fy" in shown
         assert "No intervals" not in shown
-    assert "No intervals, since the contact points are unknown" in str(taceva.score(truth, prediction))
+    assert "No intervals: they need at least 5 contact points" in str(taceva.score(truth, prediction))
     assert "independent=True" in taceva.score(truth, prediction)._repr_html_()
     alone = taceva.score(truth[:, 5], prediction[:, 5], channels=["Fz"], metrics="all", independent=True)
     assert "Left out" not in str(alone) and "No intervals" not in str(alone)
@@ -263,3 +263,57 @@ def test_labelled_arrays_of_xarray_go_out_and_come_in_by_name(drawn: taceva.Data
     shuffled = (labelled + 0.25).isel(sample=slice(None, None, -1), channel=[1, 0])
     result = taceva.score(labelled, shuffled)
     assert float(result["mae", "Fz"]) == pytest.approx(0.25) and float(result["mae", "Pz"]) == pytest.approx(0.25)
+
+
+def test_a_model_has_the_channels_in_the_order_of_the_caller(tmp_path: Path) -> None:
+    truth = np.random.default_rng(5).uniform(1, 2, (60, 3))
+    names = ["Mz", "Fz", "Px"]
+    frames = np.random.default_rng(6).integers(0, 255, (60, 32, 32), np.uint8)
+    points = [str(row // 2) for row in range(60)]
+    dataset = taceva.from_arrays(tmp_path / "three", truth, frames, channels=names, points=points, sensor="gel", source="synthetic")
+    in_order = {name: truth[:, at] for at, name in enumerate(names)}
+    by_frame = {frame.tobytes(): row for row, frame in enumerate(frames)}
+    for asked in (["Fz", "Px"], ["Px", "Fz"], names):
+        errors = {"Fz": 0.1, "Px": 10.0, "Mz": 3.0}
+
+        def rows_of(seen: Any) -> list[int]:
+            return [by_frame[np.ascontiguousarray(frame).tobytes()] for frame in np.asarray(seen).reshape(-1, 32, 32)]
+
+        def called(seen: Any, asked: list[str] = asked) -> Any:
+            return np.column_stack([in_order[name][rows_of(seen)] - errors[name] for name in asked])
+
+        found = taceva.evaluate(dataset, called, channels=asked, split="by-point", part="all", metrics="bias")
+        assert {name: round(float(found["bias", name]), 6) for name in asked} == {name: errors[name] for name in asked}
+
+        class Learner:
+            def fit(self, seen: Any, labels: Any) -> None:
+                self.mean = labels.mean(axis=0)
+
+            def predict(self, seen: Any) -> Any:
+                return np.tile(self.mean, (len(seen), 1))
+
+        learnt = taceva.evaluate(dataset, Learner(), channels=asked, split="by-point", metrics="mae")
+        assert all(float(learnt["mae", name]) < 0.6 for name in asked), learnt
+
+
+def test_rows_of_xarray_are_matched_in_every_form(drawn: taceva.Dataset) -> None:
+    pytest.importorskip("xarray")
+    labelled = drawn.to_xarray()
+    force, by_name = labelled.sel(channel="Fz"), labelled.to_dataset(dim="channel")
+    assert float(taceva.score(force, force[::-1], channels=["Fz"])["mae", "Fz"]) == 0.0
+    assert all(float(score) == 0.0 for key, score in taceva.score(by_name, by_name.isel(sample=slice(None, None, -1)), metrics="mae").items() if key[0] == "mae")
+    with pytest.raises(ValueError, match="transpose"):
+        taceva.score(labelled.T.drop_vars("sample"), labelled.T.drop_vars("sample"))
+
+
+def test_names_that_are_typed_wrong_are_refused(tmp_path: Path) -> None:
+    rows = [[0.0, 1.0], [1.0, 2.0]]
+    with pytest.raises(ValueError, match="units of mz"):
+        taceva.from_arrays(tmp_path / "a", rows, channels=["Fz", "Mz"], units={"mz": "N·mm"}, sensor="gel", source="synthetic")
+    with pytest.raises(TypeError, match="found the text 'Fz'"):
+        taceva.from_arrays(tmp_path / "b", rows, channels="Fz", sensor="gel", source="synthetic")
+    worst = lambda truth, prediction: float(np.abs(prediction - truth).max())  # noqa: E731
+    with pytest.raises(ValueError, match="named twice"):
+        taceva.score_function(worst, rows, rows, channels=["Fz", "Fz"])
+    with pytest.raises(ValueError, match="unit of Pz"):
+        taceva.score_function(worst, rows, rows, channels=["Fz", "Mz"], unit={"Pz": "m"})

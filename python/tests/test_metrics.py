@@ -162,7 +162,7 @@ def test_unknown_names_are_refused_with_the_nearest() -> None:
     with pytest.raises(ValueError, match="Fz is in N, found mm"):
         taceva.TactileMetrics(["Fz"], units={"Fz": "mm"})
     with pytest.raises(ValueError, match="Mz, expected channels among Fz"):
-        taceva.TactileMetrics(["Fz"], units={"Mz": "N mm"})
+        taceva.TactileMetrics(["Fz"], units={"Mz": "N·mm"})
     with pytest.raises(ValueError, match="no channel"):
         taceva.TactileMetrics([])
     result = taceva.score([[0.0]], [[0.0]], channels=["Fz"])

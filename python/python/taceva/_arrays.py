@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -51,6 +52,14 @@ def native(array: npt.NDArray[Any], name: str, *, allow_invalid: bool = False) -
     if not allow_invalid:
         require_finite(found, name)
     return found
+
+
+def with_units(channels: Sequence[str], units: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Return each channel with its unit: the given one, that of the six, or ``1``."""
+    unknown = sorted(set(units) - set(channels))
+    if unknown:
+        raise ValueError(f"units of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
+    return [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
 
 
 def column_order(channels: list[tuple[str, str]]) -> list[int] | None:

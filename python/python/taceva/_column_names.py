@@ -82,6 +82,8 @@ def named_columns(table: Any, name: str) -> NamedColumns | None:
     ValueError
         For a name that comes twice.
     """
+    if hasattr(table, "dims") and hasattr(table, "coords"):
+        return _of_xarray(table, name)
     if isinstance(table, Mapping):
         return NamedColumns({str(key): np.asarray(column) for key, column in table.items()})
     if isinstance(table, np.ndarray) and table.dtype.names and table.ndim == 1:
@@ -90,8 +92,6 @@ def named_columns(table: Any, name: str) -> NamedColumns | None:
         return _of_pandas(table, name)
     if hasattr(table, "get_column") and hasattr(table, "columns"):
         return NamedColumns({str(key): table.get_column(key).to_numpy() for key in table.columns})
-    if hasattr(table, "dims") and hasattr(table, "coords"):
-        return _of_xarray(table, name)
     if hasattr(table, "column_names") and hasattr(table, "column"):
         return NamedColumns({str(key): np.asarray(table.column(key)) for key in table.column_names})
     return None
@@ -116,20 +116,39 @@ def _of_pandas(table: Any, name: str) -> NamedColumns:
 
 
 def _of_xarray(table: Any, name: str) -> NamedColumns | None:
-    """Return the columns of an array of two dimensions of which the second has names; ``None`` of any other array."""
-    if table.ndim != 2 or table.dims[1] not in table.coords:
+    """Return the variables of a data set, the columns of a table with names, or a single column; ``None`` of any other array."""
+    if hasattr(table, "data_vars"):
+        dims = list(dict.fromkeys(dim for column in table.data_vars.values() for dim in column.dims))
+        if len(dims) != 1:
+            raise ValueError(f"{name}: a Dataset of the dimensions {dims}, expected one: that of the rows")
+        columns = {str(key): np.asarray(column.values) for key, column in table.data_vars.items()}
+        return _with_rows(table, dims[0], columns)
+    if table.ndim == 1:
+        return _with_rows(table, table.dims[0], {"": np.asarray(table.values)})
+    if table.ndim != 2:
         return None
-    rows, columns = table.dims
-    names = [str(key) for key in table.coords[columns].values.tolist()]
+    rows, channels = table.dims
+    if channels not in table.coords:
+        if rows in table.coords and set(map(str, table.coords[rows].values.tolist())) & set(_SIX):
+            raise ValueError(f"{name}: the dimensions are {rows}, {channels}, expected rows before channels: transpose it")
+        return None
+    names = [str(key) for key in table.coords[channels].values.tolist()]
     for key in names:
         if names.count(key) > 1:
             raise ValueError(f"{name}: the column {key!r} occurs twice")
     values = np.asarray(table.values)
-    by_name = {key: values[:, at] for at, key in enumerate(names)}
+    return _with_rows(table, rows, {key: values[:, at] for at, key in enumerate(names)})
+
+
+def _with_rows(table: Any, rows: Any, columns: dict[str, npt.NDArray[Any]]) -> NamedColumns:
+    """Return ``columns`` with the names of their rows, and with coordinates of the rows that say what a row is."""
+    beside_rows = {key: np.asarray(table.coords[key].values) for key in _AGREE if key in table.coords and table.coords[key].dims == (rows,)}
+    # A lone column without a name stays one.
+    columns = columns if "" in columns else beside_rows | columns
     if rows not in table.coords:
-        return NamedColumns(by_name)
+        return NamedColumns(columns)
     index = np.asarray(table.coords[rows].values)
-    return NamedColumns(by_name, index, index.dtype.kind in "iu" and bool(np.array_equal(index, np.arange(len(index)))))
+    return NamedColumns(columns, index, index.dtype.kind in "iu" and bool(np.array_equal(index, np.arange(len(index)))))
 
 
 def _of_extension(column: Any) -> npt.NDArray[Any]:
@@ -296,7 +315,8 @@ def beside(values: Any, index: npt.NDArray[Any] | None, name: str) -> Any:
     ValueError
         For an index of other rows.
     """
-    columns = named_columns(values, name) if hasattr(values, "iloc") and hasattr(values, "index") else None
+    has_index = (hasattr(values, "iloc") and hasattr(values, "index")) or (hasattr(values, "dims") and hasattr(values, "coords"))
+    columns = named_columns(values, name) if has_index else None
     if columns is None or columns.index is None:
         return values
     column = next(iter(columns.columns.values()))

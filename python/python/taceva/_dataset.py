@@ -234,7 +234,7 @@ class Dataset:
             "unit": ("channel", list(self.units.values())),
         }
         if points is not None:
-            coordinates["point"] = ("sample", points)
+            coordinates["point_id"] = ("sample", points)
         facts = {"sensor": self.sensor, "source": self.source, "digest": self.digest}
         return xarray.DataArray(np.array(self.labels()), dims=("sample", "channel"), coords=coordinates, name="labels", attrs=facts)
 

@@ -53,7 +53,7 @@ def evaluate(
     settings
         By name: of a named model and its features, ``{"size": "16x16"}``; of features alone for an object with ``fit``.
     channels
-        Channels to predict, in order; all labels of the recording, if empty.
+        Channels to predict, in the order in which the model has them; all labels in the order of `Dataset.channels`, if empty.
     split, seed
         As of `Dataset.split`.
     part
@@ -103,20 +103,27 @@ def evaluate(
         raise ValueError(f"settings {', '.join(words)}: a model used as given has none")
     reads_frames = recording.frame_shape is not None
     given = _taceva.Given(recording._inner, list(channels), learns, split, seed, part, reads_frames, not bounded)
+    # The model has the channels in the order of the caller, a recording in its own.
+    names = list(channels) or given.channels()
     described = model.settings if isinstance(model, OnnxModel) else _settings_of(model) if learns else {}
     if learns:
-        predictions = _fitted(recording, model, given, words, described, jobs)
+        predictions = _fitted(recording, model, given, names, words, described, jobs)
     else:
-        predictions = _called(recording, model, given, batch, jobs)
-    found = prediction_rows(predictions, _name_of(model), len(given.target()), given.channels())
+        predictions = _called(recording, model, given, names, batch, jobs)
+    found = prediction_rows(predictions, _name_of(model), len(given.target()), names)
+    found = np.ascontiguousarray(found[:, [names.index(name) for name in given.channels()]])
     text = given.score(recording._inner, _name_of(model), described, found, wanted, jobs)
     return Result(text)
 
 
-def _fitted(recording: Dataset, model: Any, given: Any, words: list[str], described: dict[str, str], jobs: int) -> Any:
+def _fitted(
+    recording: Dataset, model: Any, given: Any, names: list[str], words: list[str], described: dict[str, str], jobs: int
+) -> Any:
     """Return the predictions of a model that learns the training part."""
     seen, name, _ = _taceva.features(recording._inner, words, given.train(), jobs, bar())
     labels = np.asarray(given.labels(recording._inner))
+    if names != given.channels():
+        labels = np.ascontiguousarray(labels[:, [given.channels().index(name) for name in names]])
     # Models may write to what they are given.
     model.fit(np.array(seen), np.array(labels if labels.shape[1] > 1 else labels[:, 0]))
     described["features"] = name
@@ -124,12 +131,11 @@ def _fitted(recording: Dataset, model: Any, given: Any, words: list[str], descri
     return model.predict(np.array(unseen))
 
 
-def _called(recording: Dataset, model: Any, given: Any, batch: int, jobs: int) -> Any:
+def _called(recording: Dataset, model: Any, given: Any, names: list[str], batch: int, jobs: int) -> Any:
     """Return the predictions of a model that is taken as it is."""
     rows = given.target()
     call = _module(model) if _is_module(model) else model
     shown = bar()
-    names = given.channels()
     if shown is not None:
         shown.begin("predict", len(rows))
     try:

@@ -81,6 +81,10 @@ def score_function(
         raise ValueError(f"draws {draws}: expected at least 100, or 0 for no interval")
     given, both = pair(truth, prediction, channels)
     wanted = SIX if given is None else tuple(given)
+    if isinstance(channels, str):
+        raise TypeError(f"channels: expected a list of names, found the text {channels!r}")
+    if len(set(wanted)) < len(wanted):
+        raise ValueError(f"channels {', '.join(wanted)}: one is named twice")
     tables = [_table(both.truth, "truth", len(wanted)), _table(both.prediction, "prediction", len(wanted))]
     rows = len(tables[0])
     if len(tables[1]) != rows:
@@ -88,6 +92,8 @@ def score_function(
     clusters = _clusters(beside(both.points if points is None else points, both.index, "points"), rows, independent)
     called = name or str(getattr(function, "__name__", type(function).__name__))
     parts: dict[str, Any] = {"+".join(wanted): slice(None)} if together else {channel: at for at, channel in enumerate(wanted)}
+    if isinstance(unit, Mapping) and (unknown := sorted(set(unit) - set(parts))):
+        raise ValueError(f"unit of {', '.join(unknown)}, expected channels among {', '.join(parts)}")
     scores = {}
     for channel, columns in parts.items():
         own = [np.ascontiguousarray(table[:, columns]) for table in tables]
@@ -99,7 +105,7 @@ def score_function(
             channel=channel,
             value=value if is_finite else None,
             unit=unit_of or _taceva.unit_of(channel) or "1",
-            interval=_interval(function, own, clusters, called, draws, seed) if is_finite and draws else None,
+            interval=_interval(function, own, value, clusters, called, draws, seed) if value is not None and is_finite and draws else None,
             n=rows,
             n_invalid=0,
             reason=None if is_finite else f"{called} returned {value}" if rows else "no samples",
@@ -141,7 +147,13 @@ def _value(function: Metric, truth: Numbers, prediction: Numbers, name: str) -> 
 
 
 def _interval(
-    function: Metric, tables: list[Numbers], clusters: list[npt.NDArray[np.intp]], name: str, draws: int, seed: int
+    function: Metric,
+    tables: list[Numbers],
+    value: float,
+    clusters: list[npt.NDArray[np.intp]],
+    name: str,
+    draws: int,
+    seed: int,
 ) -> Interval | None:
     """Return the BCa interval of Efron (1987) over clusters; ``None`` for too few of them, and where the function is not finite."""
     count = len(clusters)
@@ -154,7 +166,6 @@ def _interval(
         rows = alone[chosen] if alone is not None else np.concatenate([clusters[at] for at in chosen.tolist()])
         return _value(function, tables[0][rows], tables[1][rows], name)
 
-    value = _value(function, tables[0], tables[1], name)
     generator = np.random.Generator(np.random.PCG64(seed))
     drawn = np.sort([of(generator.integers(0, count, count)) for _ in range(draws)])
     parts = np.arange(count) % min(count, _MOST_PARTS)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
-from taceva._arrays import BLOCK_ROWS, column_order, in_order, native, real, require_finite
+from taceva._arrays import BLOCK_ROWS, column_order, in_order, native, real, require_finite, with_units
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._fields import columns, require_unweighted
@@ -38,7 +38,7 @@ class TactileMetrics:
     metrics
         Metrics and groups by name; by default MAE, RMSE, bias, R² and sMAPE. ``accuracy`` is MAE, R² and sMAPE, ``all`` is every metric.
     units
-        Units of channels besides the six, such as ``{"Mz": "N mm"}``; ``1`` by default.
+        Units of channels besides the six, such as ``{"Mz": "N·mm"}``; ``1`` by default.
     periods
         Periods of angles in degrees, such as ``{"yaw": 360}``: 359 and 1 are 2 apart. A channel named only here is in degrees.
     independent
@@ -74,13 +74,11 @@ class TactileMetrics:
             raise ValueError("no channels: expected the names of the columns")
         periods = dict(periods or {})
         units = dict(units or {})
-        for said, names in (("units", units), ("periods", periods)):
-            unknown = sorted(set(names) - set(channels))
-            if unknown:
-                raise ValueError(f"{said} of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
-        units = dict.fromkeys(periods, "deg") | units
-        with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
-        self._begin((with_units, metric_names(metrics), independent, list(fields), periods))
+        unknown = sorted(set(periods) - set(channels))
+        if unknown:
+            raise ValueError(f"periods of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
+        own_units = with_units(channels, dict.fromkeys(periods, "deg") | units)
+        self._begin((own_units, metric_names(metrics), independent, list(fields), periods))
         self._paired: set[str] = set()
 
     def _begin(self, asked: tuple[list[tuple[str, str]], list[str], bool, list[str], dict[str, int]]) -> None:
@@ -187,13 +185,9 @@ class TactileMetrics:
         ``gather`` passes bytes to every process and returns those of all, as ``allgather`` of mpi4py. The default is that of ``torch.distributed``,
         if it was initialised. Every process calls this method, and all have the same channels and metrics.
         """
-        # A list of keys has no line break.
-        own = json.dumps(sorted(self._paired)).encode() + b"\n" + self.states()
         whole = self._emptied()
-        for sent in (gather or gathered)(own):
-            paired, _, states = sent.partition(b"\n")
+        for states in (gather or gathered)(self.states()):
             whole.merge_states(states)
-            whole._paired |= set(json.loads(paired))
         return whole
 
     def _emptied(self) -> TactileMetrics:
@@ -218,21 +212,24 @@ class TactileMetrics:
         self._paired.clear()
 
     def states(self) -> bytes:
-        """Return the sums of all samples with a digest, a few kB, for ``merge_states`` in another process."""
-        return sealed(self._sums.states_bytes())
+        """Return the sums of all samples and the keys that paired their rows, with a digest, a few kB, for ``merge_states`` in another process."""
+        # A list of keys has no line break.
+        return sealed(json.dumps(sorted(self._paired)).encode() + b"\n" + self._sums.states_bytes())
 
     def merge_states(self, states: bytes) -> None:
         """Add the samples behind the ``states`` of another process; changed bytes are refused."""
-        self._sums.merge_bytes(opened(states))
+        paired, _, sums = opened(states).partition(b"\n")
+        self._sums.merge_bytes(sums)
+        self._paired |= set(json.loads(paired))
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"version": PICKLE_VERSION, "asked": self._asked, "states": self.states(), "paired": sorted(self._paired)}
+        return {"version": PICKLE_VERSION, "asked": self._asked, "states": self.states()}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         require_version(state.get("version"))
         self._begin(state["asked"])
-        self._sums.merge_bytes(opened(state["states"]))
-        self._paired = set(state.get("paired", ()))
+        self._paired = set()
+        self.merge_states(state["states"])
 
     def __repr__(self) -> str:
         return f"TactileMetrics({list(self.channels)}, {self._asked[1]})"

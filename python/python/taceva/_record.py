@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from taceva import _taceva
-from taceva._arrays import column_order, in_order, numbers, real
+from taceva._arrays import column_order, in_order, numbers, real, with_units
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
-from taceva._column_names import named_columns
+from taceva._column_names import beside, named_columns
 from taceva._dataset import Dataset
 from taceva._metrics import SIX
 
@@ -50,7 +50,8 @@ def from_arrays(
     sensor
         The sensor model.
     channels
-        Names of the labels; by default the columns that have names, or else the six of the paper.
+        Names of the labels; by default the columns that have names, or else the six of the paper. The recording has the six first, then others by
+        name: see `Dataset.channels`.
     source
         ``recorded`` by a real sensor, ``simulated``, or ``synthetic``: every output states it.
     points, times, scenes
@@ -67,7 +68,10 @@ def from_arrays(
     ValueError, TypeError
         For arrays of unequal lengths or of other shapes.
     """
+    if isinstance(channels, str):
+        raise TypeError(f"channels: expected a list of names, found the text {channels!r}")
     named = named_columns(labels, "labels")
+    index = None if named is None else named.index
     if named is not None and list(named.columns) == [""]:
         labels, named = named.columns[""], None
     if named is not None:
@@ -79,18 +83,18 @@ def from_arrays(
         is_lone = len(named.columns) == 1 and len(channels) == 1 and next(iter(named.columns)) not in SIX
         labels = next(iter(named.columns.values())) if is_lone else named.array(channels, "labels")
     channels = list(SIX if channels is None else channels)
-    units = dict(units or {})
-    with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
+    listed = with_units(channels, dict(units or {}))
     if not channels and frames is None:
         raise ValueError("no channels and no frames: nothing to record, expected one of them")
+    points, times, scenes = beside(points, index, "points"), beside(times, index, "times"), beside(scenes, index, "scenes")
     # Before anything is copied.
     rows = len(real(labels, "labels"))
     for name, column in {"frames": frames, "points": points, "times": times, "scenes": scenes}.items():
         if column is not None and len(column) != rows:
             raise ValueError(f"{name} has {len(column)} rows, labels has {rows}")
-    order = column_order(with_units)
+    order = column_order(listed)
     table = np.ascontiguousarray(in_order(numbers(labels, "labels", allow_invalid=True), order))
-    with_units = with_units if order is None else [with_units[at] for at in order]
+    listed = listed if order is None else [listed[at] for at in order]
     if np.isinf(table).any():
         raise ValueError("labels: an infinite number; expected finite numbers, and NaN for an absent label")
     pictures = None if frames is None else _pixels(frames, 3)
@@ -105,7 +109,7 @@ def from_arrays(
             "clock": clock,
             "footprint_mm": footprint_mm,
         },
-        with_units,
+        listed,
         table,
         None if points is None else names_of_points(points),
         None if times is None else [float(time) for time in numbers(times, "times").tolist()],

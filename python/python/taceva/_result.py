@@ -28,7 +28,8 @@ class Interval:
 class Score:
     """A score of one metric and channel. Where it is undefined, ``value`` is ``None`` and ``reason`` says why.
 
-    It is a number in its unit: ``float``, ``round``, ``format`` and comparisons take it, and raise ``ValueError`` where it is undefined.
+    It is a number in its unit: ``float``, ``round``, ``format``, ``<``, ``<=``, ``>`` and ``>=`` take it, and raise ``ValueError`` where it is
+    undefined. ``==`` compares whole scores: compare ``value`` with a number.
 
     >>> import taceva
     >>> mae = taceva.score([[0.0], [1.0]], [[0.5], [1.0]], channels=["Fz"])["mae", "Fz"]
@@ -202,12 +203,12 @@ class Result(Mapping[tuple[str, str], Score]):
         return [*not_measured([self.source]), *self.notes]
 
     def _absent(self) -> list[str]:
-        """Return what a reader misses: metrics that were skipped, and intervals of arrays whose contact points are unknown."""
+        """Return what a reader misses: metrics that were skipped, and intervals of arrays."""
         skipped = [what.removeprefix("metric:") for what in self.skipped]
         lines = [f"Skipped: {', '.join(skipped)}. The reasons: skipped."] if skipped else []
         has_values = any(score.value is not None for score in self._scores)
         if self.source == "unknown" and has_values and all(score.interval is None for score in self._scores):
-            lines.append("No intervals, since the contact points are unknown: pass points=[…], or independent=True if no two samples belong together.")
+            lines.append("No intervals: they need at least 5 contact points. Pass points=[…], or independent=True if no two samples belong together.")
         return lines
 
     def __str__(self) -> str:

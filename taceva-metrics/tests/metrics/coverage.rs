@@ -9,14 +9,14 @@ const CALIBRATION: Design = Design {
     locations: 400,
     presses: 4,
 };
-const RUNS: u32 = 150;
+const RUNS: u32 = 300;
 
 #[test]
 fn intervals_by_location_hold_95_percent() {
     for coverage in coverage(CALIBRATION, Method::Jackknife, 0..RUNS) {
         assert_eq!(coverage.intervals, RUNS);
-        // Three standard errors of 150 runs are 0.053.
-        assert!((0.897..=1.0).contains(&coverage.share()), "{coverage:?}");
+        // Three standard errors of 300 runs are 0.038.
+        assert!((0.912..=0.988).contains(&coverage.share()), "{coverage:?}");
     }
 }
 
@@ -31,8 +31,8 @@ fn intervals_of_few_locations_hold_90_percent() {
         .zip(coverage(few, Method::Jackknife, 0..RUNS))
     {
         assert_eq!(coverage.intervals, RUNS, "{metric}");
-        // 0.90 less three standard errors of 150 runs.
-        assert!(coverage.share() >= 0.83, "{metric}: {coverage:?}");
+        // 0.90 less three standard errors of 300 runs.
+        assert!(coverage.share() >= 0.85, "{metric}: {coverage:?}");
     }
 }
 
@@ -60,15 +60,15 @@ fn intervals_by_sample_hold_too_little() {
 
 #[test]
 fn bootstrap_intervals_hold_nearly_as_much() {
-    const RUNS: u32 = 40;
+    const RUNS: u32 = 150;
     for ends in [BootstrapEnds::Normal, BootstrapEnds::Percentile] {
         for coverage in coverage(CALIBRATION, Method::Bootstrap(ends), 0..RUNS) {
             if coverage.intervals == 0 {
                 continue;
             }
             assert_eq!(coverage.intervals, RUNS);
-            // Percentiles hold 0.925 at the least at length; three standard errors of 40 runs are 0.125.
-            assert!(coverage.share() >= 0.80, "{ends}: {coverage:?}");
+            // Percentiles hold 0.925 at the least at length; three standard errors of 150 runs are 0.065.
+            assert!(coverage.share() >= 0.86, "{ends}: {coverage:?}");
         }
     }
 }

@@ -200,7 +200,7 @@ fn intervals(evaluation: &Evaluation) -> Result<BTreeSet<String>, String> {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 15,
+        cases: 60,
         rng_seed: RngSeed::Fixed(2029),
         failure_persistence: None,
         ..ProptestConfig::default()
