@@ -12,6 +12,7 @@
 typedef struct {
   waiting waiting;
   atomic_int is_halted; /* set from any thread, and kept until `clear_halt` */
+  atomic_int is_interrupted; /* set from any thread; `wait` clears it when it begins */
   taceva_pose at;
   taceva_motion accepted;
   int is_accepted;
@@ -24,7 +25,11 @@ static void close_robot(void *handle) {
   free(it);
 }
 
-static void interrupt_robot(void *handle) { waiting_interrupt(&((robot *)handle)->waiting); }
+static void interrupt_robot(void *handle) {
+  robot *it = handle;
+  atomic_store(&it->is_interrupted, 1);
+  waiting_interrupt(&it->waiting);
+}
 
 static void stamp_now(taceva_stamp *stamp) { stamp->valid_ns = stamp->received_ns = host->now_ns(host->context); }
 
@@ -60,6 +65,7 @@ static taceva_status wait_for(void *handle, uint64_t token, taceva_stamp *stamp,
   if (!stamp) return failed(error, TACEVA_INVALID_ARGUMENT, "no place for the stamp");
   if (!it->is_accepted || token != it->token) return failed(error, TACEVA_INVALID_ARGUMENT, "no such motion was accepted");
   it->is_accepted = 0;
+  atomic_store(&it->is_interrupted, 0);
   taceva_pose from = it->at, to = it->accepted.target;
   double dx = to.x - from.x, dy = to.y - from.y, dz = to.z - from.z;
   double length_m = sqrt(dx * dx + dy * dy + dz * dz);
@@ -68,6 +74,7 @@ static taceva_status wait_for(void *handle, uint64_t token, taceva_stamp *stamp,
   for (double part = 0; part < 1;) {
     uint64_t now_ns = host->now_ns(host->context);
     if (atomic_load(&it->is_halted)) return failed(error, TACEVA_INTERRUPTED, "it is halted");
+    if (atomic_load(&it->is_interrupted)) return failed(error, TACEVA_INTERRUPTED, "it was interrupted");
     taceva_status status = wait_until(&it->waiting, now_ns + SLICE_NS, latest_ns > now_ns ? latest_ns - now_ns : 0, error);
     if (status != TACEVA_OK) return status;
     double gone_m = (double)(host->now_ns(host->context) - begun_ns) * 1e-9 * it->accepted.speed_m_per_s;
