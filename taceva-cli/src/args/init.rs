@@ -17,7 +17,7 @@ pub(crate) struct Init {
 pub(crate) enum InitSubject {
     /// A map for a folder of pictures and labels: drafted from the files, then completed by questions
     Recording(InitRecording),
-    /// A scene of the simulated bench
+    /// A scene of the simulated bench, or of a real rig
     Scene(InitTarget),
     /// A rig file: robot, force transducer, camera, limits
     Rig(InitTarget),

@@ -24,7 +24,7 @@ pub(crate) struct Compare {
     pub(crate) margins: Vec<String>,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    /// Print every score and every pair with both p values and its interval, not only the main ones; other formats always do
+    /// Print every score and every pair with both p values and its interval, not only the main ones. Markdown, CSV and JSON have every pair in any case
     #[arg(long)]
     pub(crate) all: bool,
     #[command(flatten)]

@@ -64,7 +64,11 @@ fn answers(comparison: &Comparison, args: &Compare, width: Option<usize>) -> Str
         (Format::Md, _) => {
             let summary = escape_markdown(&comparison.summary());
             match comparison.answers.is_empty() {
-                true => format!("{summary}.\n"),
+                true => {
+                    let notes = comparison.notes.iter();
+                    let notes = notes.map(|note| format!("\nNote: {}.\n", escape_markdown(note)));
+                    format!("{summary}.\n{}", notes.collect::<String>())
+                }
                 false => format!("{summary}.\n\n{}", comparison.table().markdown()),
             }
         }

@@ -99,7 +99,11 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
 fn check_folders(datasets: &[PathBuf]) -> anyhow::Result<()> {
     let is_table = |path: &&PathBuf| {
         let extension = path.extension().and_then(|extension| extension.to_str());
-        let is_table = extension.is_some_and(|name| matches!(name, "csv" | "tsv" | "parquet"));
+        let is_table = extension.is_some_and(|name| {
+            ["csv", "tsv", "parquet"]
+                .iter()
+                .any(|known| name.eq_ignore_ascii_case(known))
+        });
         is_table && path.is_file()
     };
     match datasets.iter().find(is_table) {

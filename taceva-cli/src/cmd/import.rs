@@ -29,8 +29,8 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     if args.map.is_none() && args.preset.is_none() && !args.draft {
         let folder = args.source.as_deref().unwrap_or(Path::new("FOLDER"));
         return Err(Usage::error(format!(
-            "no map: `taceva init recording {}` writes one, and `taceva import --presets` lists layouts that need none",
-            quoted(folder)
+            "no map: `{}` writes one, and `taceva import --presets` lists layouts that need none",
+            map_command(folder, Path::new("map.toml"))
         )));
     }
     let source = Source::open(args, target)?;
@@ -112,8 +112,7 @@ const LINE: usize = 110;
 
 /// Length of a line of the terminal.
 fn line() -> usize {
-    let size = terminal_size::terminal_size();
-    size.map_or(LINE, |(width, _)| usize::from(width.0).min(LINE))
+    output::terminal_width().map_or(LINE, |width| width.min(LINE))
 }
 
 /// The folder to import: the named one, or the content of an archive.
@@ -225,6 +224,15 @@ fn on_path(name: &Path) -> Option<PathBuf> {
     programs.find(|program| program.is_file())
 }
 
+/// Command that writes a map for the folder or archive at `source` to `map`.
+fn map_command(source: &Path, map: &Path) -> String {
+    let (folder, out) = (quoted(source), quoted(map));
+    match source.is_file() {
+        true => format!("taceva import {folder} --draft --out {out}"),
+        false => format!("taceva init recording {folder} --out {out}"),
+    }
+}
+
 fn map(args: &Import, source: &Source) -> anyhow::Result<ImportMap> {
     if let Some(preset) = preset(args)? {
         return Ok(source.named(preset.map(source.folder()))?);
@@ -235,10 +243,9 @@ fn map(args: &Import, source: &Source) -> anyhow::Result<ImportMap> {
         .ok_or_else(|| Usage::error("either --map or --preset is needed"))?;
     if !path.exists() {
         anyhow::bail!(
-            "{}: no such map: `taceva init recording {} --out {}` writes one",
+            "{}: no such map: `{}` writes one",
             shown(path),
-            quoted(args.source.as_deref().unwrap_or(source.folder())),
-            quoted(path)
+            map_command(args.source.as_deref().unwrap_or(source.folder()), path)
         );
     }
     Ok(ImportMap::read(path)?)

@@ -5,6 +5,7 @@ mod samples;
 use std::fs;
 use std::path::{Path, PathBuf};
 use taceva_core::shown;
+use taceva_dataset::internal::quoted;
 
 use anyhow::Context as _;
 use taceva_report::{Layout, Study, Table, catalogue, escape_markdown, escape_terminal};
@@ -125,7 +126,10 @@ fn file_of(path: &Path) -> anyhow::Result<PathBuf> {
         ),
         (false, _) => return Ok(path.to_owned()),
         (true, _) if path.join(HEADER).is_file() => {
-            format!("{named} is a dataset: `taceva evaluate {named}` makes a result")
+            format!(
+                "{named} is a dataset: `taceva evaluate {}` makes a result",
+                quoted(path)
+            )
         }
         (true, [first, others @ ..]) => {
             let more = match others.len() {

@@ -69,7 +69,7 @@ fn an_import_without_a_map_names_the_command_that_writes_one() {
     bench.refused(
         "import lab --out data",
         2,
-        "no map: `taceva init recording lab` writes one, and `taceva import --presets` lists layouts that need none",
+        "no map: `taceva init recording lab --out map.toml` writes one, and `taceva import --presets` lists layouts that need none",
     );
     bench.refused(
         "import lab --map none.toml --out data",

@@ -6,7 +6,7 @@ use super::kernel::{ErrorUnits, ValueUnits};
 use super::sum::ExactSum;
 use crate::exact::streams::{Stream, Streams};
 
-/// Grids change once more rows did not fit than one in this many, plus [`FREE_STRAYS`].
+/// Grids change once the rows that did not fit exceed one in this many, plus [`FREE_STRAYS`].
 const ROWS_PER_STRAY: usize = 16;
 
 const FREE_STRAYS: usize = 16;

@@ -146,10 +146,9 @@ impl Standing {
     pub fn remedy(self) -> Option<&'static str> {
         match self {
             Standing::Counts | Standing::SkillUnknown => None,
-            Standing::NoSkill | Standing::NoInterval => Some(
+            Standing::NoSkill | Standing::NoInterval | Standing::NotAboveConstant => Some(
                 "More contact points, or a score of every point (--split cv:5), would narrow this.",
             ),
-            Standing::NotAboveConstant => Some("More presses of gratings would narrow this."),
             Standing::NotAboveNoiseFloor => Some("More presses at each place would narrow this."),
             Standing::Neighbours => {
                 Some("A split by groups or blocks (--split by-block) avoids this.")

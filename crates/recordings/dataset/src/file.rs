@@ -75,7 +75,7 @@ pub fn check_relative(written: &str) -> Result<(), &'static str> {
     Ok(())
 }
 
-/// Creates an empty file at `path`. What stands there is unlinked first, so that no link is followed.
+/// Creates an empty file at `path`. Removes an existing file or link first, so that no link is followed.
 pub(crate) fn create_anew(path: &Path) -> Result<File, DatasetError> {
     let created = match File::create_new(path) {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => {

@@ -8,7 +8,7 @@ use taceva_dataset::internal::{is_foreign_folder, quoted};
 use crate::layouts::Preset;
 
 /// Returns the command that begins the import of the folder at `path`: by its known layout, or by a map to write first.
-/// `None` for a dataset, and for a folder without files.
+/// `None` for a dataset, a run, a folder of datasets and an empty folder.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;

@@ -8,6 +8,8 @@ mod mark;
 mod notation;
 mod values;
 
+pub(crate) use mark::{BARRED, sign};
+
 use taceva_core::Unit;
 use taceva_metrics::{Standing, catalogue};
 

@@ -295,10 +295,10 @@ pub(crate) fn chosen_channels(
             known.by_name(name).cloned().ok_or_else(|| {
                 let list: Vec<&str> = known.iter().map(|channel| channel.name()).collect();
                 EvaluateError::Request(format!(
-                    "`{}`: no such channel{}, the dataset has {}",
+                    "`{}`: no such channel, the dataset has {}{}",
                     shown(name),
-                    hint(name, &list),
-                    list.join(", ")
+                    list.join(", "),
+                    hint(name, &list)
                 ))
             })
         };

@@ -56,10 +56,14 @@ impl PrintedLines {
             if at > 0 {
                 self.pass_on();
             }
-            self.begun.extend_from_slice(part);
-            if self.begun.len() >= LINE_MAX {
+            let mut rest = part;
+            while self.begun.len() + rest.len() >= LINE_MAX {
+                let (piece, behind) = rest.split_at(LINE_MAX - self.begun.len());
+                self.begun.extend_from_slice(piece);
                 self.pass_on();
+                rest = behind;
             }
+            self.begun.extend_from_slice(rest);
         }
     }
 

@@ -29,6 +29,16 @@ pub(super) fn write(
     finish(&path, &text, &next)
 }
 
+/// `line` without its comment; a `#` within quotes begins none.
+fn code(line: &str) -> &str {
+    let mut is_quoted = false;
+    let end = line.char_indices().find(|(_, letter)| {
+        is_quoted ^= *letter == '"';
+        *letter == '#' && !is_quoted
+    });
+    end.map_or(line, |(at, _)| &line[..at])
+}
+
 /// Sections of a map that hold labels.
 const LABELS: [&str; 3] = ["[columns]", "[classes]", "[[matrix]]"];
 
@@ -38,8 +48,7 @@ fn remarks(map: &str, path: &str) -> Vec<String> {
         map.lines()
             .filter(|line| !line.trim_start().starts_with('#'))
     };
-    let code = |line: &str| line.split('#').next().unwrap_or(line).matches(OPEN).count();
-    let open: usize = lines().map(code).sum();
+    let open: usize = lines().map(|line| code(line).matches(OPEN).count()).sum();
     let guesses = lines().filter(|line| line.contains("a guess")).count();
     let mut remarks = Vec::new();
     match open {
@@ -132,7 +141,7 @@ struct Place {
 
 impl Place {
     fn of(line: &str) -> Option<Place> {
-        let code = line.split('#').next()?;
+        let code = code(line);
         let at = code.find(OPEN)?;
         let key = code[..at].trim_end().strip_suffix('=')?.trim_end();
         let key = key.rsplit([' ', '{', ',']).next()?.to_owned();

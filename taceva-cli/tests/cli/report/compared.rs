@@ -177,7 +177,9 @@ fn values_stand_first_and_then_what_can_be_compared() {
     let none = bench.ok("compare DIGIT TacTip -q");
     assert!(none.contains("not published"), "{none}");
     order(&none, ["availability", "compared"]);
-    assert!(none.contains("Nothing can be compared: no score is in two of the results"));
+    assert!(none.contains(
+        "Nothing to compare: no two results share a requested score with a better direction"
+    ));
     assert!(none.contains("taceva catalogue show NAME"), "{none}");
     for format in ["text", "md"] {
         let choice = bench.ok(&format!("choose --need shear,light --format {format} -q"));

@@ -3,6 +3,7 @@
 use taceva_core::Unit;
 
 use super::Evaluation;
+use super::table::counted;
 use crate::evaluate::metric::Metric;
 use crate::score::Score;
 use crate::score::value::Value;
@@ -35,10 +36,14 @@ pub(super) fn lines(evaluation: &Evaluation) -> Option<Vec<Vec<String>>> {
             .iter()
             .map(|metric| evaluation.score(metric.id, channel))
             .collect();
-        let n = scores.iter().flatten().map(|score| score.n).max();
+        let counts = scores
+            .iter()
+            .flatten()
+            .map(|score| (score.n, score.n_invalid));
+        let (n, n_invalid) = counts.max().unwrap_or_default();
         let mut line = vec![channel.to_owned()];
         line.extend(scores.into_iter().map(cell));
-        line.push(n.unwrap_or_default().to_string());
+        line.push(counted(n, n_invalid));
         lines.push(line);
     }
     Some(lines)

@@ -16,7 +16,9 @@ const HEADINGS: [&str; 6] = ["metric", "channel", "value", "95% interval", "unit
 /// interval and variants, and the skipped metrics. Without these five metrics `{}` prints the long table too.
 impl fmt::Display for Evaluation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(lines) = summary::lines(self).filter(|_| !f.alternate()) {
+        if !f.alternate()
+            && let Some(lines) = summary::lines(self)
+        {
             write_aligned(f, &lines)?;
             return writeln!(
                 f,
@@ -53,14 +55,19 @@ fn write_aligned(f: &mut fmt::Formatter<'_>, lines: &[Vec<String>]) -> fmt::Resu
     Ok(())
 }
 
+/// Number of samples, with the invalid ones that were left out.
+pub(super) fn counted(n: u64, n_invalid: u64) -> String {
+    match n_invalid {
+        0 => n.to_string(),
+        left_out => format!("{n} ({left_out} invalid left out)"),
+    }
+}
+
 /// The score, then its variants that are one number.
 fn rows(entry: &Entry) -> Vec<Vec<String>> {
     let score = &entry.score;
     let id = entry.metric.id;
-    let n = match score.n_invalid {
-        0 => score.n.to_string(),
-        left_out => format!("{} ({left_out} invalid left out)", score.n),
-    };
+    let n = counted(score.n, score.n_invalid);
     let row = |name: String, value: &Value, interval: Option<&Interval>, unit: Unit, n: String| {
         vec![
             name,

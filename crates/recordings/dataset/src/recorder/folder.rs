@@ -28,7 +28,7 @@ pub(super) fn empty_folder(path: &Path) -> Result<File, DatasetError> {
         let entry = entry.map_err(DatasetError::io("list", path))?;
         let name = entry.file_name();
         let kind = (entry.file_type()).map_err(DatasetError::io("read", &entry.path()))?;
-        // A link at a name of ours would lead what is recorded elsewhere.
+        // A link with one of our names would redirect the recording to another place.
         if kind.is_symlink() || (name != layout::JOURNAL && name != layout::FRAMES) {
             return Err(taken());
         }

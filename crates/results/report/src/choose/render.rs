@@ -131,8 +131,12 @@ impl Choice {
         match self.ranked.as_slice() {
             [] if !self.unplaced.is_empty() => {
                 let names: Vec<String> = self.unplaced.iter().map(|of| of.name.clone()).collect();
+                let others = match self.barred.is_empty() {
+                    true => "",
+                    false => "; others are excluded",
+                };
                 format!(
-                    "No sensor is ranked: of those that meet the bounds, none has a number for every need that ranks: {}",
+                    "No sensor is ranked: a number for a need that ranks is not known of {}{others}",
                     first(&names)
                 )
             }

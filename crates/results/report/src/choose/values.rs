@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{Choice, Property, Step};
 use crate::catalogue::Sensor;
 use crate::number::numeral;
+use crate::scores::sign;
 use crate::table::{Cell, Column, Direction, Table};
 
 impl Choice {
@@ -85,11 +86,7 @@ impl Choice {
 
 /// Sign of the standing of a number; empty if it counts without remark or is unknown.
 fn mark(step: &Step) -> &'static str {
-    match step.standing.phrase().filter(|_| step.value.is_some()) {
-        None => "",
-        Some(_) if step.standing.takes_part() => "‡",
-        Some(_) => "†",
-    }
+    step.value.map_or("", |_| sign(step.standing))
 }
 
 /// `0.0361 N† (0.034 … 0.038)`, or `unknown`.

@@ -10,7 +10,7 @@ use crate::number::{at_most, numeral, spaced};
 use crate::tie::best;
 use crate::wrap::wrapped;
 
-/// Limit of lines in [`Comparison::overview`].
+/// Limit of lines in [`Comparison::overview`], before they are wrapped.
 pub const OVERVIEW_LINES: usize = 12;
 /// Limit of characters in a terminal line.
 pub const OVERVIEW_WIDTH: usize = 100;
@@ -94,7 +94,7 @@ impl Comparison {
     pub fn summary(&self) -> String {
         let all = self.answers.len();
         if all == 0 {
-            return "Nothing can be compared: no score is in two of the results".to_owned();
+            return "Nothing to compare: no two results share a requested score with a better direction".to_owned();
         }
         let shown = self
             .answers
@@ -140,8 +140,8 @@ impl Comparison {
         format!("{pairs} of scores: {shown}{others}{why} (5 %, Holm-corrected per metric)")
     }
 
-    /// First questions with their answers, in at most [`OVERVIEW_LINES`] lines. With a `width`, lines are wrapped between words to that many
-    /// characters. Omitted questions are counted.
+    /// First questions with their answers, in at most [`OVERVIEW_LINES`] lines before wrapping. With a `width`, lines are wrapped between words
+    /// to that many characters. Omitted questions are counted.
     pub fn overview(&self, width: Option<usize>) -> String {
         let line = |words: &str| {
             let words = crate::escape::terminal(words);

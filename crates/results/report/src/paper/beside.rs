@@ -3,11 +3,8 @@
 use crate::catalogue::{Published, find};
 use crate::number::{FormattedValue, fixed};
 use crate::results::Study;
-use crate::scores::ScoreTable;
+use crate::scores::{BARRED, ScoreTable};
 use crate::table::{Cell, Estimate};
-
-/// Mark of a value that is excluded from verdicts.
-pub(super) const BARRED: &str = "†";
 
 /// The way in which a table of the study prints numbers.
 #[derive(Clone, Copy, Debug)]

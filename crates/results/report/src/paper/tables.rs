@@ -1,8 +1,9 @@
 //! The tables I to V of the study.
 
-use super::beside::{BARRED, Digits, beside, cell};
+use super::beside::{Digits, beside, cell};
 use crate::catalogue::find;
 use crate::results::Study;
+use crate::scores::BARRED;
 use crate::scores::ScoreTable;
 use crate::table::{Align, Cell, Column, Row, Table, Words, latex_symbol};
 use taceva_metrics::Better;

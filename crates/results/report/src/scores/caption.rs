@@ -91,7 +91,10 @@ impl ScoreTable {
             return ", as published".to_owned();
         }
         if sources.contains("published") {
-            return ", some of them as published".to_owned();
+            let drawn = ["simulated", "synthetic"];
+            let drawn = drawn.into_iter().filter(|of| sources.contains(of));
+            let drawn: String = drawn.map(|of| format!(", some {of}")).collect();
+            return format!(", some as published{drawn}");
         }
         let of = |source: &&str| matches!(*source, "simulated" | "synthetic" | "recorded");
         let is_plain = sources.iter().all(|source| *source == "recorded");

@@ -2,20 +2,30 @@
 
 use std::collections::BTreeSet;
 
+use taceva_metrics::Standing;
+
 use super::{ScoreCell, ScoreTable};
 
 /// Sign of a value that takes no part in verdicts.
-pub(super) const BARRED: &str = "†";
+pub(crate) const BARRED: &str = "†";
 /// Sign of a value that takes part without evidence that its model beats a constant.
 pub(super) const UNPROVEN: &str = "‡";
+
+/// Sign of `standing`; empty if it counts without remark.
+pub(crate) fn sign(standing: Standing) -> &'static str {
+    match (standing.takes_part(), standing.phrase()) {
+        (false, _) => BARRED,
+        (true, Some(_)) => UNPROVEN,
+        (true, None) => "",
+    }
+}
 
 impl ScoreCell {
     /// Sign of the standing of its value; empty if it counts without remark.
     pub(super) fn mark(&self) -> &'static str {
-        match (self.takes_part(), self.standing.phrase()) {
-            (false, _) => BARRED,
-            (true, Some(_)) => UNPROVEN,
-            (true, None) => "",
+        match self.value {
+            None => BARRED,
+            Some(_) => sign(self.standing),
         }
     }
 }

@@ -175,7 +175,7 @@ fn is_asked_first(row: &ScoreRow) -> bool {
     is_main(row) || is_question || row.metric == "intrinsic"
 }
 
-/// Value with its interval. Published values keep their digits.
+/// Value with its interval. Published values are not rounded; trailing zeros are lost.
 fn value(cell: &ScoreCell, source: &str, mark: &'static str) -> Cell {
     let mut formatted = cell.formatted.clone();
     if let Some(value) = cell.value.filter(|_| source == "published") {
@@ -227,7 +227,10 @@ fn enter_facts(studies: &[Study], lines: &mut Vec<Line<'_>>) {
 /// Short word for an absent value, and the reason of its absence.
 fn absence(study: &Study, row: Option<&ScoreRow>, at: usize) -> (&'static str, String) {
     let Some(row) = row else {
-        let reason = "neither the result nor the catalogue states it";
+        let reason = match study.source.as_str() {
+            "published" => "the catalogue does not state it",
+            _ => "the result does not state it; `taceva catalogue show NAME` may",
+        };
         return ("unknown", reason.to_owned());
     };
     let cell = row.cells.get(at).and_then(Option::as_ref);

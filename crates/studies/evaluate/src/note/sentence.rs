@@ -222,9 +222,13 @@ fn clusters(
 fn unit_of_one(names: &[String], f: &mut fmt::Formatter<'_>) -> fmt::Result {
     for (at, name) in names.iter().enumerate() {
         let separator = if at == 0 { "" } else { "; " };
-        let start = name.split(['_', ' ', '(', '[']).next().unwrap_or_default();
+        let (start, unit) = name.split_once('_').unwrap_or((name.as_str(), ""));
         let mut six = Channel::SIX.into_iter();
-        let meant = six.find(|channel| channel.name().eq_ignore_ascii_case(start));
+        // `Fz_mN` is not `Fz` in N.
+        let meant = six.find(|channel| {
+            channel.name().eq_ignore_ascii_case(start)
+                && (unit.is_empty() || unit == channel.unit().symbol())
+        });
         let name = shown(name);
         write!(
             f,

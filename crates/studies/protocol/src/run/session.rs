@@ -47,8 +47,8 @@ pub(super) struct Run<'a> {
 const SILENCES_OF_A_PRESS: u32 = 3;
 /// Interruptions by stale signals in a run that end it.
 const SILENCES_OF_A_RUN: u32 = 20;
-/// Factor of both counts for late signals of emulated devices.
-const EMULATED: u32 = 10;
+/// Weight of an interruption; late signals of emulated devices weigh 1.
+pub(super) const WHOLE: u32 = 10;
 
 impl<'a> Run<'a> {
     pub(super) fn new(
@@ -124,11 +124,11 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Number of interruptions that end a run, of which a real rig has `usual`. A late controller of an emulated rig is waited for.
-    pub(super) fn most_silences(&self, usual: u32, cause: &StopCause) -> u32 {
+    /// Weight of an interruption. A late controller of an emulated rig counts a tenth.
+    pub(super) fn weight(&self, cause: &StopCause) -> u32 {
         match self.is_emulated && cause.is_late() {
-            true => usual * EMULATED,
-            false => usual,
+            true => 1,
+            false => WHOLE,
         }
     }
 
@@ -250,11 +250,12 @@ impl<'a> Run<'a> {
                 // Without a count: each time somebody holds the switch again.
                 self.releases += 1;
             } else {
-                silences += 1;
-                self.silences += 1;
-                let of_a_press = self.most_silences(SILENCES_OF_A_PRESS, &error.cause);
-                let of_a_run = self.most_silences(SILENCES_OF_A_RUN, &error.cause);
-                if silences >= of_a_press || self.silences >= of_a_run {
+                let weight = self.weight(&error.cause);
+                silences += weight;
+                self.silences += weight;
+                if silences >= SILENCES_OF_A_PRESS * WHOLE
+                    || self.silences >= SILENCES_OF_A_RUN * WHOLE
+                {
                     return Err(error);
                 }
             }

@@ -14,7 +14,7 @@ use super::error::{Left, RunError, StopCause};
 use super::log::PressLog;
 use super::operator::{Answer, Operator, Question};
 use super::reference_touch::{SessionRecord, SessionSpec};
-use super::session::Run;
+use super::session::{Run, WHOLE};
 use super::tip::Step;
 use crate::limits::RigLimits;
 use crate::plan::PlannedPress;
@@ -72,13 +72,13 @@ impl Run<'_> {
                 }
                 Err(cause) => cause,
             };
-            let most = self.most_silences(TRIES, &cause);
+            let weight = self.weight(&cause);
             // Only with emulated devices is a guard that was slow once measured again.
-            let is_silence = cause.is_silence() || most > TRIES;
+            let is_silence = cause.is_silence() || weight < WHOLE;
             let is_release = cause.is_release();
-            silences += u32::from(is_silence);
+            silences += if is_silence { weight } else { 0 };
             let error = self.abandoned(None, cause);
-            let may_try = is_release || is_silence && silences < most;
+            let may_try = is_release || is_silence && silences < TRIES * WHOLE;
             if !may_try || error.left != Left::Clear {
                 return Err(error);
             }

@@ -53,7 +53,7 @@ class Network(tp.Estimator):
     @staticmethod
     def pictures(features) -> torch.Tensor:
         # Torch wants the depth first, and a copy that it may write to.
-        return torch.from_numpy(np.array(features, np.float32).transpose(0, 3, 1, 2).copy())
+        return torch.from_numpy(np.asarray(features, np.float32).transpose(0, 3, 1, 2).copy())
 
     def fit(self, training: tp.Samples, validation: tp.Samples | None, progress: tp.Training) -> None:
         torch.manual_seed(self.seed)
