@@ -27,10 +27,10 @@ pub(super) struct Run<'a> {
     pub(super) plan: &'a Plan,
     pub(super) mounted: Option<Specimen>,
     pub(super) lit: Option<String>,
-    /// Presses interrupted by stale signals.
+    /// Sum of the weights of interruptions by stale signals.
     silences: u32,
-    /// Presses interrupted by a released switch.
-    releases: u32,
+    /// Presses made again after stale signals or a released switch.
+    redone: u32,
     /// True for emulated devices, which a busy machine makes late.
     is_emulated: bool,
     /// Longest wait for a held enabling switch, in s.
@@ -115,7 +115,7 @@ impl<'a> Run<'a> {
             mounted: None,
             lit: None,
             silences: 0,
-            releases: 0,
+            redone: 0,
             is_emulated,
             patience_s,
             skipped: Vec::new(),
@@ -210,7 +210,7 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        report.redone = self.silences + self.releases;
+        report.redone = self.redone;
         match report.skipped {
             0 => Ok(report),
             presses => Err(RunError {
@@ -246,10 +246,8 @@ impl<'a> Run<'a> {
                 return Err(error);
             }
             times += 1;
-            if is_release {
-                // Without a count: each time somebody holds the switch again.
-                self.releases += 1;
-            } else {
+            // A release has no limit: each time somebody holds the switch again.
+            if !is_release {
                 let weight = self.weight(&error.cause);
                 silences += weight;
                 self.silences += weight;
@@ -259,6 +257,7 @@ impl<'a> Run<'a> {
                     return Err(error);
                 }
             }
+            self.redone += 1;
             let press = planned.id;
             (self.events)(&Event::Redone { press, times });
         }
