@@ -35,6 +35,7 @@ mod kind;
 mod lighting;
 mod robot;
 mod robot_watch;
+mod sample_timing;
 mod sensor;
 mod speed;
 
@@ -54,5 +55,6 @@ pub use kind::{Device, DriverKind};
 pub use lighting::Lighting;
 pub use robot::Robot;
 pub use robot_watch::RobotWatch;
+pub use sample_timing::{SampleTiming, TimingError};
 pub use sensor::Sensor;
 pub use speed::{Speed, SpeedError};

@@ -44,8 +44,8 @@ pub use channel::{Channel, ChannelError, Channels};
 pub use driver::{
     Axes, Axis, Changer, Deadline, Device, DriverError, DriverKind, EXPIRES, EnablingSwitch,
     ExpiringMotion, Fault, ForceTransducer, Guard, GuardedMotion, GuardedStop, Halt, Interrupt,
-    Lighting, NotFinite, Robot, RobotWatch, Sensor, SimulatedBench, Speed, SpeedError, Tare,
-    check_pose, check_wrench,
+    Lighting, NotFinite, Robot, RobotWatch, SampleTiming, Sensor, SimulatedBench, Speed,
+    SpeedError, Tare, TimingError, check_pose, check_wrench,
 };
 pub use error::ErrorKind;
 pub use estimator_factory::{EstimatorFactory, FitRequest};

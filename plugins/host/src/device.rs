@@ -5,7 +5,6 @@ mod changer;
 mod force;
 mod handle;
 mod lighting;
-mod pace;
 mod rig;
 mod robot;
 mod sensor;

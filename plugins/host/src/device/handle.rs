@@ -10,7 +10,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 use taceva_abi as abi;
-use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind, Facts, Interrupt};
+use taceva_core::{
+    DriverError, DriverKey, DriverKind, ErrorKind, Facts, Hertz, Interrupt, SampleTiming,
+};
 
 use super::bench::PluginBench;
 use super::rig::RigHandle;
@@ -133,9 +135,12 @@ impl Handle {
         &self.driver
     }
 
-    /// True for a device of a simulated bench, which has its own clock. Called while the device is opened.
-    pub(crate) fn is_simulated(&self) -> bool {
-        PluginBench::of(&self._rig, "").is_some()
+    /// Timing of samples at a declared `rate`; unchecked on a simulated bench, which has its own clock. Called while the device is opened.
+    pub(crate) fn timing(&self, rate: Option<Hertz>) -> SampleTiming {
+        match PluginBench::of(&self._rig, "") {
+            Some(_) => SampleTiming::unchecked(),
+            None => SampleTiming::of(rate),
+        }
     }
 
     /// Makes a call on the device, unless the plugin has panicked in it before; a panic now is remembered.

@@ -12,12 +12,11 @@ use taceva_abi as abi;
 use taceva_abi::ext::{SENSOR_LIGHTING, SensorLightingCalls};
 use taceva_core::{
     Deadline, DriverError, DriverKind, ErrorKind, Facts, FrameInfo, FrameMut, Interrupt, Lighting,
-    PixelFormat, Sensor, SensorFacts, Stamp,
+    PixelFormat, SampleTiming, Sensor, SensorFacts, Stamp,
 };
 
 use super::handle::{Opened, Owned, PluginDevice};
 use super::lighting::LightingAbility;
-use super::pace::Pace;
 use crate::call::timeout;
 
 /// Sensor of a plugin in this process.
@@ -28,7 +27,7 @@ pub struct PluginSensor {
     info: FrameInfo,
     length: usize,
     lighting: Option<LightingAbility>,
-    pace: Pace,
+    timing: SampleTiming,
 }
 
 type Capture = unsafe extern "C" fn(
@@ -93,9 +92,9 @@ impl PluginDevice for PluginSensor {
                 facts.scenes.clone(),
             ))
         };
-        let pace = Pace::new(facts.rate, handle.is_simulated());
+        let timing = handle.timing(facts.rate);
         Ok(PluginSensor {
-            pace,
+            timing,
             handle,
             calls,
             capture,
@@ -156,13 +155,17 @@ impl PluginSensor {
             },
         };
         let asked = Instant::now();
-        self.handle.call(CAPTURING, |raw, error| {
+        let captured = self.handle.call(CAPTURING, |raw, error| {
             // SAFETY: [owner & started] by `&mut self` of the caller, with a frame, its buffer and an error that outlive the call.
             unsafe { (self.capture)(raw, &raw mut taken.frame, timeout(deadline), error) }
+        });
+        self.timing.wait(asked.elapsed());
+        captured?;
+        let kept = (self.timing).sample(Instant::now(), stamp(taken.frame.stamp));
+        kept.map_err(|error| {
+            let why = error.to_string();
+            self.handle.failed(ErrorKind::DeviceFault, CAPTURING, why)
         })?;
-        let stamped = Duration::from_nanos(taken.frame.stamp.valid_ns);
-        let kept = self.pace.take(asked, Instant::now(), stamped);
-        kept.map_err(|why| self.handle.failed(ErrorKind::DeviceFault, CAPTURING, why))?;
         Ok(taken)
     }
 

@@ -50,7 +50,7 @@ impl<'a> FileOpener<'a> {
         let sensor = sensor.map(|sensor| {
             let descriptor = sensor.descriptor.clone();
             let of_facts = |facts: &Descriptor| sensor_latency.or(facts.sensor()?.latency_ms);
-            (sensor.timely(of_facts), descriptor)
+            (sensor.timely(self.rig.simulated, of_facts), descriptor)
         });
         let robot = match (self.base_robot()?, &self.rig.robot) {
             (Some((robot, descriptor)), Some(registered)) => {
@@ -68,7 +68,10 @@ impl<'a> FileOpener<'a> {
         let force = force.zip(mounted).map(|(force, mounted)| {
             let descriptor = force.descriptor.clone();
             let of_facts = |facts: &Descriptor| force_latency.or(facts.force()?.latency_ms);
-            let turned = Turned::new(force.timely(of_facts), mounted.axes.value);
+            let turned = Turned::new(
+                force.timely(self.rig.simulated, of_facts),
+                mounted.axes.value,
+            );
             let turned: Box<dyn ForceTransducer> = Box::new(turned);
             (turned, descriptor)
         });
@@ -89,7 +92,7 @@ impl<'a> FileOpener<'a> {
         Ok(robot.map(|robot| {
             let descriptor = robot.descriptor.clone();
             let of_facts = |facts: &Descriptor| latency_ms.or(facts.robot()?.latency_ms);
-            (robot.timely(of_facts), descriptor)
+            (robot.timely(self.rig.simulated, of_facts), descriptor)
         }))
     }
 
