@@ -15,6 +15,8 @@ mod kill;
 mod kill_commands;
 mod kill_training;
 mod layering;
+#[cfg(unix)]
+mod linked_files;
 mod minimum_rust;
 #[cfg(target_os = "linux")]
 mod plugin_equivalence;

@@ -87,6 +87,17 @@ pub(crate) fn create_anew(path: &Path) -> Result<File, DatasetError> {
     created.map_err(DatasetError::io("create", path))
 }
 
+/// Refuses a symbolic link at a name of a recording: its target would be written, cut or read instead.
+pub(crate) fn refuse_link(path: &Path) -> Result<(), DatasetError> {
+    match path.is_symlink() {
+        false => Ok(()),
+        true => Err(DatasetError::damaged(
+            path,
+            "a symbolic link, expected what the recorder made: put that in place of the link, or remove a link that is not yours".to_owned(),
+        )),
+    }
+}
+
 /// Writes a new file and returns once its bytes are on the disk. Its name is durable only after `make_names_durable`.
 pub fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
     let mut file = create_anew(path)?;

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::error::DatasetError;
-use crate::file::make_names_durable;
+use crate::file::{make_names_durable, refuse_link};
 use crate::layout;
 use crate::limits;
 
@@ -192,18 +192,6 @@ impl PackWriter {
         self.file
             .sync_data()
             .map_err(DatasetError::io("make durable", &path))
-    }
-}
-
-/// Refuses a link in place of a pack: its target would be cut or written.
-fn refuse_link(path: &Path) -> Result<(), DatasetError> {
-    match path.is_symlink() {
-        false => Ok(()),
-        true => Err(DatasetError::Damaged {
-            path: path.to_owned(),
-            problem: "a symbolic link, expected a file that the recorder made: remove the link"
-                .to_owned(),
-        }),
     }
 }
 

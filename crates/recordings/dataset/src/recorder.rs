@@ -16,7 +16,6 @@ use crate::file::make_names_durable;
 use crate::header::{RecordingFacts, ReducedFrames, ReferenceInfo, StreamFacts};
 use crate::journal::{Journal, RecordKind};
 use crate::layout;
-use crate::lock::lock_folder;
 use crate::pack::{PackEnd, PackWriter, cut_behind};
 use crate::signals::{SignalsSpec, SignalsWriter};
 use crate::table::{FrameEntry, Row, Table};
@@ -31,7 +30,7 @@ mod press;
 mod replay;
 mod stream;
 
-use folder::{empty_folder, remove_journal};
+use folder::{empty_folder, unclosed_folder};
 use payload::{WrittenFrame, WrittenSample, WrittenStart};
 use predictions::PredictedTable;
 use replay::ReplayError;
@@ -157,19 +156,10 @@ impl Recorder {
     /// # Errors
     /// [`DatasetError::NoDataset`] if nothing was recorded there; [`DatasetError::TargetExists`] if it was closed;
     /// [`DatasetError::Busy`] if another process writes there; [`DatasetError::Journal`] if the journal is damaged before its
-    /// end; [`DatasetError::Io`].
+    /// end; [`DatasetError::Damaged`] for a symbolic link in it; [`DatasetError::Io`].
     pub fn resume(path: &Path) -> Result<Recorder, DatasetError> {
         let journal_path = path.join(layout::JOURNAL);
-        let lock = lock_folder(path)?;
-        if path.join(layout::HEADER).exists() {
-            if journal_path.exists() {
-                // Closed, but interrupted before the last step.
-                remove_journal(path)?;
-            }
-            return Err(DatasetError::TargetExists {
-                path: path.join(layout::HEADER),
-            });
-        }
+        let lock = unclosed_folder(path)?;
         let nothing = || DatasetError::NoDataset {
             path: path.to_owned(),
             problem: "nothing was recorded there".to_owned(),
