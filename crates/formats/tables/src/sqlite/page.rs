@@ -3,14 +3,18 @@
 use std::fs::File;
 use std::sync::Arc;
 
-use super::Database;
+use super::{Database, RowPlace};
 use crate::error::{Place, TableError};
 
-/// Pages of a database; the last one is cached.
+/// Pages of a database; the last one is cached. A cursor reads each row once, or several times in succession.
 pub(crate) struct Pages<'a> {
     pub(super) database: &'a Database,
     file: File,
     kept: Option<(u32, Arc<Vec<u8>>)>,
+    /// The last row.
+    row: Option<RowPlace>,
+    /// Size of all rows so far, bytes.
+    row_bytes: u64,
 }
 
 impl<'a> Pages<'a> {
@@ -19,6 +23,8 @@ impl<'a> Pages<'a> {
             database,
             file: database.source.open()?,
             kept: None,
+            row: None,
+            row_bytes: 0,
         })
     }
 
@@ -44,6 +50,28 @@ impl<'a> Pages<'a> {
         let bytes = u64::from(database.page_bytes);
         let at = u64::from(number - 1) * bytes;
         database.source.bytes(&mut self.file, at, bytes, bytes)
+    }
+
+    /// Counts the row at `place`.
+    ///
+    /// # Errors
+    /// [`TableError::Damaged`] if the rows are longer than the file: a file is made to cost hours if rows share bytes.
+    pub(super) fn count(&mut self, place: RowPlace, bytes: u64) -> Result<(), TableError> {
+        if self.row != Some(place) {
+            self.row = Some(place);
+            self.row_bytes = self.row_bytes.saturating_add(bytes);
+        }
+        let length = self.database.source.length();
+        match self.row_bytes <= length {
+            true => Ok(()),
+            false => {
+                let problem = format!(
+                    "{} bytes of rows up to here, but the file has {length}: rows share their bytes. Repair a copy with `sqlite3 FILE \".recover\"`",
+                    self.row_bytes
+                );
+                Err(self.damaged(place.page, problem))
+            }
+        }
     }
 
     /// The error for a damaged page with this number.

@@ -65,6 +65,7 @@ impl<'p, 'd> Record<'p, 'd> {
             );
             return Err(source.too_large(crate::error::Place::of(&table.name), problem));
         }
+        pages.count(place, length)?;
         let length = usize::try_from(length).unwrap_or(usize::MAX);
         let local = in_page(length, pages.database.usable as usize);
         let read = rest

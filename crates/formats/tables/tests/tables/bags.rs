@@ -289,6 +289,43 @@ fn pages_that_lead_to_one_another_are_refused() {
     refused(&path, &["leads to it twice"]);
 }
 
+/// K5.
+#[test]
+fn rows_that_share_their_bytes_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("shared.db3");
+    let mut bytes = fs::read(data("small_pages.db3")).expect("there");
+    // Every cell of a leaf page (kind 13) with a picture leads to that picture.
+    let mut changed = 0;
+    for page in 1..bytes.len() / 512 {
+        let at = page * 512;
+        if bytes[at] != 13 {
+            continue;
+        }
+        let cells = usize::from(bytes[at + 4]);
+        let places: Vec<[u8; 2]> = (0..cells)
+            .map(|cell| at + 8 + 2 * cell)
+            .map(|place| [bytes[place], bytes[place + 1]])
+            .collect();
+        let is_picture = |place: &&[u8; 2]| {
+            let cell = at + usize::from(u16::from_be_bytes(**place));
+            // A length from 3968 to 16383, in two bytes.
+            bytes[cell] >= 0x9f && bytes[cell + 1] < 0x80
+        };
+        let Some(picture) = places.iter().find(is_picture).copied() else {
+            continue;
+        };
+        for cell in 0..cells {
+            let place = at + 8 + 2 * cell;
+            bytes[place..place + 2].copy_from_slice(&picture);
+            changed += 1;
+        }
+    }
+    assert_eq!(changed, 12);
+    fs::write(&path, &bytes).expect("written");
+    refused(&path, &["the file has 28160", "rows share their bytes"]);
+}
+
 #[test]
 fn every_cut_of_a_small_bag_is_an_error_in_words() {
     let folder = tempfile::tempdir().expect("a folder");
