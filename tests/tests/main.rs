@@ -15,14 +15,14 @@ mod kill;
 mod kill_commands;
 mod kill_training;
 mod layering;
-#[cfg(unix)]
-mod linked_files;
 mod minimum_rust;
 #[cfg(target_os = "linux")]
 mod plugin_equivalence;
 mod power_cut;
 mod power_cut_self;
 mod public_types;
+#[cfg(unix)]
+mod recording_links;
 mod recordings;
 #[cfg(unix)]
 mod release;
