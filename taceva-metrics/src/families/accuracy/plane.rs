@@ -36,11 +36,23 @@ impl PlaneAxes {
     }
 }
 
-/// The planes there are: their names, axes and units.
-const PLANES: [(&str, [&str; 2], Unit); 2] = [
+/// Planes of two channels, which scores have and models do not predict: name, axes and unit.
+pub const PLANES: [(&str, [&str; 2], Unit); 2] = [
     ("Pxy", ["Px", "Py"], Unit::Millimetre),
     ("Fxy", ["Fx", "Fy"], Unit::Newton),
 ];
+
+/// Axes of the plane called `name`; `None` for a channel.
+pub fn plane_axes(name: &str) -> Option<[&'static str; 2]> {
+    let mut planes = PLANES.into_iter();
+    planes.find_map(|(plane, axes, _)| (plane == name).then_some(axes))
+}
+
+/// Plane of which `channel` is an axis.
+pub fn plane_of(channel: &str) -> Option<&'static str> {
+    let mut planes = PLANES.into_iter();
+    planes.find_map(|(plane, axes, _)| axes.contains(&channel).then_some(plane))
+}
 
 /// The planes that `channels` span.
 pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
