@@ -33,12 +33,12 @@ pub const COPIES: &[Copies] = &[
     Copies {
         concept: "struct Finding",
         words: &["struct Finding "],
-        most: 3,
+        most: 1,
     },
     Copies {
         concept: "struct Report",
         words: &["struct Report ", "struct Report<"],
-        most: 3,
+        most: 1,
     },
     Copies {
         concept: "struct SeedScore",
