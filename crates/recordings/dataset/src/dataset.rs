@@ -133,11 +133,7 @@ impl Dataset {
         let bytes = self.folder.read(layout::SOURCES, limits::SOURCES_BYTES)?;
         let found = Digest::of(&bytes);
         if found != info.sha256 {
-            return Err(DatasetError::Digest {
-                path,
-                expected: info.sha256,
-                found,
-            });
+            return Err(DatasetError::digest(&path, info.sha256, found));
         }
         utf8(&path, bytes).map(Some)
     }

@@ -186,10 +186,9 @@ impl Recorder {
         for (sequence, record) in records {
             recorder.replay(&record).map_err(|error| match error {
                 ReplayError::Io(error) => error,
-                ReplayError::Damaged(problem) => DatasetError::Damaged {
-                    path: journal_path.clone(),
-                    problem: format!("record {sequence}: {problem}"),
-                },
+                ReplayError::Damaged(problem) => {
+                    DatasetError::damaged(&journal_path, format!("record {sequence}: {problem}"))
+                }
             })?;
         }
         cut_behind(path, recorder.pack_end)?;
@@ -214,11 +213,10 @@ impl Recorder {
             || taxels != spec.signals.as_ref()
             || recorder.reduced != spec.reduced
         {
-            return Err(DatasetError::Request {
-                path: path.to_owned(),
-                problem: "the recording that was begun there has another sensor, clock, set of channels or taxels, or reduction of frames"
-                    .to_owned(),
-            });
+            return Err(DatasetError::request(
+                path,
+                "the recording that was begun there has another sensor, clock, set of channels or taxels, or reduction of frames",
+            ));
         }
         Ok(recorder)
     }

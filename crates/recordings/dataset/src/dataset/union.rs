@@ -82,9 +82,11 @@ impl Dataset {
     pub fn joined(recordings: Vec<Dataset>) -> Result<Dataset, DatasetError> {
         let mut recordings = recordings;
         if recordings.len() < 2 {
-            return recordings.pop().ok_or_else(|| DatasetError::Request {
-                path: Path::new(".").to_owned(),
-                problem: "no recording to join, expected at least one".to_owned(),
+            return recordings.pop().ok_or_else(|| {
+                DatasetError::request(
+                    Path::new("."),
+                    "no recording to join, expected at least one",
+                )
             });
         }
         check_distinct(&recordings)?;

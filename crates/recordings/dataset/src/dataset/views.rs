@@ -48,9 +48,8 @@ impl Dataset {
         }
         let seen = self.positions(view)?;
         let views: Vec<&ViewInfo> = seen.iter().map(|at| &self.header.views[*at]).collect();
-        let info = info_of(&views).map_err(|problem| DatasetError::Request {
-            path: self.path().to_owned(),
-            problem: format!("`{view}`: {problem}"),
+        let info = info_of(&views).map_err(|problem| {
+            DatasetError::request(self.path(), format!("`{view}`: {problem}"))
         })?;
         let widths: Vec<u32> = views.iter().map(|view| view.frames.info.width).collect();
         let table = self.table.seen_by(&seen, &widths);
@@ -96,10 +95,10 @@ impl Dataset {
             let at = known.position(|known| known.name == name);
             let at = at.ok_or_else(|| self.unknown_view(Some(name)))?;
             if seen.contains(&at) {
-                return Err(DatasetError::Request {
-                    path: self.path().to_owned(),
-                    problem: format!("the view `{name}` is named twice in `{view}`"),
-                });
+                return Err(DatasetError::request(
+                    self.path(),
+                    format!("the view `{name}` is named twice in `{view}`"),
+                ));
             }
             seen.push(at);
         }

@@ -13,7 +13,7 @@ use crate::text::{shown, shown_path};
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("sensor.toml");
 /// std::fs::write(&path, "model = \"DIGIT\"\ncolour = 1\n")?;
-/// let Err(DatasetError::Toml { place, .. }) = SensorFile::read(&path) else {
+/// let Err(DatasetError::Text { place, .. }) = SensorFile::read(&path) else {
 ///     unreachable!("`colour` is no key");
 /// };
 /// assert_eq!((place.line, place.path), (Some(2), path));

@@ -73,12 +73,7 @@ impl Recorder {
     }
 
     fn check_press(&self, press: &str, samples: &[Sample]) -> Result<(), DatasetError> {
-        let refused = |id: &str, problem: String| {
-            Err(DatasetError::Sample {
-                id: id.to_owned(),
-                problem,
-            })
-        };
+        let refused = |id: &str, problem: String| Err(DatasetError::sample(id, problem));
         if press.is_empty() || self.has_press(press) {
             return refused(press, "the name of the press is empty or taken".to_owned());
         }
@@ -90,12 +85,7 @@ impl Recorder {
         &self,
         samples: impl IntoIterator<Item = &'a Sample>,
     ) -> Result<(), DatasetError> {
-        let refused = |id: &str, problem: String| {
-            Err(DatasetError::Sample {
-                id: id.to_owned(),
-                problem,
-            })
-        };
+        let refused = |id: &str, problem: String| Err(DatasetError::sample(id, problem));
         let mut names = BTreeSet::new();
         let mut expected = self.frame_info;
         for sample in samples {
