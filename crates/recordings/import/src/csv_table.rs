@@ -22,7 +22,7 @@ use taceva_dataset::{Digest, Place};
 use number::parse_number;
 use split::Block;
 
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 
 /// A CSV file with a header, in memory.
 ///
@@ -151,13 +151,11 @@ impl CsvTable {
                     .map_or_else(String::new, |guess| {
                         format!(", did you mean `{}`", shown(guess))
                     });
-                ImportError::in_file(
+                table_error!(
                     &self.path,
-                    format!(
-                        "no column `{}`{guess}? the columns are {}",
-                        shown(name),
-                        known.join(", ")
-                    ),
+                    "no column `{}`{guess}? the columns are {}",
+                    shown(name),
+                    known.join(", ")
                 )
             })
     }
@@ -186,9 +184,10 @@ impl CsvTable {
     /// # Panics
     /// If there is no such row or column.
     pub fn refuse(&self, row: usize, column: usize, expected: &str) -> ImportError {
-        ImportError::table(
+        table_error!(
             self.place(row, column),
-            format!("`{}`: {expected}", shown(self.cell(row, column))),
+            "`{}`: {expected}",
+            shown(self.cell(row, column))
         )
     }
 
@@ -234,9 +233,11 @@ impl CsvTable {
 
     fn not_a_number(&self, row: usize, column: usize) -> ImportError {
         let cell = self.cell(row, column);
-        ImportError::table(
+        table_error!(
             self.place(row, column),
-            format!("`{}` {}", shown(cell), number::not_a_number(cell)),
+            "`{}` {}",
+            shown(cell),
+            number::not_a_number(cell)
         )
     }
 

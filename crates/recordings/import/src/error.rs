@@ -8,6 +8,14 @@ use taceva_dataset::DatasetError;
 
 pub use taceva_dataset::Place;
 
+/// An [`ImportError::Table`] at a file or a place in it, with a formatted problem.
+macro_rules! table_error {
+    ($place:expr, $($problem:tt)+) => {
+        $crate::error::ImportError::table($place, format!($($problem)+))
+    };
+}
+pub(crate) use table_error;
+
 /// Error of an import or export, or of a table of labels.
 ///
 /// ```
@@ -47,11 +55,8 @@ pub enum ImportError {
 impl ImportError {
     /// The kind of the error, from the closed list that all crates share.
     pub fn kind(&self) -> ErrorKind {
-        match self {
-            ImportError::Table { .. } => ErrorKind::Protocol,
-            ImportError::Dataset(error) => error.kind(),
-            ImportError::Named { error, .. } => error.kind(),
-        }
+        self.dataset()
+            .map_or(ErrorKind::Protocol, DatasetError::kind)
     }
 
     /// The error of the dataset, the map or the source file, unless a table is at fault.
@@ -63,16 +68,11 @@ impl ImportError {
         }
     }
 
-    pub(crate) fn table(place: Place, problem: impl Into<String>) -> ImportError {
+    pub(crate) fn table(place: impl Into<Place>, problem: impl Into<String>) -> ImportError {
         ImportError::Table {
-            place,
+            place: place.into(),
             problem: problem.into(),
         }
-    }
-
-    /// An error of the whole table at `path`.
-    pub(crate) fn in_file(path: &Path, problem: impl Into<String>) -> ImportError {
-        ImportError::table(Place::file(path), problem)
     }
 
     pub(crate) fn image(path: &Path, problem: impl Into<String>) -> ImportError {

@@ -28,7 +28,7 @@ use std::sync::Arc;
 use taceva_arrays::ArrayFormat;
 
 use crate::csv_table::text_form::TextForm;
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, table_error};
 use crate::frame_names::FrameNames;
 use crate::source_folder::SourceFolder;
 use taceva_core::nearest;
@@ -351,7 +351,7 @@ impl ForeignTable {
     pub(crate) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, ImportError> {
         match self {
             ForeignTable::Columns(table) => table.pictures(names),
-            _ => Err(ImportError::in_file(
+            _ => Err(ImportError::table(
                 self.path(),
                 "a table of this form holds no pictures: name picture files by `column` or `pattern`, or an array of another \
                     file by `array = { file = \"…\" }`",
@@ -375,10 +375,7 @@ impl ForeignTable {
             true => "the table has no columns of its own".to_owned(),
             false => format!("the columns are {}", listed(&names)),
         };
-        ImportError::in_file(
-            self.path(),
-            format!("no column `{}`{guess}? {known}", shown(name)),
-        )
+        table_error!(self.path(), "no column `{}`{guess}? {known}", shown(name))
     }
 }
 /// Adds the column `name` to `place`, unless it is empty.

@@ -9,7 +9,7 @@ use taceva_core::Progress;
 use taceva_dataset::internal::{layout, limits, open_regular, ordered_map, shown};
 use taceva_dataset::{Dataset, DatasetError, Digest};
 
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 use crate::source_folder::{SourceFolder, files_below};
 
 /// Differences that a message names.
@@ -118,12 +118,12 @@ impl SourceSums {
                 continue;
             }
             let (name, digest) = entry(line).ok_or_else(|| {
-                let problem = format!(
+                table_error!(
+                    list,
                     "line {}: `{}` is not a line of sha256sum; expected 64 hexadecimal digits, two spaces and a name: write the list with `sha256sum FILES > SHA256SUMS`",
                     number + 1,
                     shown(line)
-                );
-                ImportError::in_file(list, problem)
+                )
             })?;
             let folder = folders.last_mut().expect("one from the beginning");
             folder.insert(name, digest);

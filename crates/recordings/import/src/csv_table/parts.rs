@@ -62,7 +62,7 @@ impl CsvParts {
         let digest = Digest::of_reader(&mut scan).map_err(failed)?;
         let found = scan.finish();
         if found.quotes % 2 == 1 {
-            return Err(ImportError::in_file(
+            return Err(ImportError::table(
                 path,
                 "a quote is opened and never closed".to_owned(),
             ));
@@ -147,7 +147,7 @@ impl CsvParts {
                 table.rows(),
                 mark.line
             );
-            return Err(ImportError::in_file(&self.path, problem));
+            return Err(ImportError::table(&self.path, problem));
         }
         Ok(table)
     }
@@ -160,7 +160,7 @@ impl CsvParts {
                 "{length} bytes of {PART_ROWS} rows, more than the {} that are accepted",
                 limits::TABLE_BYTES
             );
-            return Err(ImportError::in_file(&self.path, problem));
+            return Err(ImportError::table(&self.path, problem));
         }
         let mut read = Vec::new();
         file.seek(SeekFrom::Start(bytes.start))
@@ -209,7 +209,7 @@ impl CsvTable {
                 text.len(),
                 limits::TABLE_BYTES
             );
-            return Err(ImportError::in_file(path, problem));
+            return Err(ImportError::table(path, problem));
         }
         CsvTable::of_text(path, text, b',', NonZeroUsize::MIN)
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::text_form::{TextForm, separator_line, unit_said};
 use super::{CsvTable, as_text, cells_of_first_row, delimiter_of, number};
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::{all_cores, limits, read_capped, shown};
 
 /// Text table with the unit of each column from the row below the header.
@@ -30,7 +30,7 @@ impl CsvTable {
         let read = read_text(path, text, form);
         read.map_err(|error| match (error, hint) {
             (ImportError::Table { place, problem }, Some(hint)) => {
-                ImportError::table(place, format!("{problem}; {hint}"))
+                table_error!(place, "{problem}; {hint}")
             }
             (error, _) => error,
         })

@@ -27,7 +27,7 @@ fn a_named_error_keeps_its_kind_and_a_table_has_no_error_of_a_dataset() {
     let named = ImportError::path("../a.png", "leaves the folder").named_at(Place::default());
     assert_eq!(named.kind(), ErrorKind::InvalidArgument);
     assert!(matches!(named.dataset(), Some(DatasetError::Path { .. })));
-    let table = ImportError::in_file("labels.csv".as_ref(), "no row").named_at(Place::default());
+    let table = ImportError::table("labels.csv", "no row").named_at(Place::default());
     assert!(
         matches!(&table, ImportError::Table { place, .. } if place.path.ends_with("labels.csv"))
     );

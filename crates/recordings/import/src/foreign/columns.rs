@@ -166,7 +166,7 @@ impl ColumnTable {
     ) -> Result<ColumnTable, ImportError> {
         let source = guarded(open).and_then(|opened| opened);
         Ok(ColumnTable {
-            source: Box::new(source.map_err(|problem| ImportError::in_file(path, problem))?),
+            source: Box::new(source.map_err(|problem| ImportError::table(path, problem))?),
             path: path.to_owned(),
             read: Mutex::default(),
             most_bytes: most_bytes(path),
@@ -233,7 +233,7 @@ impl ColumnTable {
                     column.len(),
                     self.rows()
                 );
-                return Err(ImportError::in_file(&self.path, problem));
+                return Err(ImportError::table(&self.path, problem));
             }
             read.bytes = read.bytes.saturating_add(bytes_of(&column));
             if read.bytes > self.most_bytes {
@@ -241,7 +241,7 @@ impl ColumnTable {
                     "the cells of its columns take more than {} bytes, far more than the file: write it with less compression, or name fewer columns",
                     self.most_bytes
                 );
-                return Err(ImportError::in_file(&self.path, problem));
+                return Err(ImportError::table(&self.path, problem));
             }
             read.by_name.insert(name.to_owned(), Arc::new(column));
         }
@@ -270,7 +270,7 @@ impl ColumnTable {
 
     pub(super) fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, ImportError> {
         let counted = guarded(|| self.source.absent_chunks(names)).and_then(|counted| counted);
-        counted.map_err(|problem| ImportError::in_file(&self.path, problem))
+        counted.map_err(|problem| ImportError::table(&self.path, problem))
     }
 
     pub(super) fn picture_columns(&self) -> Vec<PictureColumn> {
@@ -288,7 +288,7 @@ impl ColumnTable {
     /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
     pub(super) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, ImportError> {
         let clips = guarded(|| self.source.clips(key)).and_then(|found| found);
-        clips.map_err(|problem| ImportError::in_file(&self.path, problem))
+        clips.map_err(|problem| ImportError::table(&self.path, problem))
     }
 
     pub(super) fn depth(&self, key: &str) -> Option<DepthCodes> {
@@ -298,6 +298,6 @@ impl ColumnTable {
     /// Pictures of the rows.
     pub(super) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, ImportError> {
         let pictures = guarded(|| self.source.pictures(names)).and_then(|found| found);
-        pictures.map_err(|problem| ImportError::in_file(&self.path, problem))
+        pictures.map_err(|problem| ImportError::table(&self.path, problem))
     }
 }

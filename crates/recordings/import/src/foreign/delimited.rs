@@ -6,7 +6,7 @@ use std::path::Path;
 use super::Stated;
 use crate::csv_table::CsvTable;
 use crate::csv_table::text_form::{TextForm, is_grouped};
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::shown;
 
 /// Least number of cells with a point before three digits that suggest grouped digits.
@@ -57,9 +57,10 @@ impl DelimitedTable {
         match self.form.converted(cell) {
             Ok(None) => Ok(Cow::Borrowed(cell)),
             Ok(Some(converted)) => Ok(Cow::Owned(converted)),
-            Err(problem) => Err(ImportError::table(
+            Err(problem) => Err(table_error!(
                 self.place(row, name),
-                format!("`{}` {problem}", shown(cell)),
+                "`{}` {problem}",
+                shown(cell)
             )),
         }
     }

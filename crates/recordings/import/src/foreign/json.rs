@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::members::in_order;
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::{limits, read_capped, shown, utf8};
 
 /// Number of rows that are searched for members.
@@ -40,7 +40,7 @@ impl JsonRows {
         let value: Value =
             serde_json::from_str(&whole).map_err(|error| no_json(path, &whole, &error, 0))?;
         let pointer = rows.unwrap_or(if value.is_array() { "/*" } else { "" });
-        let wrong = |problem: String| ImportError::in_file(path, problem);
+        let wrong = |problem: String| ImportError::table(path, problem);
         let ways = ways(pointer);
         let mut found = vec![(None, value)];
         for (depth, way) in ways.iter().enumerate() {
@@ -281,9 +281,10 @@ fn taken(mut value: Value, pointer: &str) -> Option<Value> {
 /// Error for invalid JSON in `text`, which begins after `lines_before` lines of the file.
 fn no_json(path: &Path, text: &str, error: &serde_json::Error, lines_before: u64) -> ImportError {
     let line = u64::try_from(error.line()).unwrap_or(1).max(1);
-    ImportError::table(
+    table_error!(
         Place::line(path, lines_before + line),
-        format!("no JSON: {}", json_problem(text, error)),
+        "no JSON: {}",
+        json_problem(text, error)
     )
 }
 

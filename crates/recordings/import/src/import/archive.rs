@@ -84,7 +84,7 @@ impl UnpackedArchive {
             ),
             false => unpack(FileTape { file, length }, &content),
         };
-        outcome.map_err(|error| ImportError::in_file(archive, error.to_string()))?;
+        outcome.map_err(|error| ImportError::table(archive, error.to_string()))?;
         Ok(UnpackedArchive {
             folder: innermost(&content)?,
             archive: archive.to_owned(),

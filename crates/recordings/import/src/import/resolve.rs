@@ -20,7 +20,7 @@ use taceva_core::Clock;
 
 use super::map::{FrameNames, ImportMap, OWN_ROW};
 use super::warning::ImportWarning;
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, table_error};
 use crate::foreign::{ForeignTable, TableForm};
 use crate::source_folder::SourceFolder;
 use cell::cell_of;
@@ -235,12 +235,10 @@ impl Sources<'_> {
             let found = pattern.captures(path);
             let owned = |found: Vec<&str>| found.into_iter().map(str::to_owned).collect();
             found.map(owned).ok_or_else(|| {
-                ImportError::table(
+                table_error!(
                     place,
-                    format!(
-                        "`{}` does not follow the pattern of [path]",
-                        taceva_dataset::internal::shown(path)
-                    ),
+                    "`{}` does not follow the pattern of [path]",
+                    taceva_dataset::internal::shown(path)
                 )
             })
         };
@@ -297,15 +295,13 @@ impl Sources<'_> {
         let position = names.iter().position(|name| *name == part);
         match position.zip(captures) {
             Some((position, captures)) => Ok(captures[position].clone()),
-            None => Err(ImportError::in_file(
+            None => Err(table_error!(
                 self.main.path(),
-                format!(
-                    "`path.{part}`: the pattern of [path] names {}",
-                    match names.is_empty() {
-                        true => "nothing: there is none".to_owned(),
-                        false => names.join(", "),
-                    }
-                ),
+                "`path.{part}`: the pattern of [path] names {}",
+                match names.is_empty() {
+                    true => "nothing: there is none".to_owned(),
+                    false => names.join(", "),
+                }
             )),
         }
     }

@@ -13,7 +13,7 @@ use super::resolve::{
     ClassCells, ColumnSignals, CoordinateFrames, JoinMatches, NamedBy, ResolvedTable, resolve,
 };
 use super::warning::ImportWarning;
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{Place, Row};
@@ -254,9 +254,10 @@ impl<'a> MappedTable<'a> {
     /// Error for a sample name that another row has.
     pub(super) fn duplicate(&self, row: usize, name: &str) -> ImportError {
         let column = self.sample.unwrap_or(usize::MAX);
-        ImportError::table(
+        table_error!(
             self.table.place(row, column),
-            format!("`{}` is the name of an earlier row", shown(name)),
+            "`{}` is the name of an earlier row",
+            shown(name)
         )
     }
 

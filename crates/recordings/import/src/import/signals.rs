@@ -9,7 +9,7 @@ use taceva_core::Progress;
 
 use super::map::{SignalsFrom, SignalsMap};
 use super::rows::MappedTable;
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 use crate::source_folder::SourceFolder;
 use array::ArraySignals;
 use taceva_dataset::internal::SignalsWriter;
@@ -125,12 +125,12 @@ impl<'a> FoundSignals<'a> {
                 (columns.get(at), format!("no number, expected {expected}"))
             }
         };
-        ImportError::table(
+        table_error!(
             match column {
                 Some(column) => rows.place(row).in_column(column),
                 None => rows.place(row),
             },
-            format!("[signals]: {problem}"),
+            "[signals]: {problem}"
         )
     }
 

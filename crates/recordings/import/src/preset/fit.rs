@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::lines::{kept, without_section};
 use crate::csv_table::CsvTable;
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::ImportMap;
 use crate::import::source::{has_match, matching_files};
@@ -162,7 +162,7 @@ fn bristol(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
 /// Selects the file's first sensor, and the left-hand pictures if there are two.
 fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let path = folder.file(folder.path(), "all_data_direction.json")?;
-    let wrong = |problem: &str| ImportError::in_file(&path, problem);
+    let wrong = |problem: &str| ImportError::table(&path, problem);
     let bytes = read_capped(&path, limits::JSON_BYTES)?;
     let value: serde_json::Value =
         serde_json::from_slice(&bytes).map_err(|error| wrong(&format!("no JSON: {error}")))?;
@@ -201,12 +201,10 @@ fn poseit(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
         return Ok(text.to_owned());
     };
     if wrench.len() < 6 {
-        return Err(ImportError::in_file(
+        return Err(table_error!(
             &path,
-            format!(
-                "{} columns, expected 7: the second, three forces, three torques",
-                wrench.len() + 1
-            ),
+            "{} columns, expected 7: the second, three forces, three torques",
+            wrench.len() + 1
         ));
     }
     let mut text = text.replace("column = \"time\"", &format!("column = {time:?}"));

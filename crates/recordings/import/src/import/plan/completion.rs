@@ -34,7 +34,7 @@ impl Reading<'_> {
                 dropped.join(", ")
             ),
         };
-        ImportError::in_file(
+        ImportError::table(
             summary
                 .tables
                 .first()

@@ -2,7 +2,7 @@
 
 use super::Sources;
 use super::columns::base_of;
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::ClassMap;
 use taceva_dataset::internal::shown;
@@ -43,16 +43,14 @@ impl Sources<'_> {
             return Ok(ClassCells::Positions);
         }
         let other = class.names.get(position).map_or("", String::as_str);
-        Err(ImportError::table(
+        Err(table_error!(
             Place::file(self.main.path()).in_column(&class.from),
-            format!(
-                "[classes] {key}: `names` has \"{}\", which is also the position of \"{}\", so a cell `{position}` is ambiguous. If cells \
+            "[classes] {key}: `names` has \"{}\", which is also the position of \"{}\", so a cell `{position}` is ambiguous. If cells \
                  are positions, use names that are no positions, such as \"class {}\"; if cells are names, use `[attributes]`, which \
                  needs no `names`",
-                shown(name),
-                shown(other),
-                shown(name)
-            ),
+            shown(name),
+            shown(other),
+            shown(name)
         ))
     }
 

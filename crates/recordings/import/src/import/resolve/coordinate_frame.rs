@@ -9,7 +9,7 @@ use super::Sources;
 use super::cell::cell_of;
 use super::columns::base_of;
 use crate::csv_table::number;
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::{FrameNames, ImportMap};
 use taceva_dataset::internal::shown;
@@ -94,15 +94,13 @@ fn changed(column: &FrameColumn, known: &StatedFrame, found: &StatedFrame) -> Im
         }
         None => (column.name.clone(), "below `table` of the map".to_owned()),
     };
-    ImportError::table(
+    table_error!(
         found.place.clone(),
-        format!(
-            "`{}` has 2 frames: `{second}` here{}, `{first}` before ({}). A channel needs one frame: write `frame_id = {first:?}` {whose} \
+        "`{}` has 2 frames: `{second}` here{}, `{first}` before ({}). A channel needs one frame: write `frame_id = {first:?}` {whose} \
              to read only the rows of that frame and count the others",
-            shown(&name),
-            at.unwrap_or_default(),
-            known.place
-        ),
+        shown(&name),
+        at.unwrap_or_default(),
+        known.place
     )
 }
 
@@ -238,9 +236,9 @@ pub(super) fn rows_in(
 ) -> Result<BTreeSet<usize>, ImportError> {
     let columns = naming(table, labels)?;
     let refuse = |problem: String| {
-        Err(ImportError::in_file(
+        Err(table_error!(
             table.path(),
-            format!("`frame_id = {frame:?}`: {problem}"),
+            "`frame_id = {frame:?}`: {problem}"
         ))
     };
     if columns.is_empty() {

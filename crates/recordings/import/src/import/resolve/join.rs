@@ -15,7 +15,7 @@ use super::columns::{base_of, mentioned};
 use super::coordinate_frame;
 use super::unit_statement::{self, Reading};
 use crate::csv_table::number;
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::{JoinBy, JoinMap, Lag, TimeJoin, Unmatched};
 use crate::source_folder::SourceFolder;
@@ -84,13 +84,11 @@ impl<'a> Joined<'a> {
             };
             let at = joined.find(sources, table, row)?;
             if at == At::Nowhere && map.unmatched == Unmatched::Refuse {
-                return Err(ImportError::table(
+                return Err(table_error!(
                     sources.main.place(row, ""),
-                    format!(
-                        "no row of {} matches it (join `{}`); write `unmatched = \"drop\"` to leave out and count such rows",
-                        shown(&joined.tables[table].table.path().to_string_lossy()),
-                        map.name
-                    ),
+                    "no row of {} matches it (join `{}`); write `unmatched = \"drop\"` to leave out and count such rows",
+                    shown(&joined.tables[table].table.path().to_string_lossy()),
+                    map.name
                 ));
             }
             joined.matches.push(Match { table, at });
@@ -244,27 +242,26 @@ impl<'a> Joined<'a> {
                 let joined = sources.filled(row, &self.map.file)?;
                 let found = lags.get(&sources.relative).or_else(|| lags.get(&joined));
                 found.copied().ok_or_else(|| {
-                    let problem = format!(
+                    table_error!(
+                        sources.main.path(),
                         "`lag_ms` of join `{0}` names neither this table nor the joined one: add `\"{1}\" = …` or `\"{2}\" = …`, in ms",
                         self.map.name,
                         shown(&sources.relative),
                         shown(&joined)
-                    );
-                    ImportError::in_file(sources.main.path(), problem)
+                    )
                 })
             }
             Lag::Column(column) => {
                 let cell = sources.cell(row, column)?;
                 let place = || sources.main.place(row, column);
-                let number = number::number(&cell).map_err(|problem| {
-                    ImportError::table(place(), format!("`{}`: {problem}", shown(&cell)))
-                })?;
+                let number = number::number(&cell)
+                    .map_err(|problem| table_error!(place(), "`{}`: {problem}", shown(&cell)))?;
                 number.ok_or_else(|| {
-                    let problem = format!(
+                    table_error!(
+                        place(),
                         "empty, expected the lag of join `{}` in ms: `lag_ms` names this column",
                         self.map.name
-                    );
-                    ImportError::table(place(), problem)
+                    )
                 })
             }
         }
@@ -279,13 +276,11 @@ impl<'a> Joined<'a> {
             }),
             JoinBy::All => match candidates.rows[..] {
                 [only] => Ok(At::Row(only)),
-                _ => Err(ImportError::in_file(
+                _ => Err(table_error!(
                     candidates.table.path(),
-                    format!(
-                        "{} rows, where `on = \"all\"` of join `{}` expects one",
-                        candidates.rows.len(),
-                        self.map.name
-                    ),
+                    "{} rows, where `on = \"all\"` of join `{}` expects one",
+                    candidates.rows.len(),
+                    self.map.name
                 )),
             },
             JoinBy::Columns(columns) => {
@@ -296,14 +291,12 @@ impl<'a> Joined<'a> {
                 match candidates.by_key.get(&key?).map(Vec::as_slice) {
                     None => Ok(At::Nowhere),
                     Some([only]) => Ok(At::Row(*only)),
-                    Some([first, second, ..]) => Err(ImportError::table(
+                    Some([first, second, ..]) => Err(table_error!(
                         sources.main.place(row, &columns[0].0),
-                        format!(
-                            "two rows of join `{}` match it: {} and {}",
-                            self.map.name,
-                            candidates.table.place(*first, ""),
-                            candidates.table.place(*second, "")
-                        ),
+                        "two rows of join `{}` match it: {} and {}",
+                        self.map.name,
+                        candidates.table.place(*first, ""),
+                        candidates.table.place(*second, "")
                     )),
                     Some([]) => Ok(At::Nowhere),
                 }
@@ -317,12 +310,10 @@ impl<'a> Joined<'a> {
             }
             JoinBy::Time(join) => {
                 let Some(time) = &sources.map.time else {
-                    return Err(ImportError::in_file(
+                    return Err(table_error!(
                         sources.main.path(),
-                        format!(
-                            "join `{}` is by time, and [time] names no column of the main table",
-                            self.map.name
-                        ),
+                        "join `{}` is by time, and [time] names no column of the main table",
+                        self.map.name
                     ));
                 };
                 let cell = sources.cell_in_seconds(row, &time.column)?;

@@ -76,6 +76,6 @@ fn of_file(
     let rows = rows?;
     match map.problem(&rows) {
         None => Ok(rows),
-        Some(problem) => Err(ImportError::in_file(&path, problem)),
+        Some(problem) => Err(ImportError::table(&path, problem)),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Sources;
 use crate::csv_table::number;
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 use crate::import::map::SignalsMap;
 
 /// Values of every row, grouped by taxel, in the unit they are kept in. A cell without a number gives NaN, which is an error if the row is
@@ -66,7 +66,7 @@ pub(in crate::import) struct ColumnSignals {
 
 impl Sources<'_> {
     fn wrong_signals(&self, row: usize, name: &str, problem: &str) -> ImportError {
-        ImportError::table(self.main.place(row, name), format!("[signals]: {problem}"))
+        table_error!(self.main.place(row, name), "[signals]: {problem}")
     }
 }
 

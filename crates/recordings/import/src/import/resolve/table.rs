@@ -6,7 +6,7 @@ use taceva_core::SourceUnit;
 
 use super::Sources;
 use crate::csv_table::number;
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::shown;
 
 /// Cells of the columns that a map names.
@@ -66,7 +66,7 @@ impl ResolvedTable {
     /// Position of the column called `name`.
     pub(in crate::import) fn position(&self, name: &str) -> Result<usize, ImportError> {
         self.find(name)
-            .ok_or_else(|| ImportError::in_file(&self.path, format!("no column `{}`", shown(name))))
+            .ok_or_else(|| table_error!(&self.path, "no column `{}`", shown(name)))
     }
 
     pub(in crate::import) fn cell(&self, row: usize, column: usize) -> &str {
@@ -121,9 +121,10 @@ impl ResolvedTable {
     }
 
     fn refuse(&self, row: usize, column: usize, problem: &str) -> ImportError {
-        ImportError::table(
+        table_error!(
             self.place(row, column),
-            format!("`{}`: {problem}", shown(&self.cells[column][row])),
+            "`{}`: {problem}",
+            shown(&self.cells[column][row])
         )
     }
 }

@@ -3,7 +3,7 @@
 use taceva_core::SourceUnit;
 
 use super::columns::base_of;
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::TimeMap;
 use crate::import::warning::ImportWarning;
@@ -21,12 +21,10 @@ pub(super) fn check(
     };
     match unit.symbol() {
         "s" => Ok(()),
-        stated => Err(ImportError::table(
+        stated => Err(table_error!(
             Place::file(table.path()).in_column(name),
-            format!(
-                "the file states that these are times in {counted}, which are converted to seconds; the map says `unit = \"{stated}\"`: \
+            "the file states that these are times in {counted}, which are converted to seconds; the map says `unit = \"{stated}\"`: \
                  write `unit = \"s\"`"
-            ),
         )),
     }
 }

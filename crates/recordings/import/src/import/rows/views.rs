@@ -49,7 +49,7 @@ impl MappedView {
                         shown(&video.file)
                     )),
                 };
-                depth.map_err(|problem| ImportError::in_file(path, problem))?
+                depth.map_err(|problem| ImportError::table(path, problem))?
             }
             _ => None,
         };

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use taceva_arrays::{ArrayFile, ArrayFormat};
 use taceva_core::Progress;
 
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 use crate::foreign::stated;
 use crate::import::map::SignalsMap;
 use crate::import::resolve::{place_first, problem_of_names, problem_of_signals};
@@ -34,7 +34,7 @@ impl ArraySignals {
         name: Option<&str>,
         map: &SignalsMap,
     ) -> Result<ArraySignals, ImportError> {
-        let wrong = |problem: String| ImportError::in_file(path, problem);
+        let wrong = |problem: String| ImportError::table(path, problem);
         let format = ArrayFormat::of(path).ok_or_else(|| {
             wrong(
                 "not a file of arrays by its name: expected .npy, .npz, .h5, .hdf5, .zarr, .mat or .pkl"
@@ -99,9 +99,10 @@ impl ArraySignals {
     pub(super) fn check_row(&self, row: u64) -> Result<(), ImportError> {
         match row < self.rows {
             true => Ok(()),
-            false => Err(ImportError::in_file(
+            false => Err(table_error!(
                 &self.path,
-                format!("{} rows of signals, and the table has more", self.rows),
+                "{} rows of signals, and the table has more",
+                self.rows
             )),
         }
     }
@@ -110,9 +111,10 @@ impl ArraySignals {
     pub(super) fn check_rows(&self, rows: u64) -> Result<(), ImportError> {
         match rows == self.rows {
             true => Ok(()),
-            false => Err(ImportError::in_file(
+            false => Err(table_error!(
                 &self.path,
-                format!("{} rows of signals for {rows} rows of the table", self.rows),
+                "{} rows of signals for {rows} rows of the table",
+                self.rows
             )),
         }
     }
@@ -123,7 +125,7 @@ impl ArraySignals {
         folder: &SourceFolder,
         into: &mut BTreeMap<String, u64>,
     ) -> Result<(), ImportError> {
-        let wrong = |problem: String| ImportError::in_file(&self.path, problem);
+        let wrong = |problem: String| ImportError::table(&self.path, problem);
         let counted = guarded(|| self.file.absent_chunks(&self.name)).map_err(wrong)?;
         let count = counted.map_err(|error| wrong(error.to_string()))?;
         if count > 0 {
@@ -170,17 +172,13 @@ impl ArraySignals {
                 let at = usize::try_from((row - first) * self.length).unwrap_or(usize::MAX);
                 let length = usize::try_from(self.length).unwrap_or(0);
                 let own = values.get(at..).and_then(|own| own.get(..length));
-                let own = own.ok_or_else(|| {
-                    ImportError::in_file(&self.path, format!("row {row} is missing"))
-                })?;
+                let own = own.ok_or_else(|| table_error!(&self.path, "row {row} is missing"))?;
                 let kept: Vec<f32> = own.iter().map(|value| kept(*value, map)).collect();
                 if let Some(position) = kept.iter().position(|value| !value.is_finite()) {
-                    return Err(ImportError::in_file(
+                    return Err(table_error!(
                         &self.path,
-                        format!(
-                            "row {row}: number {position} of its signals is {}, expected a finite number",
-                            own[position]
-                        ),
+                        "row {row}: number {position} of its signals is {}, expected a finite number",
+                        own[position]
                     ));
                 }
                 let ordered: Vec<f32> = place_first(map, &kept).collect();
@@ -191,7 +189,7 @@ impl ArraySignals {
     }
 
     fn read(&self, rows: std::ops::Range<u64>) -> Result<Vec<f64>, ImportError> {
-        let wrong = |problem: String| ImportError::in_file(&self.path, problem);
+        let wrong = |problem: String| ImportError::table(&self.path, problem);
         let read = guarded(|| self.file.read(&self.name, rows)).map_err(wrong)?;
         let read = read.map_err(|error| wrong(error.to_string()))?;
         let numbers = read.values.to_f64();

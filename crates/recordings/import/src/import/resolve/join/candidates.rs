@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::matching::{comparable, seconds};
 use crate::csv_table::number;
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::{JoinBy, JoinMap};
 use crate::import::resolve::cell::cell_of;
@@ -99,12 +99,12 @@ impl Candidates {
                         .ok()
                         .filter(|end| until.last().is_none_or(|(last, _)| last <= end));
                     let end = end.ok_or_else(|| {
-                        let problem = format!(
+                        table_error!(
+                            table.place(*row, column),
                             "`{}`: expected a whole number no smaller than the one before it, as join `{}` counts through",
                             shown(&cell),
                             map.name
-                        );
-                        ImportError::table(table.place(*row, column), problem)
+                        )
                     })?;
                     until.push((end, *row));
                 }
@@ -149,13 +149,11 @@ impl Candidates {
                 // The first of several rows at one time is kept.
                 by_time.dedup_by(|later, first| later.0.total_cmp(&first.0).is_eq());
                 if let Some([_, (_, row)]) = back.as_deref() {
-                    return Err(ImportError::table(
+                    return Err(table_error!(
                         table.place(*row, &join.time.column),
-                        format!(
-                            "the time of join `{}` decreases here, so rows cannot be matched by it: split the table where its clock was \
+                        "the time of join `{}` decreases here, so rows cannot be matched by it: split the table where its clock was \
                              set",
-                            map.name
-                        ),
+                        map.name
                     ));
                 }
             }

@@ -3,7 +3,7 @@
 use taceva_core::Unit;
 
 use crate::csv_table::number;
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::{ImportMap, RotationMap};
 use crate::import::resolve::cell::cell_of;
@@ -114,13 +114,11 @@ impl Gap<'_> {
         };
         let number = match way {
             Some(Way::Angle { channel, half_turn }) if (after - before).abs() > *half_turn => {
-                return Err(ImportError::table(
+                return Err(table_error!(
                     self.table.place(self.rows[1], column),
-                    format!(
-                        "{after} follows {before}, more than half a turn of `{channel}`, and `pick = \"linear\"` would invent angles between: write \
+                    "{after} follows {before}, more than half a turn of `{channel}`, and `pick = \"linear\"` would invent angles between: write \
                          `rotation = [\"Rx\", \"Ry\", \"Rz\"]` above the first [section] of the map if it is a part of a rotation vector, \
                          `period = 360` in `{channel} = {{ … }}` if it is one angle that wraps around, or `pick = \"nearest\"` in the join"
-                    ),
                 ));
             }
             Some(Way::Periodic(period)) => wrapped(before, after, self.share, *period),
@@ -134,12 +132,10 @@ impl Gap<'_> {
         let of = |row| -> Result<Option<f64>, ImportError> {
             let cell = cell_of(self.table, row, column)?;
             number::number(&cell).map_err(|problem| {
-                ImportError::table(
+                table_error!(
                     self.table.place(row, column),
-                    format!(
-                        "`{}`: {problem}; `pick = \"linear\"` is for numbers",
-                        shown(&cell)
-                    ),
+                    "`{}`: {problem}; `pick = \"linear\"` is for numbers",
+                    shown(&cell)
                 )
             })
         };
@@ -174,12 +170,10 @@ impl Gap<'_> {
         let (before, after) = (orientation(0)?, orientation(1)?);
         let apart = before.angle_to(after).0;
         if apart > OPPOSITE_DEG {
-            return Err(ImportError::table(
+            return Err(table_error!(
                 self.table.place(self.rows[1], &columns[0]),
-                format!(
-                    "this rotation is {apart:.1} degrees from the one before, so its interpolation is ambiguous: write `pick = \
+                "this rotation is {apart:.1} degrees from the one before, so its interpolation is ambiguous: write `pick = \
                      \"nearest\"` in the join"
-                ),
             ));
         }
         let cells = map.cells(before.toward(after, self.share));

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use crate::error::ImportError;
+use crate::error::{ImportError, table_error};
 use crate::import::summary::JoinSummary;
 use taceva_dataset::internal::shown_path;
 
@@ -70,13 +70,11 @@ impl JoinMatches {
                 "join by a column of both, `on = { COLUMN = \"COLUMN\" }`, or by time, or name a table for each with `{path.NAME}`",
             ),
         };
-        Err(ImportError::in_file(
+        Err(table_error!(
             main,
-            format!(
-                "join `{}`: with {key} the first row of {} would belong to the first row of each of the {each}: {remedy}",
-                self.name,
-                shown_path(shared)
-            ),
+            "join `{}`: with {key} the first row of {} would belong to the first row of each of the {each}: {remedy}",
+            self.name,
+            shown_path(shared)
         ))
     }
 

@@ -1,7 +1,7 @@
 //! Match rules between rows of two tables: equal keys, near times.
 
 use crate::csv_table::number;
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, table_error};
 use crate::foreign::cell_list;
 use crate::import::map::{Pick, TimeJoin, TimeMap};
 use taceva_dataset::internal::shown;
@@ -39,7 +39,7 @@ pub(super) fn seconds(
     place: impl Fn() -> Place,
 ) -> Result<Option<f64>, ImportError> {
     number::number_in_unit(cell, &time.unit)
-        .map_err(|problem| ImportError::table(place(), format!("`{}`: {problem}", shown(cell))))
+        .map_err(|problem| table_error!(place(), "`{}`: {problem}", shown(cell)))
 }
 
 /// Match of `instant` in `times`, which are sorted, with its distance, s.
