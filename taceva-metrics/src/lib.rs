@@ -3,6 +3,7 @@
 #[cfg(feature = "bench")]
 pub mod bench;
 pub mod catalogue;
+mod count;
 mod error;
 mod evaluate;
 mod exact;

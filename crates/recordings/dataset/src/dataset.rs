@@ -88,7 +88,14 @@ impl Dataset {
         }
         let header = Header::read(&folder)?;
         let table = read_table(&folder, &header)?;
-        let dataset = Dataset {
+        let dataset = Dataset::of(folder, header, table);
+        dataset.check_consistency()?;
+        Ok(dataset)
+    }
+
+    /// A single recording without a chosen view, before any of its files is read.
+    fn of(folder: HeldFolder, header: Header, table: Table) -> Dataset {
+        Dataset {
             folder,
             header,
             table,
@@ -96,9 +103,7 @@ impl Dataset {
             signals: Mutex::default(),
             joined: Vec::new(),
             seen: Vec::new(),
-        };
-        dataset.check_consistency()?;
-        Ok(dataset)
+        }
     }
 
     /// The folder; for joined recordings that of the first.

@@ -275,16 +275,12 @@ impl Recorder {
     /// resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
-        let mut entries = self.write_frames(std::slice::from_ref(sample))?;
-        let row = self.row(sample, entries.pop().flatten());
-        let info = sample.frame.as_ref().map(Frame::info);
-        let written =
-            WrittenSample::new(&row, self.table.channels(), info, signals_of(sample)).to_toml();
-        let sequence = self
-            .journal
-            .append(RecordKind::Sample, written.as_bytes())?;
-        self.take(row, info, signals_of(sample))?;
-        Ok(sequence)
+        let entries = self.write_frames(std::slice::from_ref(sample))?;
+        let of_sample = |written: Vec<WrittenSample>| {
+            let texts = written.iter().map(WrittenSample::to_toml);
+            texts.collect::<String>()
+        };
+        self.append_all(RecordKind::Sample, [sample], entries, of_sample)
     }
 
     /// True if a frame without contact was recorded.

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 use std::path::Path;
-use std::sync::Mutex;
 
 use taceva_core::{Channels, Clock};
 
@@ -110,12 +109,8 @@ impl Dataset {
         });
         Ok(Dataset {
             joined: joined.collect(),
-            folder,
-            header,
-            table,
-            firsts: Mutex::default(),
-            signals: Mutex::default(),
             seen,
+            ..Dataset::of(folder, header, table)
         })
     }
 

@@ -1,7 +1,5 @@
 //! Datasets with several pictures for each sample, seen in one view or in several side by side.
 
-use std::sync::Mutex;
-
 use taceva_core::{Frame, FrameInfo};
 
 use super::Dataset;
@@ -58,13 +56,8 @@ impl Dataset {
         let mut header = self.header.clone();
         see(&mut header, frames, view);
         Ok(Dataset {
-            folder: self.folder.again()?,
-            header,
-            table,
-            firsts: Mutex::default(),
-            signals: Mutex::default(),
-            joined: Vec::new(),
             seen,
+            ..Dataset::of(self.folder.again()?, header, table)
         })
     }
 
