@@ -51,7 +51,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let repeated = rows_of(|seconds| seconds.abs() <= 0.0);
     let whole = times.iter().flatten().all(|time| time.fract().abs() <= 0.0);
     let warn = |message: &str, rows: &[usize]| {
-        Found::about(
+        evidence.found(
             Severity::Warning,
             match rows.len() {
                 1 => format!(
@@ -64,7 +64,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
                 ),
                 many => format!("{many} {message}"),
             },
-            evidence.names(rows),
+            rows,
         )
     };
     if let Some(sessions) = evidence.sessions {
