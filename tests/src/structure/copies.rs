@@ -41,6 +41,16 @@ pub const COPIES: &[Copies] = &[
         most: 1,
     },
     Copies {
+        concept: "planes of two channels",
+        words: &["const PLANES:"],
+        most: 1,
+    },
+    Copies {
+        concept: "least number of clusters for an interval",
+        words: &["LEAST_CLUSTERS:", "CLUSTERS_LEAST:"],
+        most: 1,
+    },
+    Copies {
         concept: "struct SeedScore",
         words: &["struct SeedScore "],
         most: 1,

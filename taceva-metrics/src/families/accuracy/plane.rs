@@ -213,8 +213,18 @@ impl Family for Plane {
 mod tests {
     use taceva_core::Channel;
 
+    use super::{PLANES, plane_axes, plane_of};
     use crate::evaluate::{Evaluator, Rows};
     use crate::pair::GREATEST;
+
+    #[test]
+    fn an_axis_names_its_plane_and_a_plane_its_axes() {
+        for (plane, axes, _) in PLANES {
+            assert_eq!(plane_axes(plane), Some(axes));
+            assert!(axes.iter().all(|axis| plane_of(axis) == Some(plane)));
+        }
+        assert_eq!((plane_axes("Pz"), plane_of("Fz")), (None, None));
+    }
 
     #[test]
     fn a_distance_beyond_usable_numbers_is_summed_all_the_same() {
