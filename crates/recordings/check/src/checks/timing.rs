@@ -1,5 +1,7 @@
 //! TAC008: the true rate, and impossible times.
 
+use taceva_metrics::STREAM_S;
+
 use super::dropped_frames::{Missing, missing};
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -16,8 +18,6 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples for a rate.
 const LEAST: usize = 10;
-/// Maximum median step of a stream, s; the metric `intrinsic` has the same limit.
-const STREAM_S: f64 = 1.0;
 /// Length above which a step is a gap, in usual steps, with a tolerance for rounding.
 const GAP: f64 = 3.0;
 const ROUNDING: f64 = 1e-6;
