@@ -3,6 +3,7 @@
 #[cfg(feature = "bench")]
 pub mod bench;
 pub mod catalogue;
+mod count;
 mod error;
 mod evaluate;
 mod exact;
@@ -19,10 +20,13 @@ pub use evaluate::{
 };
 pub use exact::{Canonical, CanonicalError, ExactSum, Record, Stream, Streams};
 pub use families::accuracy::pair_sums::{PairSpec, PairSums};
+pub use families::accuracy::plane::{PLANES, plane_axes, plane_of};
+pub use families::intrinsic::times::STREAM_S;
 pub use pair::{EPSILON, GREATEST, Paired};
 pub use score::curve::{Band, Curve};
 pub use score::direction::Better;
 pub use score::flag::Flag;
+pub use score::least::LEAST_CLUSTERS;
 pub use score::map::Map;
 pub use score::matrix::Matrix;
 pub use score::range::Range;

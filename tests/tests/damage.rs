@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::{Frame, SilentProgress};
 use taceva_dataset::{Dataset, DatasetError};
-use taceva_import::{ImportMap, ImportPlan};
+use taceva_import::{ImportError, ImportMap, ImportPlan};
 use taceva_tests::{Form, Lab, Random, picture, recording, scratch};
 
 const SEED: u64 = 20_261_122;
@@ -32,10 +32,10 @@ impl Damage {
     }
 }
 
-fn import(lab: &Lab, target: &Path) -> Result<Dataset, DatasetError> {
+fn import(lab: &Lab, target: &Path) -> Result<Dataset, ImportError> {
     let map = ImportMap::read(&lab.map())?;
     ImportPlan::new(lab.path(), &map)?.run(target, NonZeroUsize::MIN, &SilentProgress)?;
-    Dataset::open(target)
+    Ok(Dataset::open(target)?)
 }
 
 /// What became of damaged copies.
@@ -89,7 +89,7 @@ fn try_damages(form: Form, order: &str, bytes: &[u8], damages: &[Damage], counts
 fn count_import(
     damage: Damage,
     original: &Frame,
-    imported: &Result<Option<Frame>, DatasetError>,
+    imported: &Result<Option<Frame>, ImportError>,
     counts: &mut Counts,
 ) {
     let is_refused = usize::from(imported.is_err());

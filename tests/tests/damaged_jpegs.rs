@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use taceva_core::SilentProgress;
-use taceva_dataset::DatasetError;
-use taceva_import::{ImportMap, ImportPlan};
+use taceva_import::{ImportError, ImportMap, ImportPlan};
 use taceva_needs::{Need, skip};
 use taceva_tests::{Form, Lab, Random, recording, root, scratch};
 
@@ -94,7 +93,7 @@ fn jpegs_below(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Imports a picture as the only one of a lab.
-fn import(bytes: &[u8]) -> Result<(), DatasetError> {
+fn import(bytes: &[u8]) -> Result<(), ImportError> {
     let is_gray = |bytes: &[u8]| {
         let frame = bytes
             .windows(2)

@@ -8,7 +8,7 @@ use taceva_evaluate::{EvaluateRequest, FitRequest, ModelChoice, Work, evaluate};
 use taceva_import::{ImportMap, ImportPlan};
 use taceva_models::ModelSettings;
 use taceva_report::catalogue::Sensor;
-use taceva_report::{CompareRequest, Need, Report, Study, choose, compare, figures, report};
+use taceva_report::{CompareRequest, Need, ReportPage, Study, choose, compare, figures, report};
 use taceva_results::Samples;
 use taceva_tests::{recording, root};
 
@@ -131,7 +131,7 @@ fn two_sensors_of_two_labs_are_shown_compared_and_chosen_from() {
     for id in ["labels", "predicted-1", "predicted-2"] {
         assert!(drawn.iter().any(|drawn| drawn == id), "{id}: {drawn:?}");
     }
-    let page = report(&Report {
+    let page = report(&ReportPage {
         title: "two labs",
         studies: &studies,
         pictures: &[],

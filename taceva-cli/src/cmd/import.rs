@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
 use taceva_dataset::internal::quoted;
-use taceva_dataset::{DatasetError, settle};
+use taceva_dataset::settle;
 use taceva_files::parent_of;
 use taceva_import::{
-    Addition, Decoders, ImportMap, ImportPlan, MapDraft, Preset, SourceSums, UnpackedArchive,
+    Addition, Decoders, ImportError, ImportMap, ImportPlan, MapDraft, Preset, SourceSums,
+    UnpackedArchive,
 };
 
 use super::{Context, Usage};
@@ -146,7 +147,7 @@ impl Source {
     }
 
     /// Converts an error to name the member of an archive instead of its unpacked path.
-    fn named<T>(&self, outcome: Result<T, DatasetError>) -> Result<T, DatasetError> {
+    fn named<T>(&self, outcome: Result<T, ImportError>) -> Result<T, ImportError> {
         outcome.map_err(|error| match self {
             Source::Folder(_) => error,
             Source::Archive(archive) => archive.named(error),

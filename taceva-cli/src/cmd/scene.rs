@@ -6,6 +6,7 @@ use std::path::Path;
 use taceva_acquire::{Overrides, PlannedScene, SceneText};
 use taceva_core::{Field, SkipReason, shown};
 use taceva_drivers::Drivers;
+use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{SplitInput, SplitSpec};
 use taceva_protocol::{BuiltinScene, PhaseKind, Plan, PlanReason, Subject};
 
@@ -13,10 +14,8 @@ use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
 use crate::disk_space::{self, Need};
 
-/// The contact points that an interval needs.
-const LEAST_POINTS: usize = 5;
 /// The contact points of which the test part, a tenth, is enough for an interval.
-const ENOUGH_POINTS: usize = 10 * LEAST_POINTS;
+const ENOUGH_POINTS: usize = 10 * LEAST_CLUSTERS;
 
 /// The scene of `args`, planned with `drivers`.
 pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
@@ -124,12 +123,12 @@ pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
 /// Warns of each study whose test part has too few contact points for intervals.
 pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
     for study in &planned.studies {
-        let Some(points) = tested_points(&study.plan).filter(|points| *points < LEAST_POINTS)
+        let Some(points) = tested_points(&study.plan).filter(|points| *points < LEAST_CLUSTERS)
         else {
             continue;
         };
         context.say(format_args!(
-            "{}: the test part has {points} contact points, and intervals need {LEAST_POINTS}: raise `points` under [protocol.calibration] to {ENOUGH_POINTS}, or score every point of the recording afterwards (taceva evaluate, --split cv:{LEAST_POINTS})",
+            "{}: the test part has {points} contact points, and intervals need {LEAST_CLUSTERS}: raise `points` under [protocol.calibration] to {ENOUGH_POINTS}, or score every point of the recording afterwards (taceva evaluate, --split cv:{LEAST_CLUSTERS})",
             shown(&study.plan.name)
         ));
     }

@@ -9,7 +9,7 @@ use taceva_core::shown;
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
 use taceva_report::{
-    Figure, FigureStyle, Layout, Picture, Report, ScoreTable, Study, Triple, figures_for,
+    Figure, FigureStyle, Layout, Picture, ReportPage, ScoreTable, Study, Triple, figures_for,
     paper_form, picks, study_figures, undrawn,
 };
 use taceva_results::EvaluationReport;
@@ -187,7 +187,7 @@ impl Page {
     }
 
     pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let report = Report {
+        let report = ReportPage {
             title: &self.title,
             studies: &self.studies,
             pictures: &self.pictures,

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use taceva_core::PressOutcome;
-use taceva_metrics::{Better, catalogue};
+use taceva_metrics::{Better, catalogue, plane_of};
 use taceva_report::{Align, Column, Study, Table, escape_terminal, short_digests};
 use taceva_results::EvaluationReport;
 
@@ -11,9 +11,6 @@ use super::line::{Line, lines, standings};
 use super::number::formatted;
 use super::page;
 use super::text::{over_seeds, presses};
-
-/// Channels, and the plane that replaces them.
-const IN_PLANES: [(&str, &str); 4] = [("Px", "Pxy"), ("Py", "Pxy"), ("Fx", "Fxy"), ("Fy", "Fxy")];
 
 /// The key of a row: metric, channel, unit.
 type Row = [String; 3];
@@ -163,10 +160,7 @@ fn headlines(report: &EvaluationReport) -> Vec<Line<'_>> {
     };
     let is_in_a_plane: Vec<bool> = lines
         .iter()
-        .map(|line| {
-            let mut planes = IN_PLANES.into_iter();
-            planes.any(|(channel, plane)| line.channel == channel && has(&line.name, plane))
-        })
+        .map(|line| plane_of(line.channel).is_some_and(|plane| has(&line.name, plane)))
         .collect();
     let kept = lines.into_iter().zip(is_in_a_plane);
     kept.filter(|(line, is_in_a_plane)| line.is_headline && !is_in_a_plane)

@@ -1,7 +1,7 @@
 //! Properties of the sensor as its recording shows them: frame rate and sensing area.
 
 mod sums;
-mod times;
+pub(crate) mod times;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;

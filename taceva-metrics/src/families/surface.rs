@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Unit};
 
+use crate::count::as_f64;
 use crate::evaluate::family::{
     Details, Family, FamilyKind, Intervals, Numbers, Output, each_row, erased,
 };
@@ -244,7 +245,7 @@ impl Family for Surface {
         let parameter = |name, value| Parameter { name, value };
         details.parameters.extend([
             parameter("bins", f64::from(grid.bins())),
-            parameter("n_min", sensor_facts::as_f64(self.settings.n_min)),
+            parameter("n_min", as_f64(self.settings.n_min)),
             parameter("ddof", f64::from(self.settings.ddof)),
         ]);
         if formula(metric).is_some_and(|formula| formula.has_map) {

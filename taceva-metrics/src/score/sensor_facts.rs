@@ -128,10 +128,3 @@ pub(crate) fn written(footprint: &Footprint) -> String {
         None => outline,
     }
 }
-
-/// Number of a constant in reports.
-pub(crate) fn as_f64(count: u64) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "constants are far below 2^53")]
-    let count = count as f64;
-    count
-}

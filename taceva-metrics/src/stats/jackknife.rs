@@ -1,6 +1,7 @@
 //! Delete-one-cluster jackknife: variation of a score between contact points.
 
 use super::ends::{Ends, Estimated, Moved};
+use crate::count::as_f64;
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
@@ -161,15 +162,6 @@ pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: 
         },
         Err(reason) => Interval::Undefined(reason),
     }
-}
-
-fn as_f64(count: u64) -> f64 {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "beyond 2^53 samples the interval has no digits left to lose"
-    )]
-    let count = count as f64;
-    count
 }
 
 #[cfg(test)]

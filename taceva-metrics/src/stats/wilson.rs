@@ -1,5 +1,6 @@
 //! Wilson's interval of a share of independent trials.
 
+use crate::count::as_f64;
 use crate::score::Interval;
 
 /// z for which ±z encloses 95 % of the normal distribution.
@@ -26,15 +27,6 @@ pub(super) fn ends(share: f64, n: f64, z: f64) -> [f64; 2] {
         if share <= 0.0 { 0.0 } else { centre - half },
         if share >= 1.0 { 1.0 } else { centre + half },
     ]
-}
-
-fn as_f64(count: u64) -> f64 {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "beyond 2^53 trials the interval has no digits left to lose"
-    )]
-    let count = count as f64;
-    count
 }
 
 #[cfg(test)]

@@ -33,12 +33,22 @@ pub const COPIES: &[Copies] = &[
     Copies {
         concept: "struct Finding",
         words: &["struct Finding "],
-        most: 3,
+        most: 1,
     },
     Copies {
         concept: "struct Report",
         words: &["struct Report ", "struct Report<"],
-        most: 3,
+        most: 1,
+    },
+    Copies {
+        concept: "planes of two channels",
+        words: &["const PLANES:"],
+        most: 1,
+    },
+    Copies {
+        concept: "least number of clusters for an interval",
+        words: &["LEAST_CLUSTERS:", "CLUSTERS_LEAST:"],
+        most: 1,
     },
     Copies {
         concept: "struct SeedScore",

@@ -26,21 +26,19 @@ pub(crate) fn check_regular(
     cap: u64,
 ) -> Result<(), DatasetError> {
     if !metadata.is_file() {
-        return Err(DatasetError::Path {
-            place: None,
-            written: path.to_string_lossy().into_owned(),
-            problem: "not a regular file".to_owned(),
-        });
+        return Err(DatasetError::path(
+            path.to_string_lossy(),
+            "not a regular file",
+        ));
     }
     if metadata.len() > cap {
-        return Err(DatasetError::Path {
-            place: None,
-            written: path.to_string_lossy().into_owned(),
-            problem: format!(
+        return Err(DatasetError::path(
+            path.to_string_lossy(),
+            format!(
                 "{} bytes, more than the {cap} that are accepted here",
                 metadata.len()
             ),
-        });
+        ));
     }
     Ok(())
 }

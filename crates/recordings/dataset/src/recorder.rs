@@ -176,10 +176,9 @@ impl Recorder {
         for (sequence, record) in records {
             recorder.replay(&record).map_err(|error| match error {
                 ReplayError::Io(error) => error,
-                ReplayError::Damaged(problem) => DatasetError::Damaged {
-                    path: journal_path.clone(),
-                    problem: format!("record {sequence}: {problem}"),
-                },
+                ReplayError::Damaged(problem) => {
+                    DatasetError::damaged(&journal_path, format!("record {sequence}: {problem}"))
+                }
             })?;
         }
         cut_behind(path, recorder.pack_end)?;
@@ -204,11 +203,10 @@ impl Recorder {
             || taxels != spec.signals.as_ref()
             || recorder.reduced != spec.reduced
         {
-            return Err(DatasetError::Request {
-                path: path.to_owned(),
-                problem: "the recording that was begun there has another sensor, clock, set of channels or taxels, or reduction of frames"
-                    .to_owned(),
-            });
+            return Err(DatasetError::request(
+                path,
+                "the recording that was begun there has another sensor, clock, set of channels or taxels, or reduction of frames",
+            ));
         }
         Ok(recorder)
     }
@@ -267,16 +265,12 @@ impl Recorder {
     /// resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
-        let mut entries = self.write_frames(std::slice::from_ref(sample))?;
-        let row = self.row(sample, entries.pop().flatten());
-        let info = sample.frame.as_ref().map(Frame::info);
-        let written =
-            WrittenSample::new(&row, self.table.channels(), info, signals_of(sample)).to_toml();
-        let sequence = self
-            .journal
-            .append(RecordKind::Sample, written.as_bytes())?;
-        self.take(row, info, signals_of(sample))?;
-        Ok(sequence)
+        let entries = self.write_frames(std::slice::from_ref(sample))?;
+        let of_sample = |written: Vec<WrittenSample>| {
+            let texts = written.iter().map(WrittenSample::to_toml);
+            texts.collect::<String>()
+        };
+        self.append_all(RecordKind::Sample, [sample], entries, of_sample)
     }
 
     /// True if a frame without contact was recorded.

@@ -65,7 +65,7 @@ impl SensorFile {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// [`DatasetError::Toml`] with the line for invalid TOML, an unknown key, or an impossible length; [`DatasetError::Path`],
+    /// [`DatasetError::Text`] with the line for invalid TOML, an unknown key, or an impossible length; [`DatasetError::Path`],
     /// [`DatasetError::Io`].
     pub fn read(path: &Path) -> Result<SensorFile, DatasetError> {
         let written: Written = parse_toml(path, &read_toml_text(path)?)?;

@@ -14,12 +14,12 @@ mod views;
 
 use std::path::Path;
 
+use crate::error::ImportError;
 use crate::foreign::is_recording;
 use crate::layouts::Preset;
 use crate::source_folder::SourceFolder;
 use survey::FileGroup;
 use tables::SeenTable;
-use taceva_dataset::DatasetError;
 
 /// Limit of tables read for a draft.
 const TABLES: usize = 64;
@@ -42,8 +42,8 @@ impl MapDraft {
     /// Examines the files in `folder`: names, headers, 200 rows of each kind of table, the first picture of each array.
     ///
     /// # Errors
-    /// [`DatasetError::Io`] if the folder cannot be read; [`DatasetError::Request`] if nothing in it is a table or a picture.
-    pub fn of(folder: &Path) -> Result<MapDraft, DatasetError> {
+    /// [`ImportError::Dataset`] if the folder cannot be read, or nothing in it is a table or a picture.
+    pub fn of(folder: &Path) -> Result<MapDraft, ImportError> {
         let source = SourceFolder::open(folder)?;
         let groups = survey::groups(&source)?;
         let (pictures, others): (Vec<&FileGroup>, Vec<&FileGroup>) = groups
@@ -89,29 +89,29 @@ impl MapDraft {
             Some(main) => {
                 let text = map_text::of_table(&source, &groups, main, &tables, &notes);
                 if let (Some(reason), true) = (main.unread.first(), is_empty(&text)) {
-                    return Err(DatasetError::Request {
-                        path: folder.to_owned(),
-                        problem: format!(
+                    return Err(ImportError::request(
+                        folder,
+                        format!(
                             "{} has no picture, no taxel and no number that may be a channel: {reason}",
                             main.group.first()
                         ),
-                    });
+                    ));
                 }
                 text
             }
             None => match most {
                 Some(group) => map_text::of_files(group, &notes),
                 None => {
-                    return Err(DatasetError::Request {
-                        path: folder.to_owned(),
-                        problem: match (notes.first(), bare) {
+                    return Err(ImportError::request(
+                        folder,
+                        match (notes.first(), bare) {
                             (Some(note), _) => {
                                 format!("nothing here can be read as a table: {note}")
                             }
                             (None, Some(bare)) => notes::bare_clips(bare),
                             (None, None) => "no table and no picture is in it".to_owned(),
                         },
-                    });
+                    ));
                 }
             },
         };

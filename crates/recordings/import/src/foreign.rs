@@ -28,11 +28,11 @@ use std::sync::Arc;
 use taceva_arrays::ArrayFormat;
 
 use crate::csv_table::text_form::TextForm;
+use crate::error::{ImportError, Place, table_error};
 use crate::frame_names::FrameNames;
 use crate::source_folder::SourceFolder;
 use taceva_core::nearest;
 use taceva_dataset::internal::{listed, shown};
-use taceva_dataset::{DatasetError, Place};
 use taceva_tables::{ArrowTable, DepthCodes, ParquetTable};
 
 pub(crate) use arrays::{ArrayPictures, stated};
@@ -102,7 +102,7 @@ pub(crate) fn said(path: &Path, error: &impl fmt::Display) -> String {
 
 impl ForeignTable {
     /// Reads the table at `path`.
-    pub(crate) fn read(path: &Path, form: &TableForm) -> Result<ForeignTable, DatasetError> {
+    pub(crate) fn read(path: &Path, form: &TableForm) -> Result<ForeignTable, ImportError> {
         Ok(match form {
             TableForm::Delimited(form) => {
                 ForeignTable::Delimited(DelimitedTable::read(path, form)?)
@@ -174,8 +174,8 @@ impl ForeignTable {
     /// Cell of a row (from 0) in the column called `name`, without surrounding blanks; empty if absent.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] if no row has such a column.
-    pub(crate) fn cell(&self, row: usize, name: &str) -> Result<Cow<'_, str>, DatasetError> {
+    /// [`ImportError::Table`] if no row has such a column.
+    pub(crate) fn cell(&self, row: usize, name: &str) -> Result<Cow<'_, str>, ImportError> {
         match self {
             ForeignTable::Delimited(table) => table.cell(row, name),
             ForeignTable::Json(table) if table.has(name) => Ok(table.cell(row, name)),
@@ -268,7 +268,7 @@ impl ForeignTable {
     }
 
     /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
-    pub(crate) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, DatasetError> {
+    pub(crate) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, ImportError> {
         match self {
             ForeignTable::Columns(table) => table.clips(key),
             _ => Ok(Vec::new()),
@@ -284,7 +284,7 @@ impl ForeignTable {
     }
 
     /// Reads columns in advance, if reading them together is faster.
-    pub(crate) fn read_ahead(&self, names: &[&str]) -> Result<(), DatasetError> {
+    pub(crate) fn read_ahead(&self, names: &[&str]) -> Result<(), ImportError> {
         match self {
             ForeignTable::Columns(table) => table.read_ahead(names),
             _ => Ok(()),
@@ -297,7 +297,7 @@ impl ForeignTable {
         folder: &SourceFolder,
         names: &[&str],
         into: &mut BTreeMap<String, u64>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let ForeignTable::Columns(table) = self else {
             return Ok(());
         };
@@ -348,24 +348,23 @@ impl ForeignTable {
     }
 
     /// Pictures of the rows, by row number.
-    pub(crate) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, DatasetError> {
+    pub(crate) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, ImportError> {
         match self {
             ForeignTable::Columns(table) => table.pictures(names),
-            _ => Err(DatasetError::Table {
-                place: Place::file(self.path()),
-                problem: "a table of this form holds no pictures: name picture files by `column` or `pattern`, or an array of another \
-                    file by `array = { file = \"…\" }`"
-                    .to_owned(),
-            }),
+            _ => Err(ImportError::table(
+                self.path(),
+                "a table of this form holds no pictures: name picture files by `column` or `pattern`, or an array of another \
+                    file by `array = { file = \"…\" }`",
+            )),
         }
     }
 
     /// Error for a missing column `name`. Lists the existing ones.
-    pub(crate) fn no_column(&self, name: &str) -> DatasetError {
+    pub(crate) fn no_column(&self, name: &str) -> ImportError {
         if let ForeignTable::Columns(table) = self
             && let Some(problem) = table.why_absent(name)
         {
-            return DatasetError::table(self.place(0, name).without_row(), problem);
+            return ImportError::table(self.place(0, name).without_row(), problem);
         }
         let names = self.names();
         let guess = nearest(name, names.iter().map(String::as_str));
@@ -376,10 +375,7 @@ impl ForeignTable {
             true => "the table has no columns of its own".to_owned(),
             false => format!("the columns are {}", listed(&names)),
         };
-        DatasetError::Table {
-            place: Place::file(self.path()),
-            problem: format!("no column `{}`{guess}? {known}", shown(name)),
-        }
+        table_error!(self.path(), "no column `{}`{guess}? {known}", shown(name))
     }
 }
 /// Adds the column `name` to `place`, unless it is empty.

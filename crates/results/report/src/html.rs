@@ -37,7 +37,7 @@ use crate::scores::ScoreTable;
 
 /// Content of a report.
 #[derive(Clone, Copy, Debug)]
-pub struct Report<'a> {
+pub struct ReportPage<'a> {
     /// Title of the page: name of the scene or the recording.
     pub title: &'a str,
     /// Results.
@@ -52,7 +52,7 @@ pub struct Report<'a> {
 ///
 /// The page opens from disk without external requests. Its content security policy allows only its own style and script, by their digests.
 /// Equal results give equal bytes.
-pub fn report(report: &Report<'_>) -> String {
+pub fn report(report: &ReportPage<'_>) -> String {
     let studies = report.studies;
     if studies.is_empty() {
         let mut document = Document::new(report.title, Markup::default());

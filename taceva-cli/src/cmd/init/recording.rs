@@ -5,7 +5,7 @@ use std::path::Path;
 
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::quoted;
-use taceva_import::{ImportMap, MapDraft};
+use taceva_import::{ImportError, ImportMap, MapDraft};
 
 use super::{Interview, finish, target};
 use crate::args::InitTarget;
@@ -120,7 +120,9 @@ fn filled(draft: &str, path: &Path, interview: &mut Interview) -> anyhow::Result
 /// The reason why an import would refuse line `at` of a map, if it would.
 fn refusal(path: &Path, text: &str, at: usize) -> Option<String> {
     match ImportMap::parse(path, text) {
-        Err(DatasetError::Toml { place, problem }) if place.line == Some(at as u64 + 1) => {
+        Err(ImportError::Dataset(DatasetError::Text { place, problem }))
+            if place.line == Some(at as u64 + 1) =>
+        {
             // Another place of the same line may still be open.
             (!problem.contains('?')).then_some(problem)
         }

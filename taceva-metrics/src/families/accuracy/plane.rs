@@ -36,11 +36,23 @@ impl PlaneAxes {
     }
 }
 
-/// The planes there are: their names, axes and units.
-const PLANES: [(&str, [&str; 2], Unit); 2] = [
+/// Planes of two channels, which scores have and models do not predict: name, axes and unit.
+pub const PLANES: [(&str, [&str; 2], Unit); 2] = [
     ("Pxy", ["Px", "Py"], Unit::Millimetre),
     ("Fxy", ["Fx", "Fy"], Unit::Newton),
 ];
+
+/// Axes of the plane called `name`; `None` for a channel.
+pub fn plane_axes(name: &str) -> Option<[&'static str; 2]> {
+    let mut planes = PLANES.into_iter();
+    planes.find_map(|(plane, axes, _)| (plane == name).then_some(axes))
+}
+
+/// Plane of which `channel` is an axis.
+pub fn plane_of(channel: &str) -> Option<&'static str> {
+    let mut planes = PLANES.into_iter();
+    planes.find_map(|(plane, axes, _)| axes.contains(&channel).then_some(plane))
+}
 
 /// The planes that `channels` span.
 pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
@@ -201,8 +213,18 @@ impl Family for Plane {
 mod tests {
     use taceva_core::Channel;
 
+    use super::{PLANES, plane_axes, plane_of};
     use crate::evaluate::{Evaluator, Rows};
     use crate::pair::GREATEST;
+
+    #[test]
+    fn an_axis_names_its_plane_and_a_plane_its_axes() {
+        for (plane, axes, _) in PLANES {
+            assert_eq!(plane_axes(plane), Some(axes));
+            assert!(axes.iter().all(|axis| plane_of(axis) == Some(plane)));
+        }
+        assert_eq!((plane_axes("Pz"), plane_of("Fz")), (None, None));
+    }
 
     #[test]
     fn a_distance_beyond_usable_numbers_is_summed_all_the_same() {

@@ -11,7 +11,7 @@ pub(super) struct Intervals {
 }
 
 /// Longest median interval of a stream of frames, s. One picture every few seconds is the pace of a robot, not of a camera.
-const STREAM_S: f64 = 1.0;
+pub const STREAM_S: f64 = 1.0;
 /// Medians beyond which an interval is a gap.
 const GAP: f64 = 1.5;
 

@@ -11,6 +11,7 @@ use crate::exact::sorted_map::SortedMap;
 use crate::families::clustered_excess::{self, WithEnds};
 use crate::families::spatial::KIND;
 use crate::score::direction::Better;
+use crate::score::least::WELL_SAMPLED;
 use crate::score::range::Range;
 use crate::score::sensor_facts::Fact;
 use crate::score::theme::Theme;
@@ -47,9 +48,6 @@ pub(crate) static R_SPATIAL: Metric = Metric {
 
 /// Variant that decides verdicts.
 pub(super) const EXCESS: &str = "excess";
-
-/// Least samples of a bin for the variant `n_min_5`; the paper's least is one.
-const WELL_SAMPLED: u64 = 5;
 
 /// R = RN((σ_distance + σ_depth) / 2), σ the population STD of the bin means; variants are means of both axes too.
 pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) -> Numbers {

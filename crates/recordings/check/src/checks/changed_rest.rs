@@ -80,11 +80,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         return Vec::new();
     };
     let rows: Vec<usize> = rest.iter().map(|(row, _)| *row).collect();
-    vec![Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&rows),
-    )]
+    vec![evidence.found(Severity::Warning, message, &rows)]
 }
 
 /// The median; 0 for no numbers.

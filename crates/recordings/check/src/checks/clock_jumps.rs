@@ -51,11 +51,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             seconds(*row)
         );
         let rows: Vec<usize> = others.iter().map(|(_, row)| *row).collect();
-        found.push(Found::about(
-            Severity::Warning,
-            message,
-            evidence.names(&rows),
-        ));
+        found.push(evidence.found(Severity::Warning, message, &rows));
     }
     found.extend(set_within(evidence));
     let last = last_stamps(table);
@@ -138,11 +134,7 @@ fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str)
          paused",
         stream.usual_s
     );
-    Some(Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&rows),
-    ))
+    Some(evidence.found(Severity::Warning, message, &rows))
 }
 
 /// Finds a stated clock that contradicts the last stamps.

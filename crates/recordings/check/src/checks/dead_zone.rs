@@ -70,8 +70,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         100.0 * PRESSED,
         loaded.len()
     );
-    let names = evidence.names(&pressed);
-    vec![Found::about(Severity::Warning, message, names)]
+    vec![evidence.found(Severity::Warning, message, &pressed)]
 }
 
 /// Quantile 1 / `parts` of `numbers`; 0 if there are none.

@@ -113,11 +113,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         missing.longest,
         missing.period_s
     );
-    vec![Found::about(
-        severity,
-        message,
-        evidence.names(&missing.rows),
-    )]
+    vec![evidence.found(severity, message, &missing.rows)]
 }
 
 /// The period of the frames, s; `None` if the steps show none.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use taceva_core::Field;
+use taceva_metrics::STREAM_S;
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -19,8 +20,6 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum samples of a stream for a lag.
 const LEAST: usize = 50;
-/// Maximum median step of a stream, s.
-const STREAM_S: f64 = 1.0;
 /// Maximum lag searched, in steps, and as a fraction of the samples.
 const FURTHEST: usize = 60;
 const SHARE: usize = 4;

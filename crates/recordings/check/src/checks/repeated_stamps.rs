@@ -50,9 +50,5 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
          same row, {off}",
         different.len()
     );
-    vec![Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&shared),
-    )]
+    vec![evidence.found(Severity::Warning, message, &shared)]
 }

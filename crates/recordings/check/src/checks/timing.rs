@@ -1,5 +1,7 @@
 //! TAC008: the true rate, and impossible times.
 
+use taceva_metrics::STREAM_S;
+
 use super::dropped_frames::{Missing, missing};
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -16,8 +18,6 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples for a rate.
 const LEAST: usize = 10;
-/// Maximum median step of a stream, s; the metric `intrinsic` has the same limit.
-const STREAM_S: f64 = 1.0;
 /// Length above which a step is a gap, in usual steps, with a tolerance for rounding.
 const GAP: f64 = 3.0;
 const ROUNDING: f64 = 1e-6;
@@ -51,7 +51,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let repeated = rows_of(|seconds| seconds.abs() <= 0.0);
     let whole = times.iter().flatten().all(|time| time.fract().abs() <= 0.0);
     let warn = |message: &str, rows: &[usize]| {
-        Found::about(
+        evidence.found(
             Severity::Warning,
             match rows.len() {
                 1 => format!(
@@ -64,7 +64,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
                 ),
                 many => format!("{many} {message}"),
             },
-            evidence.names(rows),
+            rows,
         )
     };
     if let Some(sessions) = evidence.sessions {

@@ -63,11 +63,11 @@ impl Dataset {
         }
         let digest = self.table.digest();
         if digest != self.header.table.digest {
-            return Err(DatasetError::Digest {
-                path: self.path().join(layout::SAMPLES),
-                expected: self.header.table.digest,
-                found: digest,
-            });
+            return Err(DatasetError::digest(
+                &self.path().join(layout::SAMPLES),
+                self.header.table.digest,
+                digest,
+            ));
         }
         let digest = dataset_digest(
             digest,
@@ -77,11 +77,11 @@ impl Dataset {
             &self.header.extended,
         );
         if digest != self.header.digest {
-            return Err(DatasetError::Digest {
-                path: self.path().join(layout::HEADER),
-                expected: self.header.digest,
-                found: digest,
-            });
+            return Err(DatasetError::digest(
+                &self.path().join(layout::HEADER),
+                self.header.digest,
+                digest,
+            ));
         }
         let count = self.table.frames().iter().flatten().count() as u64;
         let promised = self.header.frames.as_ref().map_or(0, |frames| frames.count);
@@ -106,11 +106,7 @@ impl Dataset {
         let own = self.table.frames().iter().flatten().cloned();
         let own = own.chain(self.reference_entry());
         for FrameEntry { path, .. } in own.chain(self.entries_of_views()) {
-            check_relative(&path).map_err(|problem| DatasetError::Path {
-                place: None,
-                written: path.clone(),
-                problem: problem.to_owned(),
-            })?;
+            check_relative(&path).map_err(|problem| DatasetError::path(&path, problem))?;
         }
         Ok(())
     }
@@ -136,9 +132,5 @@ pub(super) fn check_digest(
     if expected == found {
         return Ok(());
     }
-    Err(DatasetError::Digest {
-        path: path.to_owned(),
-        expected,
-        found,
-    })
+    Err(DatasetError::digest(path, expected, found))
 }

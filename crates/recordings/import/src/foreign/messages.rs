@@ -9,9 +9,10 @@ use taceva_tables::{Cell, Recording, SampleForm, TopicTable};
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::pictures::{Ended, Picture, Pictures, Visit, guarded_visit};
 use super::said;
+use crate::error::ImportError;
 use crate::frame_names::FrameNames;
+use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::guarded;
-use taceva_dataset::{ChannelOrder, DatasetError};
 
 /// Message types with a picture in their field `data`: of ROS 2, ROS 1 and Foxglove.
 const PICTURES: [&str; 6] = [
@@ -208,13 +209,13 @@ impl Pictures for MessagePictures {
         sorted: &[u64],
         order: ChannelOrder,
         each: Visit<'_>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         guarded_visit(self.path(), || {
             self.table
                 .visit_pictures(&self.field, sorted, &mut |row, picture| {
                     let picture = kept(picture, order);
                     let picture = picture.map_err(|problem| {
-                        Ended::Picture(DatasetError::image(
+                        Ended::Picture(ImportError::image(
                             self.path(),
                             format!("message {row}: {problem}"),
                         ))

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use serde_json::json;
 use taceva_metrics::Better;
 
-use super::{Finding, Limit};
+use super::{Limit, LimitCheck};
 use crate::html::{Document, Triple, badge, triples};
 use crate::markup::{glossary, terms};
 use crate::number::numeral;
@@ -24,7 +24,7 @@ pub struct Acceptance<'a> {
     /// Tested sensor.
     pub study: &'a Study,
     /// One finding per limit.
-    pub findings: &'a [Finding],
+    pub findings: &'a [LimitCheck],
     /// Date of the test: `2026-11-22`.
     pub date: Option<&'a str>,
     /// Pictures of the sensor, if available.
@@ -67,7 +67,7 @@ impl Acceptance<'_> {
 
     /// JSON of [`ACCEPTANCE_SCHEMA`].
     pub fn json(&self) -> String {
-        let finding = |finding: &Finding| {
+        let finding = |finding: &LimitCheck| {
             json!({
                 "metric": finding.limit.metric,
                 "better": Better::of(&finding.limit.metric).map(Better::name),
@@ -170,7 +170,7 @@ fn ranges(study: &Study) -> String {
     ranges.join("; ")
 }
 
-fn row(finding: &Finding) -> [Cell; 9] {
+fn row(finding: &LimitCheck) -> [Cell; 9] {
     let limit = &finding.limit;
     let dash = || "–".to_owned();
     let interval = finding.ends.map_or_else(dash, |ends| {

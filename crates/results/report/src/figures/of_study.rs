@@ -10,11 +10,6 @@ mod spokes;
 use crate::figure::{Figure, FigureStyle};
 use crate::results::Study;
 
-/// The planes of the study.
-const PLANES: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
-/// The channels that a plane is the mean of.
-const AXES: [(&str, [&str; 2]); 2] = [("Pxy", ["Px", "Py"]), ("Fxy", ["Fx", "Fy"])];
-
 /// The figures of the study, each with the need of those that are absent.
 #[derive(Clone, Debug, Default)]
 pub struct StudyFigures {

@@ -2,6 +2,7 @@
 
 use crate::catalogue::find;
 use crate::number::fixed;
+use crate::variables::VARIABLES;
 
 /// The least and the greatest spacing of its gratings and their step, in micrometres, and the boards that its text counts.
 const GRATINGS_UM: [u32; 3] = [250, 1750, 50];
@@ -9,8 +10,6 @@ const BOARDS: u32 = 72;
 /// The light and the error of scene S4 in its text, as ratios to those of untouched light.
 const LIGHT: f64 = 7.0;
 const ERROR: f64 = 10.0;
-/// The planes of its table of lighting.
-const PLANES: [&str; 4] = ["Fxy", "Fz", "Pxy", "Pz"];
 /// Printed means of its table of lighting that differ from the mean of their rows, in percent.
 const MEANS: [(&str, f64); 2] = [("Fxy", 9.3), ("Pxy", 5.0)];
 
@@ -32,7 +31,7 @@ pub(super) fn all() -> Vec<String> {
 /// The error in bright light by its text and by its table.
 fn light() -> Option<String> {
     let sensor = find("ViTacTip")?;
-    let shares = PLANES
+    let shares = VARIABLES
         .iter()
         .filter_map(|channel| sensor.result("r_light.scene:S4", channel));
     let errors: Vec<f64> = shares

@@ -6,6 +6,7 @@ use crate::results::Study;
 use crate::scores::BARRED;
 use crate::scores::ScoreTable;
 use crate::table::{Align, Cell, Column, Row, Table, Words, latex_symbol};
+use crate::variables::VARIABLES;
 use taceva_metrics::Better;
 
 /// Table of the study, or the data that it lacks.
@@ -15,10 +16,8 @@ pub(super) struct Made {
     pub(super) needs: &'static str,
 }
 
-/// The planes in the order of the tables of robustness.
-const PLANES: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
-/// The planes in the order of the table of lighting.
-const LIT: [&str; 4] = ["Fxy", "Fz", "Pxy", "Pz"];
+/// Variables by quantity, in the order of the tables of calibration and lighting.
+const BLOCKS: [[&str; 2]; 2] = [["Fxy", "Fz"], ["Pxy", "Pz"]];
 /// Scenes of light.
 const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];
 
@@ -136,7 +135,7 @@ impl Sheet<'_> {
         let first = ["sensor", "variable"].map(column);
         let caption = "Table II. Calibration by sensor and variable (MAE in N and mm).";
         let mut table = self.table(caption, first.into_iter().chain(columns));
-        for block in [["Fxy", "Fz"], ["Pxy", "Pz"]] {
+        for block in BLOCKS {
             for (at, name) in self.names().iter().enumerate() {
                 for (line, channel) in block.into_iter().enumerate() {
                     let name = if line == 0 { name.as_str() } else { "" };
@@ -160,7 +159,7 @@ impl Sheet<'_> {
     fn of_planes(&self, metric: &str, caption: &str) -> Table {
         let sensors = self.names().iter().map(|name| number_column(name));
         let mut table = self.table(caption, [column("plane")].into_iter().chain(sensors));
-        for channel in PLANES {
+        for channel in VARIABLES {
             let plane = Words::new(channel).latex(latex_symbol(channel));
             let cells = (0..self.studies.len())
                 .map(|at| self.cell(at, metric, channel, Digits::Significant(3)));
@@ -176,8 +175,9 @@ impl Sheet<'_> {
     /// Table IV: a row a scene and their mean, a column a plane and sensor that light reaches.
     fn lighting(&self) -> Table {
         let lit = self.with("r_light");
-        let pairs = LIT
+        let pairs = BLOCKS
             .iter()
+            .flatten()
             .flat_map(|channel| lit.iter().map(move |at| (*channel, *at)));
         let pairs: Vec<(&str, usize)> = pairs.collect();
         let columns = pairs.iter().map(|(channel, at)| {
@@ -211,13 +211,13 @@ impl Sheet<'_> {
 
     /// Table V: a row a sensor, a column a plane.
     fn repeatability(&self) -> Table {
-        let planes = PLANES.map(|channel| {
+        let planes = VARIABLES.map(|channel| {
             Column::new(Words::new(channel).latex(latex_symbol(channel))).align(Align::Right)
         });
         let caption = "Table V. Repeatability by plane (mm, N; less is better).";
         let mut table = self.table(caption, [column("sensor")].into_iter().chain(planes));
         for (at, name) in self.names().iter().enumerate() {
-            let cells = PLANES
+            let cells = VARIABLES
                 .map(|channel| self.cell(at, "repeatability", channel, Digits::Significant(3)));
             table.rows.push(Row {
                 cells: [Cell::text(name.as_str())]
@@ -291,7 +291,7 @@ mod tests {
             ..Study::default()
         };
         for sensor in super::super::SENSORS {
-            for channel in PLANES {
+            for channel in VARIABLES {
                 for metric in ["mae", "r2", "smape", "r_spatial"] {
                     let found = super::super::beside::printed(&study(sensor), metric, channel);
                     assert!(found.is_some(), "{sensor} {metric} {channel}");

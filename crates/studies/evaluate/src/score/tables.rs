@@ -248,7 +248,7 @@ fn rows_by_key<'a>(
 /// The error for a row whose key is empty.
 ///
 /// # Errors
-/// [`EvaluateError::Dataset`] if the table has no column called `name`.
+/// [`EvaluateError::Table`] if the table has no column called `name`.
 pub(super) fn without_key(
     table: &CsvTable,
     row: usize,
