@@ -1,6 +1,7 @@
 //! Finds the frames of a table.
 
 mod picture_lines;
+mod stems;
 
 use std::path::Path;
 
@@ -34,17 +35,20 @@ pub(super) struct FrameLines {
     pub(super) drop: Option<String>,
 }
 
-/// First column whose cells name pictures.
-pub(super) fn file_column<'t>(
+/// True if rows of `table` hold or name pictures.
+pub(super) fn has_pictures(
     folder: &SourceFolder,
-    table: &'t SeenTable<'_>,
-) -> Option<FileColumn<'t>> {
-    file_columns(folder, table).into_iter().next()
+    groups: &[FileGroup],
+    table: &SeenTable<'_>,
+) -> bool {
+    !table.pictures.is_empty()
+        || !file_columns(folder, table).is_empty()
+        || stems::of(folder, groups, table).is_some()
 }
 
 /// Column whose cells name pictures.
 #[derive(Clone, Copy)]
-pub(super) struct FileColumn<'t> {
+struct FileColumn<'t> {
     column: &'t SeenColumn,
     /// True if cells are relative to the source folder instead of the table's folder.
     is_below_source: bool,
@@ -207,6 +211,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
 /// Frames of `main`, one entry for each view. Clips are handled by their own function.
 pub(super) fn of(
     folder: &SourceFolder,
+    groups: &[FileGroup],
     main: &SeenTable<'_>,
     tables: &[SeenTable<'_>],
 ) -> Vec<FrameLines> {
@@ -276,7 +281,7 @@ pub(super) fn of(
     match (views.is_empty(), tables.is_empty()) {
         (false, _) => views,
         (true, false) => vec![beside(0)],
-        (true, true) => Vec::new(),
+        (true, true) => stems::of(folder, groups, main).into_iter().collect(),
     }
 }
 
