@@ -21,7 +21,7 @@ pub(super) fn of(
     main: &SeenTable<'_>,
 ) -> Vec<FrameLines> {
     // LeRobot names clips by feature; other clips are no pictures of the table.
-    if main.group.first() == "meta/info.json" {
+    if main.is_lerobot() {
         return Vec::new();
     }
     let Some(clips) = groups.iter().find(|group| is_clip(&group.ending)) else {

@@ -9,7 +9,7 @@ use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
 use super::views::{Sided, sided};
 use crate::source_folder::SourceFolder;
-use picture_lines::in_array;
+use picture_lines::{in_array, in_table};
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
@@ -244,29 +244,8 @@ pub(super) fn of(
     if let Some(lines) = by_end_of_path(folder, main) {
         return vec![lines];
     }
-    if let Some(picture) = main.pictures.first() {
-        let names: Vec<&str> = main.pictures.iter().map(|own| own.name.as_str()).collect();
-        let mut views = of_views(&names, |at| in_array(&main.pictures[at], None, &[]));
-        let is_of = |name: &str, views: &[FrameLines]| {
-            let written = format!("{name:?}");
-            let mut lines = views.iter().flat_map(|view| &view.lines);
-            lines.any(|line| line.contains(&written))
-        };
-        let others: Vec<&str> = names
-            .iter()
-            .copied()
-            .filter(|name| !is_of(name, &views))
-            .collect();
-        return match views.first_mut() {
-            None => vec![in_array(picture, None, &main.pictures[1..])],
-            Some(first) => {
-                if !others.is_empty() {
-                    let others = format!("# Other pictures of a row: {}", others.join(", "));
-                    first.lines.insert(0, others);
-                }
-                views
-            }
-        };
+    if !main.pictures.is_empty() {
+        return in_table(main);
     }
     let with_pictures =
         |table: &&SeenTable<'_>| table.is_single_array && !table.pictures.is_empty();
@@ -287,12 +266,15 @@ pub(super) fn of(
 
 /// Frame lines of the `names` that are views of one another, made by `lines`.
 pub(super) fn of_views(names: &[&str], lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
-    let views = sided(names)
-        .into_iter()
-        .map(|Sided { at, view }| FrameLines {
-            view: Some(view),
-            ..lines(at)
-        });
+    of_sides(sided(names), lines)
+}
+
+/// Frame lines of views, made by `lines`.
+fn of_sides(sides: Vec<Sided>, lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
+    let views = sides.into_iter().map(|Sided { at, view }| FrameLines {
+        view: Some(view),
+        ..lines(at)
+    });
     views.collect()
 }
 

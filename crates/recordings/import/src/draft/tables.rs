@@ -227,6 +227,11 @@ impl<'g> SeenTable<'g> {
         self.written.contains("/*\"") && self.group.ending != "json"
     }
 
+    /// True for a LeRobot dataset.
+    pub(super) fn is_lerobot(&self) -> bool {
+        self.group.first() == "meta/info.json"
+    }
+
     /// Number of channels in its columns.
     pub(super) fn channels(&self) -> usize {
         self.columns.iter().map(SeenColumn::channels).sum()
