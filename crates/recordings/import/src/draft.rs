@@ -157,6 +157,7 @@ fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
         true => {
             draft.contains("\n[columns]\n")
                 && !draft.contains("from = \"?\"")
+                && !draft.contains("cut = \"?\"")
                 && draft.contains("unit = \"")
         }
         false => preset.map(folder).is_ok(),

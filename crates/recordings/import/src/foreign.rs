@@ -37,13 +37,13 @@ use taceva_tables::{ArrowTable, DepthCodes, ParquetTable};
 
 pub(crate) use arrays::{ArrayPictures, stated};
 pub(crate) use clips::ClipPictures;
-pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind, Stated};
+pub(crate) use columns::{BeforeCut, ColumnTable, PictureColumn, PictureKind, Stated};
 pub(crate) use delimited::DelimitedTable;
 pub(crate) use depth_pixels::DepthPixels;
 pub(crate) use file_series::SeveralPictures;
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
-pub(crate) use messages::{is_recording, topics};
+pub(crate) use messages::{Topics, is_recording};
 pub(crate) use pictures::{Picture, Pictures};
 
 /// Table of any form.
@@ -81,6 +81,8 @@ pub(crate) enum TableForm {
     /// Messages of one topic of a recording: MCAP, rosbag2 or a ROS 1 bag.
     Messages {
         topic: Option<String>,
+        /// True to read a recording that was cut up to the cut.
+        is_to_cut: bool,
     },
     /// LeRobot folder, version 2.1 or 3.0.
     LeRobot,
@@ -127,9 +129,9 @@ impl ForeignTable {
             TableForm::WebDataset => {
                 ForeignTable::Columns(ColumnTable::open(path, || webdataset::Shard::open(path))?)
             }
-            TableForm::Messages { topic } => {
+            TableForm::Messages { topic, is_to_cut } => {
                 ForeignTable::Columns(ColumnTable::open(path, || {
-                    messages::MessageRows::open(path, topic.as_deref())
+                    messages::MessageRows::open(path, topic.as_deref(), *is_to_cut)
                 })?)
             }
             TableForm::Arrays {

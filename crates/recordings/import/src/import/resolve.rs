@@ -20,7 +20,7 @@ use taceva_core::Clock;
 
 use super::map::{FrameNames, ImportMap, OWN_ROW};
 use super::warning::ImportWarning;
-use crate::foreign::{ForeignTable, TableForm};
+use crate::foreign::{BeforeCut, ForeignTable, TableForm};
 use crate::source_folder::SourceFolder;
 use cell::cell_of;
 use columns::{base_of, mentioned};
@@ -117,6 +117,7 @@ pub(super) fn resolve(
     // The time column may be in a joined table.
     sources.read_times()?;
     sources.warn_of_grouped_digits();
+    sources.warn_of_cuts(folder);
     let coordinate_frames = sources.coordinate_frames()?;
     let class_cells = classes::of(&sources)?;
     let rows = sources.main.rows();
@@ -210,6 +211,24 @@ impl Sources<'_> {
                     example,
                     cells,
                 });
+            }
+        }
+    }
+
+    /// Warns of recordings of which only the messages before a cut are read.
+    fn warn_of_cuts(&mut self, folder: &SourceFolder) {
+        let joined = self.joined.iter().flat_map(Joined::tables);
+        for table in std::iter::once(&self.main).chain(joined) {
+            if let ForeignTable::Columns(columns) = table
+                && let Some(BeforeCut { messages, end }) = columns.before_cut()
+            {
+                let file = folder.inside(table.path(), "");
+                let warning = ImportWarning::CutRecording {
+                    file,
+                    messages,
+                    end,
+                };
+                self.warnings.push(warning);
             }
         }
     }

@@ -102,6 +102,11 @@ impl<'a> Joined<'a> {
         &self.map.name
     }
 
+    /// Tables from which rows are taken.
+    pub(super) fn tables(&self) -> impl Iterator<Item = &ForeignTable> {
+        self.tables.iter().map(|candidates| &candidates.table)
+    }
+
     pub(super) fn is_matched(&self, row: usize) -> bool {
         self.matches[row].at != At::Nowhere
     }
