@@ -135,8 +135,12 @@ pub(super) fn channels(
             .map(|(_, unit)| *unit);
         let declared = declared.or_else(|| six(name).map(|channel| channel.unit()));
         let channel = match periods.iter().find(|(known, _)| known == name) {
-            Some((_, period)) => Channel::named(name, declared.unwrap_or(Unit::Degree))
-                .and_then(|channel| channel.with_period(*period)),
+            Some((_, period)) => {
+                let unit = declared.unwrap_or_else(|| period.own_unit(name));
+                let degrees = period.degrees(name, unit);
+                let degrees = degrees.map_err(EvaluateError::Request)?;
+                Channel::named(name, unit).and_then(|channel| channel.with_period(degrees))
+            }
             None => Channel::named(name, declared.unwrap_or(Unit::One)),
         };
         found.push(channel.map_err(|error| wrong(prediction, error.to_string()))?);
