@@ -16,6 +16,7 @@ use super::table_parts::TableParts;
 use super::{ScoreRequest, parquet_parts};
 use crate::error::EvaluateError;
 use crate::note::Note;
+use crate::rows::DISTANCE;
 
 /// Pairing of rows.
 #[derive(Debug)]
@@ -116,7 +117,10 @@ pub(super) fn channels(
             || KEY_NAMES.contains(&name)
             || keys.names().any(|key| key == name)
     };
-    let is_channel = |name: &&String| is_declared(request, name) || !is_beside(name);
+    // Distances that `predict` writes are no predictions, unless the truth has such a column.
+    let is_distance = |name: &str| name == DISTANCE && !truth.has(name);
+    let is_channel =
+        |name: &&String| is_declared(request, name) || !(is_beside(name) || is_distance(name));
     let six = |name: &str| {
         Channel::SIX
             .into_iter()
