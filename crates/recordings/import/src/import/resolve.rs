@@ -26,6 +26,7 @@ use cell::cell_of;
 use columns::{base_of, mentioned};
 use join::Joined;
 use taceva_dataset::{DatasetError, Place};
+use taceva_video::Decoders;
 use times::TextTimes;
 
 pub(super) use classes::ClassCells;
@@ -72,6 +73,8 @@ struct Sources<'a> {
     /// Time column in seconds, if the table writes times as text.
     times: Option<Vec<String>>,
     warnings: Vec<ImportWarning>,
+    /// Programs by which the times of clips are read.
+    decoders: &'a Decoders,
 }
 
 /// Resolves the table at `path` by `map`.
@@ -79,8 +82,9 @@ pub(super) fn resolve(
     map: &ImportMap,
     folder: &SourceFolder,
     path: &Path,
+    decoders: &Decoders,
 ) -> Result<Resolved, DatasetError> {
-    let main = ForeignTable::read(path, &map.form)?;
+    let main = ForeignTable::read_by(path, &map.form, decoders)?;
     let inside = path.strip_prefix(folder.path()).unwrap_or(path);
     let mut sources = Sources {
         map,
@@ -94,6 +98,7 @@ pub(super) fn resolve(
         joined: Vec::new(),
         times: None,
         warnings: Vec::new(),
+        decoders,
     };
     let names = mentioned(map);
     let of_signals = map.signals.iter().flat_map(|signals| signals.columns());
