@@ -350,6 +350,16 @@ mod tests {
     }
 
     #[test]
+    fn an_angle_in_radians_repeats_after_as_many_radians() {
+        let yaw = Channel::named("yaw_rad", Unit::Radian).and_then(|yaw| yaw.with_period(360));
+        let yaw = yaw.expect("an angle");
+        let turn = std::f64::consts::TAU;
+        assert!((yaw.nearest(-3.0, 3.0) - (turn - 3.0)).abs() < 1e-12);
+        assert!((yaw.nearest(3.0, -3.0) - (3.0 - turn)).abs() < 1e-12);
+        assert_eq!(yaw.period(), Some(360));
+    }
+
+    #[test]
     fn names_that_would_break_a_table_are_refused() {
         for name in ["", "1x", "a b", "a,b", "é", &"x".repeat(33)] {
             assert!(
