@@ -17,8 +17,8 @@ pub struct ScoreRequest {
     pub prediction: PathBuf,
     /// Units of channels besides the six; others have the unit 1.
     pub units: Vec<(String, Unit)>,
-    /// Periods of angles: values that differ by a period are equal. A channel named only here is in radians if its name ends in `_rad` or the
-    /// period is a multiple of π, else in degrees.
+    /// Periods of angles: values that differ by a period are equal. A channel named only here is in degrees, or in radians by its name (`_rad`)
+    /// or by a multiple of π.
     pub periods: Vec<(String, Period)>,
     /// The key that pairs rows; `None` to find it by name.
     pub key: Option<RowKey>,
