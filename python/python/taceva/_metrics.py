@@ -41,6 +41,7 @@ class TactileMetrics:
         Units of channels besides the six, such as ``{"Mz": "N·mm"}``; ``1`` by default.
     periods
         Periods of angles in degrees, such as ``{"yaw": 360}``: 359 and 1 are 2 apart. A channel named only here is in degrees.
+        The period of a channel of unit ``rad`` is stated in degrees too.
     independent
         True for independent samples, whose intervals are by sample. If false and without points there are no intervals.
     fields

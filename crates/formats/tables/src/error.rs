@@ -36,6 +36,24 @@ pub enum TableError {
         /// The content found and the content expected.
         problem: String,
     },
+    /// A recording that ends before its index: it was truncated, or its recorder did not close it.
+    #[error(
+        "{}{place}: {}; {messages} complete messages are before the cut: {remedy}",
+        core_shown(path),
+        core_shown(problem)
+    )]
+    Cut {
+        /// The file.
+        path: PathBuf,
+        /// Location at which the cut shows.
+        place: Place,
+        /// The missing content.
+        problem: String,
+        /// Number of messages that [`Recording::open_to_cut`](crate::Recording::open_to_cut) reads.
+        messages: u64,
+        /// Command of another program that recovers them.
+        remedy: &'static str,
+    },
     /// Content that the format allows but this crate does not read.
     #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     Unsupported {
@@ -96,6 +114,7 @@ impl TableError {
             TableError::Io { path, .. }
             | TableError::Write { path, .. }
             | TableError::Damaged { path, .. }
+            | TableError::Cut { path, .. }
             | TableError::Unsupported { path, .. }
             | TableError::TooLarge { path, .. }
             | TableError::Missing { path, .. }

@@ -74,6 +74,9 @@ pub(crate) trait MessageStore: fmt::Debug + Send + Sync {
     /// The channels, by number.
     fn channels(&self) -> &BTreeMap<u32, Channel>;
 
+    /// End of the complete records of a file that was cut, byte; `None` for a whole one.
+    fn cut_at(&self) -> Option<u64>;
+
     /// All messages of `channels`, by time; at equal times in the order of the file.
     fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError>;
 

@@ -10,9 +10,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::error::{Place, TableError};
+use crate::mcap::{self, McapFile};
 use crate::message::MessageStore;
+use crate::rosbag1::{self, Rosbag1};
+use crate::rosbag2::Rosbag2;
 use crate::source::Source;
-use crate::{mcap, rosbag1, rosbag2, sqlite};
+use crate::sqlite;
 
 pub use self::table::TopicTable;
 
@@ -54,11 +57,39 @@ impl Recording {
     /// The recording at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no recording, is truncated or has a wrong checksum.
+    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no recording or has a wrong checksum.
+    /// [`TableError::Cut`] if it is truncated or was not closed.
     /// [`TableError::Unsupported`] if it is of a later version, compressed as a whole, or has messages in a separate log.
     /// [`TableError::TooLarge`] if its summary exceeds the limit.
     pub fn open(path: &Path) -> Result<Recording, TableError> {
-        let store = store(Source::new(path)?)?;
+        Ok(Recording::of_store(store(Source::new(path)?, false)?))
+    }
+
+    /// As [`open`](Self::open), but of a recording that was cut, or not closed, the complete messages before the cut.
+    ///
+    /// Messages of an incomplete chunk are read if it is a plain chunk of a ROS 1 bag. Whole recordings are read by their index.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open); [`TableError::Cut`] only if no message is complete.
+    ///
+    /// ```
+    /// use taceva_tables::{Recording, TableError};
+    /// # let whole = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses.mcap");
+    /// # let folder = tempfile::tempdir()?;
+    /// # let path = folder.path().join("cut.mcap");
+    /// let bytes = std::fs::read(whole)?;
+    /// std::fs::write(&path, &bytes[..bytes.len() - 40])?;
+    /// assert!(matches!(Recording::open(&path), Err(TableError::Cut { messages: 4, .. })));
+    /// let recording = Recording::open_to_cut(&path)?;
+    /// assert!(recording.cut_at().is_some());
+    /// assert_eq!(recording.table("/ft/wrench")?.rows(), 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn open_to_cut(path: &Path) -> Result<Recording, TableError> {
+        Ok(Recording::of_store(store(Source::new(path)?, true)?))
+    }
+
+    fn of_store(store: Arc<dyn MessageStore>) -> Recording {
         let mut topics: BTreeMap<&str, Topic> = BTreeMap::new();
         for channel in store.channels().values() {
             let schema = channel.schema.as_ref();
@@ -71,12 +102,17 @@ impl Recording {
             topic.count = topic.count.saturating_add(channel.count);
         }
         let topics = topics.into_values().collect();
-        Ok(Recording { store, topics })
+        Recording { store, topics }
     }
 
     /// The file.
     pub fn path(&self) -> &Path {
         self.store.source().path()
+    }
+
+    /// End of the complete records of a recording that was cut, as a byte offset; `None` for a whole recording.
+    pub fn cut_at(&self) -> Option<u64> {
+        self.store.cut_at()
     }
 
     /// The topics, by name.
@@ -106,17 +142,31 @@ impl Recording {
     }
 }
 
-/// Opens the reader of the format that the first bytes of the file indicate.
-fn store(source: Source) -> Result<Arc<dyn MessageStore>, TableError> {
+/// Opens a file, or its part before a cut if that is requested and has a message.
+fn opened<S: MessageStore + 'static>(
+    source: Source,
+    is_to_cut: bool,
+    open: fn(Source) -> Result<S, TableError>,
+    to_cut: fn(Source) -> Result<S, TableError>,
+) -> Result<Arc<dyn MessageStore>, TableError> {
+    let store = match open(source.clone()) {
+        Err(TableError::Cut { messages: 1.., .. }) if is_to_cut => to_cut(source)?,
+        other => other?,
+    };
+    Ok(Arc::new(store))
+}
+
+/// Opens the reader of the format that the first bytes of the file indicate, of a file that was cut up to the cut if requested.
+fn store(source: Source, is_to_cut: bool) -> Result<Arc<dyn MessageStore>, TableError> {
     const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
     let mut file = source.open()?;
     let begin = source.bytes(&mut file, 0, source.length().min(16), 16)?;
     let begins = |mark: &[u8]| begin.starts_with(mark);
     if begins(&sqlite::MAGIC) {
-        return Ok(Arc::new(rosbag2::Rosbag2::open(source)?));
+        return opened(source, is_to_cut, Rosbag2::open, Rosbag2::open_to_cut);
     }
     if begins(&rosbag1::MAGIC) {
-        return Ok(Arc::new(rosbag1::Rosbag1::open(source)?));
+        return opened(source, is_to_cut, Rosbag1::open, Rosbag1::open_to_cut);
     }
     if begins(b"#ROSBAG V") && rosbag1::MAGIC.starts_with(&begin) {
         return Err(source.damaged(
@@ -138,5 +188,5 @@ fn store(source: Source) -> Result<Arc<dyn MessageStore>, TableError> {
         let problem = "not a recording: it begins like neither MCAP nor SQLite nor a ROS 1 bag";
         return Err(source.damaged(Place::byte(0), problem));
     }
-    Ok(Arc::new(mcap::McapFile::open(source)?))
+    opened(source, is_to_cut, McapFile::open, McapFile::open_to_cut)
 }

@@ -50,9 +50,37 @@ impl Rosbag2 {
     /// The recording in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] for a later schema or no recording; [`TableError::Damaged`] for an invalid page or row.
+    /// [`TableError::Unsupported`] for a later schema or no recording; [`TableError::Damaged`] for an invalid page or row;
+    /// [`TableError::Cut`] if pages are missing at its end.
     pub(crate) fn open(source: Source) -> Result<Rosbag2, TableError> {
         let database = Database::open(source)?;
+        if database.cut_at().is_none() {
+            return Rosbag2::of(database);
+        }
+        let (path, problem) = (
+            database.source().path().to_owned(),
+            database.missing_pages(),
+        );
+        // If a description is behind the cut, no message can be read.
+        let counts = Rosbag2::of(database).map(|bag| bag.channels.into_values());
+        Err(TableError::Cut {
+            path,
+            place: Place::byte(0).in_name("header"),
+            problem,
+            messages: counts.map_or(0, |channels| channels.map(|channel| channel.count).sum()),
+            remedy: "recover them with `sqlite3 FILE .recover | sqlite3 OUT.db3`",
+        })
+    }
+
+    /// The complete messages in the pages of the database in `source`, which was cut.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub(crate) fn open_to_cut(source: Source) -> Result<Rosbag2, TableError> {
+        Rosbag2::of(Database::open(source)?)
+    }
+
+    fn of(database: Database) -> Result<Rosbag2, TableError> {
         check_schema(&database)?;
         let messages = table(&database, "messages", &OF_MESSAGES, 4)?.clone();
         let mut bag = Rosbag2 {
@@ -94,8 +122,12 @@ impl Rosbag2 {
         each: &mut dyn FnMut(u32, Entry) -> Result<(), TableError>,
     ) -> Result<(), TableError> {
         let columns = self.columns();
+        let is_cut = self.cut_at().is_some();
         self.database
             .each_row(&self.messages, &mut |place, record| {
+                if is_cut && !record.is_before_cut()? {
+                    return Ok(());
+                }
                 let (channel, log_time) = self.head(record, columns)?;
                 let entry = Entry {
                     log_time,
@@ -138,6 +170,10 @@ impl MessageStore for Rosbag2 {
 
     fn channels(&self) -> &BTreeMap<u32, Channel> {
         &self.channels
+    }
+
+    fn cut_at(&self) -> Option<u64> {
+        self.database.cut_at()
     }
 
     fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError> {

@@ -32,7 +32,10 @@ pub(crate) struct Database {
     page_bytes: u32,
     /// Usable size of a page, bytes.
     usable: u32,
+    /// Number of pages in the file.
     pages: u32,
+    /// Number of pages that its header announces.
+    announced: u32,
     tables: Vec<SqliteTable>,
 }
 
@@ -58,7 +61,7 @@ impl Database {
     /// The database in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if a log beside it has pending changes; [`TableError::Damaged`] if it is truncated or no database.
+    /// [`TableError::Unsupported`] if a log beside it has pending changes; [`TableError::Damaged`] if it is no database.
     pub(crate) fn open(source: Source) -> Result<Database, TableError> {
         check_logs(&source)?;
         let mut file = source.open()?;
@@ -106,18 +109,13 @@ impl Database {
         let whole = u32::try_from(source.length() / u64::from(page_bytes)).unwrap_or(u32::MAX);
         // The page count in the header is valid only if the version that wrote it also made the last change.
         let stated = Some(four(28)).filter(|pages| *pages > 0 && four(24) == four(92));
-        let pages = stated.unwrap_or(whole);
-        if pages > whole {
-            return Err(damaged(format!(
-                "{pages} pages of {page_bytes} bytes are announced, but the file has {}: it is cut short",
-                source.length()
-            )));
-        }
+        let announced = stated.unwrap_or(whole);
         let mut database = Database {
             source,
             page_bytes,
             usable,
-            pages,
+            pages: announced.min(whole),
+            announced,
             tables: Vec::new(),
         };
         database.tables = database.read_tables()?;
@@ -126,6 +124,21 @@ impl Database {
 
     pub(crate) fn source(&self) -> &Source {
         &self.source
+    }
+
+    /// End of the last page of a file that has fewer pages than it announces; `None` for a whole one.
+    pub(crate) fn cut_at(&self) -> Option<u64> {
+        (self.pages < self.announced).then(|| u64::from(self.pages) * u64::from(self.page_bytes))
+    }
+
+    /// Description of the missing pages.
+    pub(crate) fn missing_pages(&self) -> String {
+        format!(
+            "{} pages of {} bytes are announced, but the file has {}: it is cut short",
+            self.announced,
+            self.page_bytes,
+            self.source.length()
+        )
     }
 
     /// The tables, in the order of creation.

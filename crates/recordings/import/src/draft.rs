@@ -82,8 +82,9 @@ impl MapDraft {
         }
         let bare = groups.iter().find(|group| clips::is_clip(&group.ending));
         let most = pictures.iter().max_by_key(|group| group.paths.len());
-        let main = main_table(&source, &tables);
-        let array = main.filter(|main| most.is_some_and(|most| are_beside(&source, main, most)));
+        let main = main_table(&source, &groups, &tables);
+        let array =
+            main.filter(|main| most.is_some_and(|most| are_beside(&source, &groups, main, most)));
         notes.extend(array.map(notes::array_beside_pictures));
         let text = match main.filter(|_| array.is_none()) {
             Some(main) => {
@@ -156,6 +157,7 @@ fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
         true => {
             draft.contains("\n[columns]\n")
                 && !draft.contains("from = \"?\"")
+                && !draft.contains("cut = \"?\"")
                 && draft.contains("unit = \"")
         }
         false => preset.map(folder).is_ok(),
@@ -164,8 +166,13 @@ fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
 }
 
 /// True if the pictures are the samples and `table` only accompanies them, such as a mean background.
-fn are_beside(folder: &SourceFolder, table: &SeenTable<'_>, pictures: &FileGroup) -> bool {
-    let has_pictures = !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
+fn are_beside(
+    folder: &SourceFolder,
+    groups: &[FileGroup],
+    table: &SeenTable<'_>,
+    pictures: &FileGroup,
+) -> bool {
+    let has_pictures = frames::has_pictures(folder, groups, table);
     let is_other =
         table.is_single_array || (table.own_taxels().is_empty() && table.time().is_none());
     !has_pictures
@@ -178,6 +185,7 @@ fn are_beside(folder: &SourceFolder, table: &SeenTable<'_>, pictures: &FileGroup
 /// Table whose rows are the samples: prefers tables that name pictures, then tables of taxels, then the most channels.
 fn main_table<'t, 'g>(
     folder: &SourceFolder,
+    groups: &[FileGroup],
     tables: &'t [SeenTable<'g>],
 ) -> Option<&'t SeenTable<'g>> {
     let candidates = tables
@@ -186,10 +194,8 @@ fn main_table<'t, 'g>(
     candidates
         .filter(|table| table.rows > 0 && !table.columns.is_empty())
         .max_by_key(|table| {
-            let has_pictures =
-                !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
             (
-                has_pictures,
+                frames::has_pictures(folder, groups, table),
                 !table.is_single_array && !table.own_taxels().is_empty(),
                 table.channels(),
                 table.group.paths.len(),

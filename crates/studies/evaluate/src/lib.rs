@@ -71,7 +71,8 @@ pub use rows::{DataPart, Divided, Need, require_samples, usable};
 pub use run_layout::{PLANS, RECORDINGS};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
-    RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, score_in_one_pass,
+    Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError,
+    score_in_one_pass,
 };
 pub use skill::{skill, with_skill};
 pub use state_file::{STATE_SCHEMA, StateFile};

@@ -29,6 +29,9 @@ pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
     Field::Intensity,
 ];
 
+/// Column of the distances of pictures from the training part, as beside a recording with live predictions.
+pub(crate) const DISTANCE: &str = "distance";
+
 /// A part of a dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataPart {

@@ -7,6 +7,7 @@ mod key_parts;
 mod likely_key;
 mod one_pass;
 mod parquet_parts;
+mod period;
 mod request;
 mod row_key;
 mod row_pairs;
@@ -43,6 +44,7 @@ use row_pairs::PairedRows;
 use tables::Pairing;
 
 pub use one_pass::score_in_one_pass;
+pub use period::Period;
 pub use request::ScoreRequest;
 pub use row_key::RowKey;
 pub use shard::{Shard, ShardError};

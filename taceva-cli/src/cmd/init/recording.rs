@@ -166,6 +166,9 @@ impl Place {
             ("unit", None) => "unit of these times, such as s, ms, us or ns".to_owned(),
             ("from", Some(subject)) => format!("column that holds {subject}"),
             ("model", None) => "name of the sensor".to_owned(),
+            ("cut", _) => {
+                "keep, to read the messages before the cut of the recording, or refuse".to_owned()
+            }
             (key, Some(subject)) => format!("{key} of {subject}"),
             (key, None) => key.to_owned(),
         }
@@ -217,6 +220,8 @@ mod tests {
             question("model = \"?\"").as_deref(),
             Some("name of the sensor")
         );
+        let cut = question("table = { file = \"a.bag\", cut = \"?\", rows = \"/ft\" }   # 8 rows");
+        assert!(cut.is_some_and(|cut| cut.starts_with("keep, to read")));
         assert_eq!(
             question("# Replace every \"?\": an import refuses it"),
             None

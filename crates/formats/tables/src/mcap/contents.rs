@@ -71,11 +71,24 @@ fn check_ends(source: &Source) -> Result<u64, TableError> {
     }
     let end = source.length() - MAGIC.len() as u64;
     if source.bytes(&mut file, end, 8, 8)? != MAGIC {
-        let problem = "cut short or not closed: it does not end with the magic bytes of MCAP; recover the complete messages with `mcap \
-            recover`";
-        return Err(source.damaged(Place::byte(end), problem));
+        return Err(refusal(source, Place::byte(end)));
     }
     Ok(end - FOOTER)
+}
+
+/// Error for a file that was cut or not closed, with the number of messages before the cut.
+fn refusal(source: &Source, place: Place) -> TableError {
+    match walk_to_cut(source) {
+        Ok((contents, _)) => TableError::Cut {
+            path: source.path().to_owned(),
+            place,
+            problem: "cut short or not closed: it does not end with the magic bytes of MCAP"
+                .to_owned(),
+            messages: contents.counts.values().sum(),
+            remedy: "recover the complete messages with `mcap recover`",
+        },
+        Err(error) => error,
+    }
 }
 
 /// Checks the checksum over all data records, if it is stated.
@@ -178,13 +191,26 @@ fn summary(
 
 /// The contents from all records up to the end of the data; every chunk is unpacked once.
 pub(super) fn walk(source: &Source) -> Result<Contents, TableError> {
-    let mut chunks = Chunks::new(source)?;
     let end = source.length() - MAGIC.len() as u64;
+    walk_records(source, end, false).map(|(contents, _)| contents)
+}
+
+/// The contents from the complete records of a file that was cut, with the end of these records.
+pub(super) fn walk_to_cut(source: &Source) -> Result<(Contents, u64), TableError> {
+    walk_records(source, source.length(), true)
+}
+
+fn walk_records(source: &Source, end: u64, is_to_cut: bool) -> Result<(Contents, u64), TableError> {
+    let mut chunks = Chunks::new(source)?;
     let mut contents = Contents::default();
     let mut loose = 0_usize;
     let mut at = MAGIC.len() as u64;
     while at < end {
-        let (code, length) = chunks.head(at)?;
+        let (code, length) = match chunks.head(at) {
+            // No record has the code 0: zeros, as a file system leaves them behind the last bytes that it stored.
+            Ok((0, _)) | Err(TableError::Damaged { .. }) if is_to_cut => break,
+            head => head?,
+        };
         let damaged = |problem: &str| source.damaged(Place::byte(at), problem);
         match code {
             code::DATA_END => break,
@@ -231,7 +257,7 @@ pub(super) fn walk(source: &Source) -> Result<Contents, TableError> {
         }
         at += HEAD + length;
     }
-    Ok(contents)
+    Ok((contents, at))
 }
 
 impl Contents {

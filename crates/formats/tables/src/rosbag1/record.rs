@@ -1,8 +1,13 @@
 //! Records of a bag: a head of named fields, then data.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::bytes::Bytes;
+use crate::message::{Channel, Schema};
+
+/// Nanoseconds of a second.
+pub(super) const NANO: u64 = 1_000_000_000;
 
 /// The codes of records.
 pub(super) mod op {
@@ -64,6 +69,13 @@ impl Head {
     pub(super) fn op(&self) -> Option<u8> {
         self.number::<1>("op").map(|[code]| code)
     }
+
+    /// The time of a message, ns since 1970.
+    pub(super) fn time_ns(&self) -> Option<u64> {
+        let [a, b, c, d, rest @ ..] = self.number::<8>("time")?;
+        let seconds = u64::from(u32::from_le_bytes([a, b, c, d]));
+        Some(seconds * NANO + u64::from(u32::from_le_bytes(rest)))
+    }
 }
 
 /// The name and the value of the next field.
@@ -83,4 +95,22 @@ pub(super) fn within(held: &[u8], at: usize) -> Option<(Head, Range<usize>)> {
     let begin = at + bytes.at();
     bytes.take(data)?;
     Some((Head::new(fields, 0, 0)?, begin..begin + data))
+}
+
+/// The number of a connection, and its channel.
+pub(super) fn connection(head: &Head, data: &[u8]) -> Option<(u32, Channel)> {
+    let number = head.number::<4>("conn").map(u32::from_le_bytes)?;
+    let said = Head::new(data.to_vec(), 0, 0)?;
+    let schema = Schema {
+        name: said.text("type")?,
+        encoding: "ros1msg".to_owned(),
+        text: said.bytes("message_definition")?.to_vec(),
+    };
+    let channel = Channel {
+        topic: head.text("topic")?,
+        encoding: "ros1".to_owned(),
+        schema: Some(Arc::new(schema)),
+        count: 0,
+    };
+    Some((number, channel))
 }

@@ -74,6 +74,11 @@ impl<'a> Pages<'a> {
         }
     }
 
+    /// True for a page that the header announces and a cut took away.
+    pub(super) fn is_beyond_cut(&self, number: u32) -> bool {
+        number > self.database.pages && number <= self.database.announced
+    }
+
     /// The error for a damaged page with this number.
     pub(super) fn damaged(&self, number: u32, problem: impl Into<String>) -> TableError {
         let at = u64::from(number.saturating_sub(1)) * u64::from(self.database.page_bytes);

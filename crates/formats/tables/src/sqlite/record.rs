@@ -103,6 +103,15 @@ impl<'p, 'd> Record<'p, 'd> {
         self.read
     }
 
+    /// True if no part of the row is on a page that a cut took away.
+    pub(crate) fn is_before_cut(&mut self) -> Result<bool, TableError> {
+        match self.read_to(self.length) {
+            Ok(()) => Ok(true),
+            Err(_) if self.pages.is_beyond_cut(self.next) => Ok(false),
+            Err(error) => Err(error),
+        }
+    }
+
     /// The value in the column at `position`, from 0; null if the row was written before the column existed.
     pub(crate) fn value(&mut self, position: usize) -> Result<Value, TableError> {
         let Some((kind, range)) = self.values.get(position).cloned() else {

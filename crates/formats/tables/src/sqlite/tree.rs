@@ -54,7 +54,7 @@ impl Head {
     }
 }
 
-/// Calls `each` with every row of `table`.
+/// Calls `each` with every row of `table`; of a file that was cut, with those on pages before the cut.
 pub(super) fn walk(
     pages: &mut Pages<'_>,
     table: &SqliteTable,
@@ -66,6 +66,9 @@ pub(super) fn walk(
     while let Some((number, depth)) = open.pop() {
         if !seen.insert(number) || depth > DEPTH {
             return Err(pages.damaged(number, "its B-tree leads to it twice"));
+        }
+        if pages.is_beyond_cut(number) {
+            continue;
         }
         let page = pages.page(number)?;
         let Some(head) = Head::of(number, &page) else {

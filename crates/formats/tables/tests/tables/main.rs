@@ -5,6 +5,7 @@ mod recordings;
 
 mod arrow;
 mod bags;
+mod cut;
 mod lerobot;
 mod mcap;
 mod nested;

@@ -21,7 +21,7 @@ pub(super) fn of(
     main: &SeenTable<'_>,
 ) -> Vec<FrameLines> {
     // LeRobot names clips by feature; other clips are no pictures of the table.
-    if main.group.first() == "meta/info.json" {
+    if main.is_lerobot() {
         return Vec::new();
     }
     let Some(clips) = groups.iter().find(|group| is_clip(&group.ending)) else {
@@ -68,10 +68,14 @@ fn other_length(clip: &Path, rows: usize) -> Option<String> {
     let frames = video.info().frames;
     (frames != rows as u64).then(|| {
         let name = clip.file_name().unwrap_or_default().to_string_lossy();
+        let (rate, times) = match video.info().times_s {
+            Some(_) => ("", "at the times that the clip states"),
+            None => (", rate = FRAMES_A_SECOND", "at this rate"),
+        };
         format!(
             "index = \"?\"   # {frames} frames, {rows} rows: name the column with the frame number. If their clocks differ, write\n\
-             # table = {{ file = {name:?}, format = \"clip\", rate = FRAMES_A_SECOND }} above, join this table by [[join]] with `time`, \
-             and omit `index`"
+             # table = {{ file = {name:?}, format = \"clip\"{rate} }} above, whose rows are the frames {times}, join this table by [[join]] \
+             with `time`, and omit `index`"
         )
     })
 }

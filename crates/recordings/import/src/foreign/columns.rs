@@ -21,6 +21,15 @@ pub(crate) struct Stated {
     pub(crate) packed: Option<[f64; 2]>,
 }
 
+/// Part of a recording before a cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct BeforeCut {
+    /// Number of complete messages, of all topics.
+    pub(crate) messages: u64,
+    /// End of the complete records, byte.
+    pub(crate) end: u64,
+}
+
 /// Source of a table of columns.
 pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     fn rows(&self) -> usize;
@@ -58,6 +67,11 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// Unread items of the file, each with the reason.
     fn unread(&self) -> Vec<String> {
         Vec::new()
+    }
+
+    /// The part that is read of a recording that was cut.
+    fn before_cut(&self) -> Option<BeforeCut> {
+        None
     }
 
     /// Arrays behind these columns with unwritten chunks, with the number of these chunks.
@@ -262,6 +276,10 @@ impl ColumnTable {
 
     pub(super) fn unread(&self) -> Vec<String> {
         guarded(|| self.source.unread()).unwrap_or_default()
+    }
+
+    pub(crate) fn before_cut(&self) -> Option<BeforeCut> {
+        self.source.before_cut()
     }
 
     pub(super) fn why_absent(&self, name: &str) -> Option<String> {

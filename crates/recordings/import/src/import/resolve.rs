@@ -21,11 +21,12 @@ use taceva_core::Clock;
 use super::map::{FrameNames, ImportMap, OWN_ROW};
 use super::warning::ImportWarning;
 use crate::error::{ImportError, Place, table_error};
-use crate::foreign::{ForeignTable, TableForm};
+use crate::foreign::{BeforeCut, ForeignTable, TableForm};
 use crate::source_folder::SourceFolder;
 use cell::cell_of;
 use columns::{base_of, mentioned};
 use join::Joined;
+use taceva_video::Decoders;
 use times::TextTimes;
 
 pub(super) use classes::ClassCells;
@@ -72,6 +73,8 @@ struct Sources<'a> {
     /// Time column in seconds, if the table writes times as text.
     times: Option<Vec<String>>,
     warnings: Vec<ImportWarning>,
+    /// Programs by which the times of clips are read.
+    decoders: &'a Decoders,
 }
 
 /// Resolves the table at `path` by `map`.
@@ -79,8 +82,9 @@ pub(super) fn resolve(
     map: &ImportMap,
     folder: &SourceFolder,
     path: &Path,
+    decoders: &Decoders,
 ) -> Result<Resolved, ImportError> {
-    let main = ForeignTable::read(path, &map.form)?;
+    let main = ForeignTable::read_by(path, &map.form, decoders)?;
     let inside = path.strip_prefix(folder.path()).unwrap_or(path);
     let mut sources = Sources {
         map,
@@ -94,6 +98,7 @@ pub(super) fn resolve(
         joined: Vec::new(),
         times: None,
         warnings: Vec::new(),
+        decoders,
     };
     let names = mentioned(map);
     let of_signals = map.signals.iter().flat_map(|signals| signals.columns());
@@ -117,6 +122,7 @@ pub(super) fn resolve(
     // The time column may be in a joined table.
     sources.read_times()?;
     sources.warn_of_grouped_digits();
+    sources.warn_of_cuts(folder);
     let coordinate_frames = sources.coordinate_frames()?;
     let class_cells = classes::of(&sources)?;
     let rows = sources.main.rows();
@@ -209,6 +215,24 @@ impl Sources<'_> {
                     example,
                     cells,
                 });
+            }
+        }
+    }
+
+    /// Warns of recordings of which only the messages before a cut are read.
+    fn warn_of_cuts(&mut self, folder: &SourceFolder) {
+        let joined = self.joined.iter().flat_map(Joined::tables);
+        for table in std::iter::once(&self.main).chain(joined) {
+            if let ForeignTable::Columns(columns) = table
+                && let Some(BeforeCut { messages, end }) = columns.before_cut()
+            {
+                let file = folder.inside(table.path(), "");
+                let warning = ImportWarning::CutRecording {
+                    file,
+                    messages,
+                    end,
+                };
+                self.warnings.push(warning);
             }
         }
     }

@@ -74,8 +74,9 @@ impl<'a> MappedTable<'a> {
         map: &'a ImportMap,
         folder: &SourceFolder,
         path: &Path,
+        decoders: &Decoders,
     ) -> Result<MappedTable<'a>, ImportError> {
-        let found = resolve(map, folder, path)?;
+        let found = resolve(map, folder, path, decoders)?;
         let has_row_column = found.main.has("row");
         let table = found.table;
         let views = map.frames.iter();

@@ -67,7 +67,7 @@ impl<'a> Joined<'a> {
                 Some(table) => *table,
                 None => {
                     let path = folder.file(folder.path(), &file)?;
-                    let table = ForeignTable::read(&path, &map.form)?;
+                    let table = ForeignTable::read_by(&path, &map.form, sources.decoders)?;
                     let labels = sources.labels(Some(&map.name));
                     let of_frames = match labels.is_empty() {
                         true => Vec::new(),
@@ -98,6 +98,11 @@ impl<'a> Joined<'a> {
 
     pub(super) fn name(&self) -> &str {
         &self.map.name
+    }
+
+    /// Tables from which rows are taken.
+    pub(super) fn tables(&self) -> impl Iterator<Item = &ForeignTable> {
+        self.tables.iter().map(|candidates| &candidates.table)
     }
 
     pub(super) fn is_matched(&self, row: usize) -> bool {
