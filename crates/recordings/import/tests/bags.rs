@@ -5,8 +5,8 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, DatasetError};
-use taceva_import::{ImportMap, ImportPlan, MapDraft, Preset};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportError, ImportMap, ImportPlan, MapDraft, Preset};
 
 fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -156,7 +156,7 @@ fn a_bag_whose_frames_change_and_one_that_is_cut_are_refused_with_the_remedy() {
 }
 
 /// The plan of an import of the forces in `none.bag`, with these keys of its table.
-fn of_ft(folder: &Path, keys: &str) -> Result<ImportPlan, DatasetError> {
+fn of_ft(folder: &Path, keys: &str) -> Result<ImportPlan, ImportError> {
     let map = format!(
         "map_version = 2\ntable = {{ file = \"none.bag\", {keys} }}\n[columns]\nFz = {{ from = \"wrench.force.z\", unit = \"N\" }}\n\
          [time]\nclock = \"unknown\"\n\
