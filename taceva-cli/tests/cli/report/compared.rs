@@ -1,5 +1,6 @@
 //! Comparisons of results, of runs and of the catalogue.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::process::{Command, Stdio};
 
@@ -145,6 +146,50 @@ fn published_numbers_are_compared_and_chosen_from() {
         2,
         "expected METRIC[.CHANNEL]=NUMBER",
     );
+}
+
+#[test]
+fn names_of_metrics_and_of_margins_that_no_result_has_are_refused_with_the_nearest() {
+    let bench = Bench::new();
+    for format in ["text", "md", "json"] {
+        bench.refused(
+            &format!("compare ViTacTip GelSight --metrics mae,smap --format {format}"),
+            2,
+            "--metrics `smap`: unknown metric, did you mean `smape`? Known are mae, ",
+        );
+    }
+    bench.refused(
+        "compare ViTacTip GelSight --margin mea.Fz=0.01",
+        2,
+        "--margin `mea`: unknown metric, did you mean `mae`?",
+    );
+    bench.refused(
+        "compare ViTacTip GelSight --margin mae.Fq=0.01",
+        2,
+        "--margin `mae.Fq=0.01`: no result has such a score; expected mae or one of mae.Fxy, mae.Fz, ",
+    );
+    bench.refused(
+        "compare ViTacTip GelSight --margin drift=0.01",
+        2,
+        "no result has a score of drift; they have ",
+    );
+    let ran = bench.run("compare ViTacTip GelSight --metrics mae,drift --format csv");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(
+        ran.err
+            .contains("--metrics drift: no result has such a score; they have "),
+        "{}",
+        ran.err
+    );
+    let metrics = |words: &str| {
+        let compared = bench.json(&format!("compare ViTacTip GelSight {words}"));
+        let answers = compared["answers"].as_array().expect("a list").iter();
+        let names: BTreeSet<String> = answers.map(|answer| answer["metric"].to_string()).collect();
+        names
+    };
+    let group = ["mae", "r2", "smape"].map(|name| format!("{name:?}"));
+    assert_eq!(metrics("--metrics accuracy"), BTreeSet::from(group));
+    assert_eq!(metrics("--metrics all"), metrics(""));
 }
 
 #[test]
