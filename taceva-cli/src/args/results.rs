@@ -16,7 +16,7 @@ pub(crate) struct Compare {
     /// The results to compare
     #[arg(required = true, value_name = "RESULT", num_args = 1..)]
     pub(crate) results: Vec<PathBuf>,
-    /// Metrics, separated by commas [default: all with a direction]
+    /// Metrics, separated by commas: ids, or the groups accuracy and all [default: all with a direction]
     #[arg(long, value_name = "METRICS", value_delimiter = ',')]
     pub(crate) metrics: Vec<String>,
     /// The largest difference of scores that still counts as equal, such as mae.Fz=0.01; may be repeated
