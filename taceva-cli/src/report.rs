@@ -29,12 +29,6 @@ use taceva_study::bench::KernelBench;
 
 use crate::args::{Format, TableScores};
 
-/// Counts in words: `1 job`, `2 jobs`.
-pub(crate) fn counted(count: usize, what: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {what}{plural}")
-}
-
 /// Writes an evaluation in the requested format.
 pub(crate) fn evaluation(
     report: &EvaluationReport,

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use taceva_core::counted;
 use taceva_dataset::Dataset;
 use taceva_evaluate::{Cache, Effort};
 
@@ -56,8 +57,9 @@ fn lines(
 ) -> Vec<String> {
     let time = time.filter(|time| *time >= LONG).map(|time| {
         format!(
-            "time: about {} to read {frames} pictures whose features are not in the cache; training then reports its own progress",
-            spoken(time)
+            "time: about {} to read {} whose features are not in the cache; training then reports its own progress",
+            spoken(time),
+            counted(frames, "picture")
         )
     });
     let room = (kept >= MUCH).then(|| {

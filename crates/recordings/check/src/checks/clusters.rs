@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::counted;
+
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
 
@@ -48,7 +50,9 @@ fn few(count: usize, kind: &str) -> Vec<Found> {
     if count == 0 || count >= LEAST {
         return Vec::new();
     }
-    let plural = if count == 1 { "" } else { "s" };
-    let message = format!("the test part has {count} {kind}{plural}; intervals need {LEAST}");
+    let message = format!(
+        "the test part has {}; intervals need {LEAST}",
+        counted(count, kind)
+    );
     vec![Found::overall(Severity::Warning, message)]
 }

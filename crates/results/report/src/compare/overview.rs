@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use taceva_core::{by_count, counted};
 use taceva_metrics::{Better, Standing, Verdict};
 
 use super::{Answer, Comparison, Remarks};
@@ -119,11 +120,9 @@ impl Comparison {
             false => format!(": {}", causes.join(", ")),
         };
         let kept = all - shown - without - equivalent;
-        let number = |count: usize, one: &str, more: &str| match count {
-            1 => format!("1 {one}"),
-            _ => format!("{count} {more}"),
-        };
-        let pairs = number(all, "pair", "pairs");
+        let number =
+            |count: usize, one: &str, more: &str| format!("{count} {}", by_count(count, one, more));
+        let pairs = counted(all, "pair");
         let shown = number(shown, "differs", "differ");
         let others = [
             (
@@ -156,8 +155,7 @@ impl Comparison {
         let decisions = self.decisions();
         let more = match decisions.len().saturating_sub(room) {
             0 => String::new(),
-            1 => "1 more question, and ".to_owned(),
-            more => format!("{more} more questions, and "),
+            more => format!("{}, and ", counted(more, "more question")),
         };
         let mut lines = vec![line(&self.summary())];
         lines.extend(decisions.iter().take(room).map(|of| line(&of.line())));
