@@ -103,6 +103,8 @@ mod tests {
                 "disk: 80.0 MB of features to store in /cache, 1.50 GB are free; --no-cache stores none",
             ]
         );
+        let said = lines(1, Some(Duration::from_secs(130)), 0, None, folder);
+        assert!(said[0].contains("to read 1 picture whose"), "{said:?}");
         let said = lines(9, None, 80_000_000, Some(10_000), folder);
         assert!(
             said[0].contains("10.0 kB are free: they may not fit"),

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write as _};
 
-use taceva_core::Unit;
+use taceva_core::{Unit, counted};
 
 use crate::score::curve::Curve;
 use crate::score::digits::significant;
@@ -210,18 +210,23 @@ impl fmt::Display for UndefinedReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             UndefinedReason::Empty => f.write_str("empty"),
-            UndefinedReason::TooFew { least } => write!(f, "fewer than {least} samples"),
+            UndefinedReason::TooFew { least } => {
+                write!(f, "fewer than {}", counted(*least, "sample"))
+            }
             UndefinedReason::ConstantTruth { .. } => f.write_str("constant truth"),
             UndefinedReason::BelowGate => f.write_str("no truth reaches the gate"),
             UndefinedReason::OutsideFootprint => f.write_str("no sample on the footprint"),
-            UndefinedReason::NoBin { least } => write!(f, "no bin has {least} samples"),
+            UndefinedReason::NoBin { least } => {
+                write!(f, "no bin has {}", counted(*least, "sample"))
+            }
             UndefinedReason::TooFewBins { have, least } => {
-                write!(f, "{have} bins, {least} are needed")
+                write!(f, "{}, {least} are needed", counted(*have, "bin"))
             }
             UndefinedReason::NoRepeats => f.write_str("no bin has two samples"),
             UndefinedReason::NoRepeatedPress => f.write_str("no press was repeated"),
             UndefinedReason::TooFewCells { have, least } => {
-                write!(f, "{have} repeated presses, {least} are needed")
+                let presses = counted(*have, "repeated press");
+                write!(f, "{presses}, {least} are needed")
             }
             UndefinedReason::EqualRepeats => f.write_str("repeats do not differ"),
             UndefinedReason::ShortBranch => f.write_str("no point has two depths on both branches"),
@@ -260,8 +265,7 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::Overflow => f.write_str("beyond the range of binary64"),
             UndefinedReason::TooFewClusters { have } => {
                 let least = crate::score::least::LEAST_CLUSTERS;
-                let clusters = if *have == 1 { "cluster" } else { "clusters" };
-                write!(f, "{have} {clusters}, {least} are needed")
+                write!(f, "{}, {least} are needed", counted(*have, "cluster"))
             }
             UndefinedReason::TooFewReplicates { defined, drawn } => {
                 let least = crate::score::least::LEAST_REPLICATES;
