@@ -168,7 +168,7 @@ impl Page {
         };
         let caption = format!("{}: scores with 95 % intervals.{note}", self.title);
         let mut main = Vec::new();
-        super::main_scores(&table, Format::Tex, &mut main)?;
+        super::main_scores(&table, Format::Tex, None, &mut main)?;
         for (name, text) in [
             ("scores.csv", table.every_number().csv().into_bytes()),
             (

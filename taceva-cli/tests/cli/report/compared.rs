@@ -193,6 +193,33 @@ fn names_of_metrics_and_of_margins_that_no_result_has_are_refused_with_the_neare
 }
 
 #[test]
+fn one_result_by_two_names_is_no_comparison() {
+    let bench = Bench::new();
+    bench.refused(
+        "compare GelSight gelsight",
+        2,
+        "gelsight: given twice, first as GelSight; expected different results",
+    );
+    bench.refused(
+        "compare DIGIT DIGIT",
+        2,
+        "DIGIT: given twice; expected different results",
+    );
+    fs::create_dir(bench.path("run")).expect("a folder");
+    bench.write("run/results.json", "{}");
+    bench.refused(
+        "compare run run/results.json",
+        2,
+        "run/results.json: given twice, first as run; expected different results",
+    );
+    bench.refused(
+        "choose --need shear --results run --results run",
+        2,
+        "run: given twice; expected different results",
+    );
+}
+
+#[test]
 fn values_stand_first_and_then_what_can_be_compared() {
     let bench = Bench::new();
     bench.record("data", 40);
@@ -240,6 +267,7 @@ fn on_a_terminal_of_forty_columns_one_sensor_stands_below_the_other() {
     for words in [
         "compare GelSight MagicTac -q",
         "compare GelSight MagicTac --all -q",
+        "compare GelSight MagicTac --table main -q",
         "choose --need shear -q",
     ] {
         let typed = format!("stty cols 40 rows 24; '{program}' {words}");
