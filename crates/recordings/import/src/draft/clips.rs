@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use taceva_core::counted;
 use taceva_video::{Decoders, Video};
 
 use super::frames::{FrameLines, are_pairs, counted_through, of_views};
@@ -69,9 +70,11 @@ fn other_length(clip: &Path, rows: usize) -> Option<String> {
     (frames != rows as u64).then(|| {
         let name = clip.file_name().unwrap_or_default().to_string_lossy();
         format!(
-            "index = \"?\"   # {frames} frames, {rows} rows: name the column with the frame number. If their clocks differ, write\n\
+            "index = \"?\"   # {}, {}: name the column with the frame number. If their clocks differ, write\n\
              # table = {{ file = {name:?}, format = \"clip\", rate = FRAMES_A_SECOND }} above, join this table by [[join]] with `time`, \
-             and omit `index`"
+             and omit `index`",
+            counted(frames, "frame"),
+            counted(rows, "row")
         )
     })
 }
