@@ -227,6 +227,8 @@ def test_a_comparison_says_which_is_better() -> None:
     assert "better" in str(comparison)
     with pytest.raises(ValueError, match="at least two"):
         taceva.compare(near)
+    with pytest.raises(ValueError, match="did you mean `mae`"):
+        str(taceva.compare(near, far, metrics=["mea"]))
 
 
 @pytest.mark.parametrize("channels", [["Fz", "Px"], ["Fz", "b", "Px", "a"], ["b", "a"]])

@@ -6,11 +6,13 @@ mod overview;
 mod paired;
 mod remarks;
 mod render;
+mod request;
 mod ties;
 
 pub(crate) use overview::QUESTIONS;
 pub use overview::{Decision, OVERVIEW_LINES, OVERVIEW_WIDTH};
 pub use render::COMPARISON_SCHEMA;
+pub use request::RequestError;
 pub use ties::ties;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -70,3 +70,48 @@ fn a_metric_of_another_version_is_named_and_no_verdict_is_given_on_it() {
         "no winner: this version of taceva does not know which values are better"
     );
 }
+
+#[test]
+fn a_group_means_its_metrics_that_have_scores_and_all_of_them_where_none_has() {
+    let asked = |name: &str| CompareRequest {
+        metrics: vec![name.to_owned()],
+        ..CompareRequest::default()
+    };
+    let studies = two();
+    let request = asked("accuracy").resolved(&studies).expect("a group");
+    assert_eq!(request.metrics, ["mae", "r2"]);
+    assert_eq!(request.absent(&studies), [""; 0]);
+    let other = [study("A", &[("drift", "Fz", score(0.5, 0.01, "N"))], &[])];
+    let request = asked("accuracy").resolved(&other).expect("a group");
+    assert_eq!(request.metrics, ["mae", "r2", "smape"]);
+    assert_eq!(
+        request.absent(&other)[0],
+        "mae: no result has such a score; they have drift"
+    );
+    let request = asked("shininess").resolved(&studies).expect("a score");
+    assert_eq!(request.metrics, ["shininess"]);
+}
+
+#[test]
+fn a_margin_of_no_score_is_refused_with_the_scores_that_there_are() {
+    let refused = |name: &str| {
+        let request = CompareRequest {
+            margins: [(name.to_owned(), 0.1)].into(),
+            ..CompareRequest::default()
+        };
+        request.resolved(&two()).map_err(|error| error.to_string())
+    };
+    assert!(refused("mae").is_ok() && refused("mae.Fz").is_ok());
+    let error = refused("mae.Fq").expect_err("no such channel");
+    assert_eq!(
+        error,
+        "mae.Fq: no result has such a score; expected mae or one of mae.Fz"
+    );
+    let error = refused("drift").expect_err("not scored");
+    assert_eq!(
+        error,
+        "drift: no result has such a score; they have mae, r2, rmse, shininess"
+    );
+    let error = refused("mea").expect_err("no metric");
+    assert!(error.contains("did you mean `mae`?"), "{error}");
+}
