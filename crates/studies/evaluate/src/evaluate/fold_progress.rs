@@ -10,7 +10,7 @@ pub(super) struct FoldProgress<'a> {
 
 impl<'a> FoldProgress<'a> {
     /// Names `model` and `fold`, such as `fold 2 of 5`, by a stage that ends at once: plain lines then have it whatever the fold does.
-    pub(super) fn begin(progress: &'a dyn Progress, model: &str, fold: String) -> FoldProgress<'a> {
+    pub(super) fn of(progress: &'a dyn Progress, model: &str, fold: String) -> FoldProgress<'a> {
         progress.begin(&format!("fit {model}, {fold}"), None);
         progress.end();
         FoldProgress { progress, fold }
@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn a_fold_is_named_at_its_start_and_in_every_stage() {
         let kept = Kept::default();
-        let fold = FoldProgress::begin(&kept, "ridge", "fold 2 of 5".to_owned());
+        let fold = FoldProgress::of(&kept, "ridge", "fold 2 of 5".to_owned());
         fold.begin("features", Some(3));
         fold.advance(2);
         fold.end();

@@ -324,7 +324,7 @@ impl<'a> Folds<'a> {
             if self.are_recordings {
                 name += &format!(" without {}", fold.name);
             }
-            let progress = FoldProgress::begin(work.progress, fit.model.name(), name);
+            let progress = FoldProgress::of(work.progress, fit.model.name(), name);
             let work = Work {
                 progress: &progress,
                 ..work
