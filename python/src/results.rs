@@ -162,7 +162,9 @@ pub(crate) fn comparison(
         margins,
         seed,
     };
-    let compared = compare(&studies(&texts)?, &request);
+    let studies = studies(&texts)?;
+    let request = request.resolved(&studies).map_err(value_error)?;
+    let compared = compare(&studies, &request);
     match form {
         "json" => Ok(compared.json()),
         "text" => Ok(compared.text()),

@@ -171,7 +171,7 @@ fn assigned_values_go_where_they_are_sent_and_others_are_counted() {
     );
     assert_eq!(
         split.note.as_deref(),
-        Some("1 samples are left out: their `repeat` is assigned to no part")
+        Some("1 sample is left out: its `repeat` is assigned to no part")
     );
     let split = spec("by-column:repeat=train:1;test:2")
         .assign(&input, 0)

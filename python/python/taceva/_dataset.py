@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from taceva import _taceva
 from taceva._bar import bar
+from taceva._counted import counted
 from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._settings import setting_words
 
@@ -308,7 +309,7 @@ class Dataset:
             )
         if wanted.dtype.kind == "b":
             if len(wanted) != len(self):
-                raise IndexError(f"a mask of {len(wanted)} rows for a recording of {len(self)}")
+                raise IndexError(f"a mask of {counted(len(wanted), 'row')} for a recording of {len(self)}")
             return [int(row) for row in np.flatnonzero(wanted).tolist()]
         beyond = wanted[(wanted < -len(self)) | (wanted >= len(self))]
         if beyond.size:
@@ -316,7 +317,7 @@ class Dataset:
         return [int(row) + len(self) if row < 0 else int(row) for row in wanted.tolist()]
 
     def __repr__(self) -> str:
-        return f"<taceva.Dataset {self.path!r}: {len(self)} rows of {self.sensor}, {self.source}>"
+        return f"<taceva.Dataset {self.path!r}: {counted(len(self), 'row')} of {self.sensor}, {self.source}>"
 
     def __reduce__(self) -> tuple[Any, tuple[int, str, str, str | None]]:
         return _arrived, (PICKLE_VERSION, self.path, self.digest, self.view)

@@ -13,6 +13,7 @@ from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._fields import columns, require_unweighted
 from taceva._column_names import beside, pair
+from taceva._counted import counted
 from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._result import Result
 from taceva._settings import metric_names
@@ -139,7 +140,7 @@ class TactileMetrics:
         rows = len(tables["truth"])
         for name, column in {"prediction": tables["prediction"], "points": names}.items():
             if column is not None and len(column) != rows:
-                raise ValueError(f"{name} has {len(column)} rows, truth has {rows}")
+                raise ValueError(f"{name} has {counted(len(column), 'row')}, truth has {rows}")
         said = columns(fields, self._asked[3], rows)
         # Of several blocks one may be refused, or Ctrl-C may come: they are summed apart, and joined when all of them are in.
         sums = self._sums if rows <= BLOCK_ROWS else _taceva.Sums(*self._asked)

@@ -13,6 +13,7 @@ from taceva._arrays import column_order, in_order, numbers, real, with_units
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._column_names import beside, named_columns
+from taceva._counted import counted
 from taceva._dataset import Dataset
 from taceva._metrics import SIX
 
@@ -91,7 +92,7 @@ def from_arrays(
     rows = len(real(labels, "labels"))
     for name, column in {"frames": frames, "points": points, "times": times, "scenes": scenes}.items():
         if column is not None and len(column) != rows:
-            raise ValueError(f"{name} has {len(column)} rows, labels has {rows}")
+            raise ValueError(f"{name} has {counted(len(column), 'row')}, labels has {rows}")
     order = column_order(listed)
     table = np.ascontiguousarray(in_order(numbers(labels, "labels", allow_invalid=True), order))
     listed = listed if order is None else [listed[at] for at in order]

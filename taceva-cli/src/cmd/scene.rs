@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use taceva_acquire::{Overrides, PlannedScene, SceneText};
-use taceva_core::{Field, SkipReason, shown};
+use taceva_core::{Field, SkipReason, counted, shown};
 use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{SplitInput, SplitSpec};
@@ -59,7 +59,8 @@ pub(super) fn print_cost(
     }
     let minutes: f64 = costs().map(|cost| cost.minutes).sum();
     context.say(format_args!(
-        "time: {presses} presses, {:.0} min of motion on a rig; the simulated bench runs faster",
+        "time: {}, {:.0} min of motion on a rig; the simulated bench runs faster",
+        counted(presses, "press"),
         minutes.ceil()
     ));
     let bytes = costs().filter_map(|cost| cost.bytes).sum();
@@ -128,8 +129,9 @@ pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
             continue;
         };
         context.say(format_args!(
-            "{}: the test part has {points} contact points, and intervals need {LEAST_CLUSTERS}: raise `points` under [protocol.calibration] to {ENOUGH_POINTS}, or score every point of the recording afterwards (taceva evaluate, --split cv:{LEAST_CLUSTERS})",
-            shown(&study.plan.name)
+            "{}: the test part has {}, and intervals need {LEAST_CLUSTERS}: raise `points` under [protocol.calibration] to {ENOUGH_POINTS}, or score every point of the recording afterwards (taceva evaluate, --split cv:{LEAST_CLUSTERS})",
+            shown(&study.plan.name),
+            counted(points, "contact point")
         ));
     }
 }

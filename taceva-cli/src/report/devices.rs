@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
+use taceva_core::counted;
 use taceva_drivers::doctor::{Diagnosis, State};
 use taceva_drivers::{Devices, ListedArgument, ListedDevice, ListedDriver};
 
@@ -101,8 +102,9 @@ fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
     for error in &devices.failed {
         writeln!(out, "failed   {error}")?;
     }
-    let (drivers, found) = (devices.drivers.len(), devices.found.len());
-    writeln!(out, "{drivers} drivers, {found} devices that they see")
+    let drivers = counted(devices.drivers.len(), "driver");
+    let found = counted(devices.found.len(), "device");
+    writeln!(out, "{drivers}, {found} that they see")
 }
 
 /// One driver: its name, facts about its device, and its arguments.

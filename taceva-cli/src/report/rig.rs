@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 use taceva_acquire::{RigCheck, RigTap, Stream};
+use taceva_core::counted;
 
 use crate::args::ListFormat;
 
@@ -89,8 +90,11 @@ fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
         let share = 100.0 * f64::from(switch.held) / f64::from(switch.looks.max(1));
         writeln!(
             out,
-            "switch  held in {} of {} readings ({share:.0} %), pressed or released {} times, answers within {:.3} ms",
-            switch.held, switch.looks, switch.changes, switch.longest_ms
+            "switch  held in {} of {} ({share:.0} %), pressed or released {}, answers within {:.3} ms",
+            switch.held,
+            counted(switch.looks, "reading"),
+            counted(switch.changes, "time"),
+            switch.longest_ms
         )?;
     }
     match &check.halt {

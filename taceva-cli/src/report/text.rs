@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
-use taceva_core::{Limit, PressOutcome};
+use taceva_core::{Limit, PressOutcome, counted};
 use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
 use taceva_results::{EvaluationReport, Interval, Provenance};
 
 use super::line::{Line, flags, pictures, read_lines, remedies, standings};
 use super::number::formatted;
-use super::{counted, recordings};
+use super::recordings;
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;

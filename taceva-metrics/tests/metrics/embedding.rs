@@ -1,8 +1,8 @@
 //! What a program that embeds the crate relies on.
 
 use taceva_metrics::{
-    Channel, Channels, Evaluation, Evaluator, FieldSet, MetricPlan, Readings, Rows, Sample,
-    SampleSink, UndefinedReason, Unit, Value, catalogue,
+    Channel, Channels, Evaluation, Evaluator, FieldSet, InapplicableReason, MetricPlan, Readings,
+    Rows, Sample, SampleSink, UndefinedReason, Unit, Value, catalogue,
 };
 
 /// Predictions of 100 samples that all differ, and their truth.
@@ -233,6 +233,20 @@ fn a_value_prints_to_four_digits_or_to_the_decimals_of_a_precision() {
     assert_eq!(format!("{third:>8}|"), "  0.3333|");
     let empty = Value::Undefined(UndefinedReason::Empty);
     assert_eq!(empty.to_string(), "undefined: empty");
+}
+
+#[test]
+fn a_value_in_words_fills_its_column_and_no_precision_cuts_it() {
+    let empty = Value::Undefined(UndefinedReason::Empty);
+    assert_eq!(format!("{empty:>24}|"), "        undefined: empty|");
+    assert_eq!(format!("{empty:24}|"), "undefined: empty        |");
+    assert_eq!(format!("{empty:.^19.2}|"), ".undefined: empty..|");
+    assert_eq!(format!("{empty:>9.1}|"), "undefined: empty|");
+    let absent = Value::NotApplicable(InapplicableReason::NotOneNumber);
+    assert_eq!(
+        format!("{absent:>41}|"),
+        "  not applicable: not one number but many|"
+    );
 }
 
 #[test]

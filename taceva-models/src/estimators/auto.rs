@@ -8,7 +8,7 @@ mod race;
 mod settlement;
 mod validate;
 
-use taceva_core::{Features, ModelError, Progress, SignalInfo, TrainingSet};
+use taceva_core::{Features, ModelError, Progress, SignalInfo, TrainingSet, counted};
 
 use self::candidates::candidates;
 use self::cost::{NETWORK, Sizes};
@@ -147,7 +147,8 @@ impl ModelEstimator for Auto {
         let samples = training.features.samples();
         if samples < FOLDS {
             return Err(invalid(format!(
-                "{samples} training samples, expected at least {FOLDS} to try models"
+                "{}, expected at least {FOLDS} to try models",
+                counted(samples, "training sample")
             )));
         }
         let mut pictures = *training;

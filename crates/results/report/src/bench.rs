@@ -1,5 +1,6 @@
 //! Model benchmarks as table rows.
 
+use taceva_core::counted;
 use taceva_metrics::Better;
 
 use crate::number::{FormattedValue, numeral};
@@ -42,8 +43,8 @@ impl ModelBench {
             ));
         }
         table.note(format!(
-            "Fitted on {} samples, scored on {}, split {}; {}, {} of {} cores. Intervals of 95 % by contact point.",
-            recording.train, recording.test, recording.split, self.machine.cpu, self.machine.threads, self.machine.cores
+            "Fitted on {}, scored on {}, split {}; {}, {} of {}. Intervals of 95 % by contact point.",
+            counted(recording.train, "sample"), recording.test, recording.split, self.machine.cpu, self.machine.threads, counted(self.machine.cores, "core")
         ));
         table.note(
             "front of: channels on which every model that takes less processor time to fit is shown, pair by pair, to have a larger error.",

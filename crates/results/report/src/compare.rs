@@ -6,11 +6,13 @@ mod overview;
 mod paired;
 mod remarks;
 mod render;
+mod request;
 mod ties;
 
 pub(crate) use overview::QUESTIONS;
 pub use overview::{Decision, OVERVIEW_LINES, OVERVIEW_WIDTH};
 pub use render::COMPARISON_SCHEMA;
+pub use request::RequestError;
 pub use ties::ties;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,7 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use taceva_core::Unit;
 use taceva_metrics::{
     Better, ComparisonError, Difference, Question, Side, Sides, Standing, Verdict, by_intervals,
-    decide,
+    catalogue, decide,
 };
 
 use crate::names::listed;
@@ -48,6 +50,8 @@ pub struct Comparison {
     pub notes: Vec<String>,
     /// Remarks on the verdicts, by score.
     asides: Vec<Remarks>,
+    /// Metrics that the request names.
+    asked: Vec<String>,
 }
 
 /// Comparison of one score between two studies.
@@ -177,9 +181,11 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
             .chain(simulated(studies))
             .chain(trainings(&names, &answers))
             .chain(unpaired)
+            .chain(unknown(studies, request))
             .collect(),
         names,
         answers,
+        asked: request.metrics.clone(),
     }
 }
 
@@ -193,6 +199,26 @@ fn simulated(studies: &[Study]) -> Option<String> {
         }
         _ => Some("some of the samples are simulated and were not measured".to_owned()),
     }
+}
+
+/// Note on metrics of several studies that no comparison includes, because the catalogue has no direction for them.
+fn unknown(studies: &[Study], request: &CompareRequest) -> Option<String> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for study in studies {
+        let metrics = study.scores.iter().map(|score| score.metric.as_str());
+        let unknown = metrics.filter(|metric| catalogue::find(metric).is_none());
+        for metric in unknown.collect::<BTreeSet<&str>>() {
+            *counts.entry(metric).or_default() += 1;
+        }
+    }
+    let shared = counts.into_iter().filter(|(_, count)| *count > 1);
+    let shared: Vec<String> = shared.map(|(metric, _)| metric.to_owned()).collect();
+    (request.metrics.is_empty() && !shared.is_empty()).then(|| {
+        format!(
+            "{} not compared: this version of taceva does not know which values are better",
+            listed(&shared)
+        )
+    })
 }
 
 /// Note on differences that depend on a single training of a model with a random seed, with the way to try other seeds.

@@ -29,9 +29,10 @@ pub use triple::Triple;
 pub(crate) use triple::cards as triples;
 
 use maud::{Markup, html};
+use taceva_core::counted;
 
 use crate::figures::figures as all_figures;
-use crate::markup::{counted, fold, folded_glossary};
+use crate::markup::{fold, folded_glossary};
 use crate::results::Study;
 use crate::scores::ScoreTable;
 
@@ -101,7 +102,7 @@ pub fn report(report: &ReportPage<'_>) -> String {
 fn details(studies: &[Study], table: &ScoreTable) -> Markup {
     let named = table.rows.iter().map(|row| row.metric.as_str());
     let (count, left_out) = left_out::section(studies);
-    let entries = counted(count, "entry").replace("entrys", "entries");
+    let entries = counted(count, "entry");
     let provenance = provenance::section(studies, table);
     let holds = "digests, settings, seeds, and methods of intervals";
     html! {

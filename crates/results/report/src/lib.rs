@@ -35,7 +35,7 @@ pub use choose::{
 };
 pub use compare::{
     Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, Decision, OVERVIEW_LINES,
-    OVERVIEW_WIDTH, compare, ties,
+    OVERVIEW_WIDTH, RequestError, compare, ties,
 };
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
 pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};

@@ -18,7 +18,7 @@ mod tables;
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Channel, Column, Progress, shown};
+use taceva_core::{Channel, Column, Progress, counted, shown};
 use taceva_dataset::SensorFile;
 use taceva_import::CsvTable;
 use taceva_metrics::{Evaluator, MetricPlan, SensorFacts, catalogue};
@@ -122,16 +122,16 @@ impl Scoring {
         plan.step(
             "read",
             format!(
-                "{} rows of {}",
-                self.truth.rows(),
+                "{} of {}",
+                counted(self.truth.rows(), "row"),
                 shown(&self.request.truth)
             ),
         );
         plan.step(
             "read",
             format!(
-                "{} rows of {}",
-                self.prediction.rows(),
+                "{} of {}",
+                counted(self.prediction.rows(), "row"),
                 shown(&self.request.prediction)
             ),
         );

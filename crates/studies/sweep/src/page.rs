@@ -2,6 +2,7 @@
 
 mod times;
 
+use taceva_core::counted;
 use taceva_report::{Cell, Column, PagePart, PageSection, Table, TablesPage};
 
 use crate::analysis::{self, Found, Loaded};
@@ -44,7 +45,7 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
         vec![PagePart::Table(effects)],
     );
     let decided = decisions::table(&groups, &choices);
-    let count = format!("{} pairs", decided.rows.len());
+    let count = counted(decided.rows.len(), "pair");
     section(
         "compared",
         "Compared",
@@ -55,8 +56,8 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
         section("failed", "Without a result", vec![PagePart::Table(left)]);
     }
     let lead = format!(
-        "{} tasks: {} scored, {} failed, {} not run.",
-        list.tasks.len(),
+        "{}: {} scored, {} failed, {} not run.",
+        counted(list.tasks.len(), "task"),
         collected.scored,
         collected.failed,
         collected.missing

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::counted;
 use taceva_metrics::LEAST_CLUSTERS;
 
 use crate::evidence::Evidence;
@@ -47,8 +48,9 @@ fn few(count: usize, kind: &str) -> Vec<Found> {
     if count == 0 || count >= LEAST_CLUSTERS {
         return Vec::new();
     }
-    let plural = if count == 1 { "" } else { "s" };
-    let message =
-        format!("the test part has {count} {kind}{plural}; intervals need {LEAST_CLUSTERS}");
+    let message = format!(
+        "the test part has {}; intervals need {LEAST_CLUSTERS}",
+        counted(count, kind)
+    );
     vec![Found::overall(Severity::Warning, message)]
 }

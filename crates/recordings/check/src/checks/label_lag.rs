@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::Field;
+use taceva_core::{Field, counted};
 use taceva_metrics::STREAM_S;
 
 use crate::evidence::Evidence;
@@ -72,10 +72,10 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             false => ("earlier", -lag.steps),
         };
         format!(
-            "{name} is about {:.0} ms ({steps} {}) {later} than the pictures: their correlation is {:.2} with this shift and {:.2} \
+            "{name} is about {:.0} ms ({}) {later} than the pictures: their correlation is {:.2} with this shift and {:.2} \
              without, n {}",
             1e3 * lag.seconds.abs(),
-            if steps == 1 { "step" } else { "steps" },
+            counted(steps.unsigned_abs(), "step"),
             lag.best,
             lag.standing,
             count

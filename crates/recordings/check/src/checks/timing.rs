@@ -1,5 +1,6 @@
 //! TAC008: the true rate, and impossible times.
 
+use taceva_core::by_count;
 use taceva_metrics::STREAM_S;
 
 use super::dropped_frames::{Missing, missing};
@@ -126,10 +127,7 @@ fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
         message += &format!(", {:.4} Hz from the mean step of {mean:.4} s", 1.0 / mean);
     }
     if gaps > 0 {
-        let steps_are = match gaps {
-            1 => "step is",
-            _ => "steps are",
-        };
+        let steps_are = by_count(gaps, "step is", "steps are");
         message += &format!(
             "; {gaps} {steps_are} over {GAP} times the median, the longest {longest:.4} s"
         );

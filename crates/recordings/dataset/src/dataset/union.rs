@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 use std::path::Path;
 
-use taceva_core::{Channels, Clock};
+use taceva_core::{Channels, Clock, counted};
 
 use super::Dataset;
 use crate::digest::{Digest, PartsDigest};
@@ -150,7 +150,9 @@ fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
             });
             let problem = match shared {
                 _ if is_same_place => "they are the same folder".to_owned(),
-                Some((digest, rows)) => format!("they hold the same {rows} samples ({digest})"),
+                Some((digest, rows)) => {
+                    format!("they hold the same {} ({digest})", counted(rows, "sample"))
+                }
                 None => continue,
             };
             return Err(unlike(one, other, format!("{problem}; name it once")));

@@ -3,6 +3,8 @@
 use std::io::{Seek, SeekFrom};
 use std::path::Path;
 
+use taceva_core::counted;
+
 use super::Dataset;
 use crate::digest::Digest;
 use crate::error::DatasetError;
@@ -58,7 +60,7 @@ impl Dataset {
             let promised = self.header.table.rows;
             return Err(damaged(
                 layout::SAMPLES,
-                format!("{rows} rows, the header says {promised}"),
+                format!("{}, the header says {promised}", counted(rows, "row")),
             ));
         }
         let digest = self.table.digest();
@@ -88,7 +90,7 @@ impl Dataset {
         if count != promised {
             return Err(damaged(
                 layout::SAMPLES,
-                format!("{count} frames, the header says {promised}"),
+                format!("{}, the header says {promised}", counted(count, "frame")),
             ));
         }
         for (view, own) in self.header.views.iter().zip(self.table.views()) {
@@ -97,8 +99,10 @@ impl Dataset {
                 return Err(damaged(
                     layout::SAMPLES,
                     format!(
-                        "{count} frames of the view `{}`, the header says {}",
-                        view.name, view.frames.count
+                        "{} of the view `{}`, the header says {}",
+                        counted(count, "frame"),
+                        view.name,
+                        view.frames.count
                     ),
                 ));
             }

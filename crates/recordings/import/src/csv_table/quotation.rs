@@ -36,7 +36,10 @@ pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, I
             let expected = names.len();
             return Err(wrong(
                 line,
-                format!("{found} cells, expected {expected} as in the header"),
+                format!(
+                    "{}, expected {expected} as in the header",
+                    taceva_core::counted(found, "cell")
+                ),
             ));
         }
         for cell in &record {

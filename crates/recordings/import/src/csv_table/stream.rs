@@ -261,7 +261,7 @@ mod tests {
         let path = folder.path().join("table.csv");
         let good = "1,2\n".repeat(50_000);
         for (text, word) in [
-            (format!("a,b\n{good}1\n"), "line 50002: 1 cells, expected 2"),
+            (format!("a,b\n{good}1\n"), "line 50002: 1 cell, expected 2"),
             (format!("a,b\n{good}1,2,3"), "line 50002: 3 cells"),
             (format!("a,b\n{good}\"1\",2"), "a quoted cell"),
             ("\"a\",b\n".to_owned(), "a quoted cell"),

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use taceva_core::counted;
 use taceva_video::{Decoders, Video};
 
 use super::frames::{FrameLines, are_pairs, counted_through, of_views};
@@ -73,9 +74,11 @@ fn other_length(clip: &Path, rows: usize) -> Option<String> {
             None => (", rate = FRAMES_A_SECOND", "at this rate"),
         };
         format!(
-            "index = \"?\"   # {frames} frames, {rows} rows: name the column with the frame number. If their clocks differ, write\n\
+            "index = \"?\"   # {}, {}: name the column with the frame number. If their clocks differ, write\n\
              # table = {{ file = {name:?}, format = \"clip\"{rate} }} above, whose rows are the frames {times}, join this table by [[join]] \
-             with `time`, and omit `index`"
+             with `time`, and omit `index`",
+            counted(frames, "frame"),
+            counted(rows, "row")
         )
     })
 }

@@ -19,6 +19,7 @@ use crate::source_folder::SourceFolder;
 use ids::{add_parts, attribute_name, shared_points};
 use sections::{HEAD, Lines, add_frames, add_path, add_section, begun, ended, line};
 use signals::signals;
+use taceva_core::counted;
 use taceva_dataset::internal::first_names;
 
 /// Limit of unread items that a draft names.
@@ -52,7 +53,7 @@ pub(super) fn of_table(
     let mut text = begun(notes);
     line(
         &mut text,
-        &format!("table = {}   # {} rows", main.written, main.rows),
+        &format!("table = {}   # {}", main.written, counted(main.rows, "row")),
     );
     if let Some(guess) = &main.header_guess {
         line(&mut text, guess);
@@ -207,9 +208,9 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     line(
         &mut text,
         &format!(
-            "table = {{ files = {:?} }}   # no table: {} files, each of them a row",
+            "table = {{ files = {:?} }}   # no table: {}, each of them a row",
             group.pattern(),
-            group.paths.len()
+            counted(group.paths.len(), "file")
         ),
     );
     let (mut ids, mut attributes) = (Lines::default(), Lines::default());

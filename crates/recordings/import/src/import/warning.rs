@@ -103,8 +103,9 @@ impl fmt::Display for ImportWarning {
             ),
             ImportWarning::Midnight { column, days } => write!(
                 f,
-                "`{}` holds times of day that pass midnight {days} times: later rows are read as times of the next day",
-                taceva_core::shown(column)
+                "`{}` holds times of day that pass midnight {}: later rows are read as times of the next day",
+                taceva_core::shown(column),
+                taceva_core::counted(*days, "time")
             ),
             ImportWarning::ZeroSpread { channel, rule } => write!(
                 f,

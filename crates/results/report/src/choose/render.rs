@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use maud::html;
 use serde_json::json;
+use taceva_core::{by_count, counted};
 
 use super::{Candidate, Choice, Dropped, Step};
 use crate::html::Document;
@@ -118,8 +119,9 @@ impl Choice {
         if !self.unknown.is_empty() {
             let known = self.ranked.len() + self.others.len();
             table.note(format!(
-                "{known} of {} sensors have a requested number; none is known of: {}.",
-                known + self.unknown.len(),
+                "{known} of {} {} a requested number; none is known of: {}.",
+                counted(known + self.unknown.len(), "sensor"),
+                by_count(known, "has", "have"),
                 first(&self.unknown)
             ));
         }

@@ -3,6 +3,7 @@
 mod gratings;
 mod grey;
 mod planes;
+mod predictions;
 mod radar;
 mod repeats;
 mod spokes;
@@ -22,7 +23,7 @@ pub struct StudyFigures {
 /// The figures 3 to 8 of the study of `studies`, in a style for print.
 pub fn study_figures(studies: &[Study], style: &FigureStyle) -> StudyFigures {
     let room = style.room();
-    let all: [(&str, Option<Figure>, &str); 9] = [
+    let all: [(&str, Option<Figure>, &str); 10] = [
         (
             "figure-3c",
             gratings::draw(studies, room),
@@ -47,6 +48,11 @@ pub fn study_figures(studies: &[Study], style: &FigureStyle) -> StudyFigures {
             "figure-6b",
             grey::draw(studies, room),
             "samples in several scenes of light, with their mean grey level",
+        ),
+        (
+            "figure-7a",
+            predictions::draw(studies, room),
+            "predictions of repeated presses, with their points and steps of depth",
         ),
         (
             "figure-7b",

@@ -5,9 +5,9 @@ mod statistics;
 use std::collections::{BTreeMap, BTreeSet};
 
 use maud::{Markup, html};
+use taceva_core::counted;
 
-use super::studied::{points, span, whole};
-use crate::markup::counted;
+use super::studied::{counted_span, points, span, whole};
 use crate::markup::{heads, scroll};
 use crate::names::{listed, names};
 use crate::results::Study;
@@ -97,12 +97,12 @@ fn origin(studies: &[Study]) -> String {
 
 /// Presses of the recordings, and places of the scored samples.
 fn pressed(studies: &[Study]) -> String {
-    let presses = span(studies, |study| whole(study.made.presses));
-    let points = span(studies, points);
+    let presses = counted_span(studies, "press", |study| whole(study.made.presses));
+    let points = counted_span(studies, "contact point", points);
     let presses = presses.map(|presses| {
-        format!(" A protocol made {presses} presses for each recording, including those without a usable sample.")
+        format!(" A protocol made {presses} for each recording, including those without a usable sample.")
     });
-    let points = points.map(|points| format!(" Scored samples lie at {points} contact points."));
+    let points = points.map(|points| format!(" Scored samples lie at {points}."));
     presses.into_iter().chain(points).collect()
 }
 

@@ -19,7 +19,7 @@ pub(super) struct Made {
 /// Variables by quantity, in the order of the tables of calibration and lighting.
 const BLOCKS: [[&str; 2]; 2] = [["Fxy", "Fz"], ["Pxy", "Pz"]];
 /// Scenes of light.
-const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];
+pub(super) const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];
 
 /// Every table, in order.
 pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> [Made; 5] {
@@ -46,23 +46,23 @@ pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> [Made; 5] {
 }
 
 /// True if a cell has a number of ours.
-fn has_values(table: &Table) -> bool {
+pub(super) fn has_values(table: &Table) -> bool {
     let mut cells = table.rows.iter().flat_map(|row| &row.cells);
     cells.any(|cell| matches!(cell, Cell::Estimate(of) if !matches!(of.formatted.value.as_str(), "" | "–")))
 }
 
 /// The results that tables are made of.
-struct Sheet<'a> {
-    studies: &'a [Study],
-    scores: &'a ScoreTable,
+pub(super) struct Sheet<'a> {
+    pub(super) studies: &'a [Study],
+    pub(super) scores: &'a ScoreTable,
 }
 
 impl Sheet<'_> {
-    fn names(&self) -> &[String] {
+    pub(super) fn names(&self) -> &[String] {
         &self.scores.names
     }
 
-    fn cell(&self, at: usize, metric: &str, channel: &str, digits: Digits) -> Cell {
+    pub(super) fn cell(&self, at: usize, metric: &str, channel: &str, digits: Digits) -> Cell {
         cell(self.studies, self.scores, at, [metric, channel], digits)
     }
 
@@ -231,7 +231,7 @@ impl Sheet<'_> {
         table
     }
 
-    fn table(&self, caption: &str, columns: impl Iterator<Item = Column>) -> Table {
+    pub(super) fn table(&self, caption: &str, columns: impl Iterator<Item = Column>) -> Table {
         let simulated = self
             .studies
             .iter()
@@ -246,7 +246,7 @@ impl Sheet<'_> {
     }
 
     /// Adds the legend of values, bold and marks.
-    fn explain(&self, table: &mut Table) {
+    pub(super) fn explain(&self, table: &mut Table) {
         let cells = || {
             let cells = table.rows.iter().flat_map(|row| &row.cells);
             cells.filter_map(|cell| match cell {
@@ -272,11 +272,11 @@ impl Sheet<'_> {
     }
 }
 
-fn column(name: &str) -> Column {
+pub(super) fn column(name: &str) -> Column {
     Column::new(name).align(Align::Left)
 }
 
-fn number_column(name: &str) -> Column {
+pub(super) fn number_column(name: &str) -> Column {
     Column::new(name).align(Align::Right)
 }
 
@@ -290,7 +290,7 @@ mod tests {
             sensor: sensor.to_owned(),
             ..Study::default()
         };
-        for sensor in super::super::SENSORS {
+        for sensor in super::super::beside::SENSORS {
             for channel in VARIABLES {
                 for metric in ["mae", "r2", "smape", "r_spatial"] {
                     let found = super::super::beside::printed(&study(sensor), metric, channel);

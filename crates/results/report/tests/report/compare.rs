@@ -1,5 +1,6 @@
 //! Comparisons of drawn scores: the better sensor, the words, and lines and rows of readable length.
 
+mod asked;
 mod pairs;
 mod variants;
 

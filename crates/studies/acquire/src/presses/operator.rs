@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::PoisonError;
 
+use taceva_core::{by_count, counted};
 use taceva_drivers::{Drivers, OpenError};
 use taceva_protocol::{Answer, Left, Plan, Question, RigFile, RunError, StopCause};
 
@@ -116,18 +117,23 @@ impl PlannedStudy {
             lights,
             units,
         } = changes;
-        let named = |names: &[String], changer: Option<&Vec<String>>, what: &str| {
+        let named = |names: &[String], changer: Option<&Vec<String>>, noun: &str, rest: &str| {
             let beside = match changer {
                 Some(_) => format!(", which the changer does not hold: {}", few(names)),
                 None => String::new(),
             };
             let count = names.len();
-            (count > 0).then(|| format!("{count} {what} are changed by hand{beside}"))
+            let are = by_count(count, "is", "are");
+            let counted = counted(count, noun);
+            (count > 0).then(|| format!("{counted}{rest} {are} changed by hand{beside}"))
         };
         let needed = [
-            named(&specimens, held.specimens.as_ref(), "specimens"),
-            (lights > 0).then(|| format!("{lights} lights are changed by hand")),
-            named(&units, held.units.as_ref(), "units of the sensor"),
+            named(&specimens, held.specimens.as_ref(), "specimen", ""),
+            (lights > 0).then(|| {
+                let are = by_count(lights, "is", "are");
+                format!("{} {are} changed by hand", counted(lights, "light"))
+            }),
+            named(&units, held.units.as_ref(), "unit", " of the sensor"),
         ];
         needed.into_iter().flatten().collect()
     }

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use taceva_core::shown;
 
-use taceva_core::{Channel, Channels, Unit};
+use taceva_core::{Channel, Channels, Unit, counted};
 use taceva_dataset::internal::each_part;
 use taceva_dataset::{Digest, Place};
 use taceva_import::CsvTable;
@@ -217,8 +217,8 @@ pub(super) fn pair<'a>(
         return Err(EvaluateError::Tables {
             path: prediction.path().to_owned(),
             problem: format!(
-                "{} rows, but {} has {}; rows are matched by order, because no column `sample` or `id` is in both tables",
-                prediction.rows(),
+                "{}, but {} has {}; rows are matched by order, because no column `sample` or `id` is in both tables",
+                counted(prediction.rows(), "row"),
                 shown(&truth.path()),
                 truth.rows()
             ),

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use taceva_core::counted;
 use taceva_metrics::{Standing, catalogue};
 
-use crate::markup::counted;
 use crate::names::listed;
 use crate::results::Study;
 use crate::scores::ScoreTable;

@@ -254,7 +254,7 @@ fn what_a_changer_does_not_hold_needs_somebody_and_is_named_before_anything_is_o
     let needed =
         "2 specimens are changed by hand, which the changer does not hold: sphere of radius 2 mm";
     assert!(text.contains(needed), "{text}");
-    let needed = "1 units of the sensor are changed by hand, which the changer does not hold: b";
+    let needed = "1 unit of the sensor is changed by hand, which the changer does not hold: b";
     assert!(text.contains(needed), "{text}");
     assert_eq!(world.state().readings, 0);
 }
