@@ -23,9 +23,13 @@ pub(crate) enum RigSubject {
     Teach(RigTeachArgs),
 }
 
-/// Every device is read for 2 seconds without motion: its rate, its longest gap, the age of its values, and the scatter of that age. Then,
-/// if you permit it by typing its name, the robot goes 5 mm straight up, away from the gel, and is halted on the way. Put the tip at least
-/// a centimetre above the gel before. Every problem that would stop a run is reported with its remedy; the exit code is then 1.
+/// Every device is read for 2 seconds without motion: its rate, its longest gap, the age of its values, and their noise. Then, if you
+/// permit it by typing its name, the robot goes 5 mm straight up, away from the gel, and is halted on the way. Put the tip at least a
+/// centimetre above the gel before.
+///
+/// Each device has a line: `ok`, `problem` for a value that would stop a run, or `error` with the remedy. A device that fails does not end
+/// the check: the next one is tried. If the robot, the force transducer or the enabling switch failed, nothing moves, and the line of the
+/// halt says why it was left out. The exit code is 1 after any error or problem.
 ///
 /// Do this once before the first run on a rig, and again after every change of its network, its machine or a device.
 #[derive(Debug, Args)]

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use taceva_acquire::{RigCheck, RigTap, Stream};
+use taceva_acquire::{RigCheck, RigProblem, RigTap, Stream};
 
 use crate::args::ListFormat;
 
@@ -80,37 +80,66 @@ fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
         ("sensor", &check.sensor, ""),
     ];
     for (device, stream, unit) in streams {
-        match stream {
-            Some(stream) => listed(device, stream, unit, out)?,
-            None => writeln!(out, "{device:<7} is not in the rig file")?,
+        match (failure(check, device), stream) {
+            (Some(failure), _) => writeln!(out, "{device:<7} error: {failure}")?,
+            (None, Some(stream)) => {
+                write!(out, "{device:<7} {}: ", state(check, device))?;
+                measured(stream, unit, out)?;
+            }
+            (None, None) => writeln!(out, "{device:<7} is not in the rig file")?,
         }
     }
-    if let Some(switch) = &check.switch {
-        let share = 100.0 * f64::from(switch.held) / f64::from(switch.looks.max(1));
-        writeln!(
-            out,
-            "switch  held in {} of {} readings ({share:.0} %), pressed or released {} times, answers within {:.3} ms",
-            switch.held, switch.looks, switch.changes, switch.longest_ms
-        )?;
+    match (failure(check, "switch"), &check.switch) {
+        (Some(failure), _) => writeln!(out, "switch  error: {failure}")?,
+        (None, Some(switch)) => {
+            let share = 100.0 * f64::from(switch.held) / f64::from(switch.looks.max(1));
+            writeln!(
+                out,
+                "switch  {}: held in {} of {} readings ({share:.0} %), pressed or released {} times, answers within {:.3} ms",
+                state(check, "switch"),
+                switch.held,
+                switch.looks,
+                switch.changes,
+                switch.longest_ms
+            )?;
+        }
+        (None, None) => {}
     }
-    match &check.halt {
-        Some(halt) => writeln!(
+    match (&check.halt, &check.halt_left_out) {
+        (Some(halt), _) => writeln!(
             out,
             "halt    acknowledged in {:.1} ms, the robot stopped in {:.1} ms; the tip was left {:.2} mm higher",
             halt.acknowledged_ms, halt.ended_ms, halt.left_mm
         )?,
-        None => writeln!(out, "halt    not tried")?,
+        (None, Some(why)) => writeln!(out, "halt    left out: {why}")?,
+        (None, None) => {}
     }
-    for problem in &check.problems {
+    let measured = check.problems.iter();
+    for problem in measured.filter(|problem| !problem.is_failure()) {
         writeln!(out, "problem {problem}")?;
     }
     Ok(())
 }
 
-fn listed(device: &str, stream: &Stream, unit: &str, out: &mut dyn Write) -> io::Result<()> {
+/// The failure of `device`, if it gave no measurement.
+fn failure<'a>(check: &'a RigCheck, device: &str) -> Option<&'a RigProblem> {
+    let mut failures = check.problems.iter().filter(|problem| problem.is_failure());
+    failures.find(|problem| problem.device() == Some(device))
+}
+
+/// The state of `device`, which was measured.
+fn state(check: &RigCheck, device: &str) -> &'static str {
+    let mut problems = check.problems.iter();
+    match problems.any(|problem| problem.device() == Some(device)) {
+        true => "problem",
+        false => "ok",
+    }
+}
+
+fn measured(stream: &Stream, unit: &str, out: &mut dyn Write) -> io::Result<()> {
     write!(
         out,
-        "{device:<7} {:.1} Hz, longest pause {:.1} ms, at most {:.1} ms late",
+        "{:.1} Hz, longest pause {:.1} ms, at most {:.1} ms late",
         stream.rate_hz, stream.gap_ms, stream.late_ms
     )?;
     if let Some(noise) = stream.noise {

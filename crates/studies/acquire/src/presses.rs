@@ -35,7 +35,7 @@ use crate::scene::{PlannedStudy, RigSpec, StudySource};
 pub(crate) use device::Opened;
 pub(crate) use devices::written_latencies_ms;
 use devices::{OpenRig, Sitting};
-pub(crate) use file_devices::{FileDevices, FileOpener};
+pub(crate) use file_devices::FileOpener;
 use log::RecordedPresses;
 use operator::{acquisition, presses_skipped, stopped, unit_is_there};
 use reduction::reduction;

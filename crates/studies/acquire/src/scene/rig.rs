@@ -150,7 +150,8 @@ impl RigSpec {
         Ok(described.and_then(|described| Some(described.changer()?.holds.clone())))
     }
 
-    fn describe<D: Device + ?Sized>(
+    /// Descriptor of `device` with its arguments. Opens nothing.
+    pub(crate) fn describe<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
         device: Option<&Setting<String>>,

@@ -215,8 +215,15 @@ impl RobotWatch for Arm {
 impl Robot for Arm {
     fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let now = MonotonicClock.now();
-        let tip = self.0.state().tip(now.as_secs_f64());
-        Ok((pose(tip), Stamp::at(now)))
+        let state = self.0.state();
+        if state.is_lost {
+            return Err(DriverError::new(
+                ErrorKind::Disconnected,
+                &ROBOT,
+                "read the pose",
+            ));
+        }
+        Ok((pose(state.tip(now.as_secs_f64())), Stamp::at(now)))
     }
 
     fn move_to(&mut self, target: Pose, speed: Speed, _: Deadline) -> Result<Stamp, DriverError> {

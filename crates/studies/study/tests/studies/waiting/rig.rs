@@ -1,6 +1,7 @@
 //! Setting a rig up: what is heard of its devices, how soon its robot stands, and where somebody jogged it.
 
 use taceva_acquire::{AcquireError, RigProblem, check_rig, read_rig, teach_rig};
+use taceva_core::ErrorKind;
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile, Spot};
 
 use crate::waiting::devices::drivers;
@@ -60,6 +61,58 @@ fn a_transducer_that_says_nothing_is_a_problem_with_what_helps() {
         panic!("{:?}", check.problems);
     };
     assert!(check.problems[0].to_string().contains("check its cable"));
+}
+
+#[test]
+fn a_camera_that_fails_is_named_and_the_other_devices_are_measured_and_the_robot_is_halted() {
+    let world = World::new();
+    world.state().camera = Some(ErrorKind::Disconnected);
+    let check = check_rig(&rig(), &drivers(&world), Some(&mut Person(Answer::Done)));
+    let check = check.expect("the file is right");
+    let failed = check.problems.iter().filter(|problem| problem.is_failure());
+    let failed: Vec<_> = failed.filter_map(RigProblem::device).collect();
+    assert_eq!(failed, ["sensor"], "{:?}", check.problems);
+    let mut failed = check.problems.iter().filter(|problem| problem.is_failure());
+    let said = failed.next().map(ToString::to_string).unwrap_or_default();
+    assert!(
+        said.starts_with("wall/gel: cannot take a picture: ") && said.contains("; check its cable"),
+        "{said}"
+    );
+    assert!(check.force.is_some() && check.robot.is_some() && check.sensor.is_none());
+    assert!(check.halt.is_some() && check.halt_left_out.is_none());
+}
+
+#[test]
+fn nothing_moves_in_a_check_whose_force_or_robot_failed_and_nobody_is_asked_to_permit_it() {
+    for (withheld, is_lost, why) in [
+        (u32::MAX, false, "because the force transducer failed"),
+        (0, true, "because the robot failed"),
+        (
+            u32::MAX,
+            true,
+            "because the robot and the force transducer failed",
+        ),
+    ] {
+        let world = World::new();
+        world.state().withheld = withheld;
+        world.state().is_lost = is_lost;
+        let check = check_rig(&rig(), &drivers(&world), Some(&mut Nobody));
+        let check = check.expect("the file is right");
+        assert!(check.sensor.is_some_and(|sensor| sensor.count > 0));
+        assert_eq!(check.robot.is_some(), !is_lost);
+        assert!(check.halt.is_none() && world.state().motions == 0);
+        let left_out = check.halt_left_out.expect("a reason");
+        assert_eq!(left_out, format!("nothing moves, {why}"));
+    }
+}
+
+/// Fails the test if it is asked.
+struct Nobody;
+
+impl Operator for Nobody {
+    fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
+        panic!("{question}");
+    }
 }
 
 /// Jogs the robot in its base frame to places that it was given.
