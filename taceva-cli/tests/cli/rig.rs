@@ -58,6 +58,26 @@ fn the_list_for_people_names_facts_and_arguments() {
 }
 
 #[test]
+fn the_pedal_is_listed_as_an_enabling_switch_and_refused_as_a_device_with_the_key_of_its_place() {
+    let bench = Bench::new();
+    let listed = bench.json("devices");
+    assert_eq!(listed["switches"][0]["key"], "hid/pedal");
+    let out = bench.ok("devices");
+    let pedal = out.lines().find(|line| line.starts_with("hid/pedal "));
+    let pedal = pedal.expect("listed");
+    assert!(
+        pedal.contains(" switch ") && pedal.contains("`enable` under [operator]"),
+        "{pedal}"
+    );
+    bench.write(
+        "lab.toml",
+        "rig_version = 1\n[sensor]\ndriver = \"hid/pedal:usb=0c45:7403\"\n",
+    );
+    let refused = "lab.toml, line 3: `hid/pedal` is an enabling switch and measures nothing: write it as `enable` under [operator]";
+    bench.refused("rig check lab.toml", 3, refused);
+}
+
+#[test]
 fn the_doctor_says_what_was_looked_at_and_its_exit_code_follows() {
     let bench = Bench::new();
     let ran = bench.run("doctor --format json");

@@ -190,9 +190,10 @@ pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), Scen
     scene.check_drivers(&known)
 }
 
-/// Rejects an `enable` that does not name an enabling switch, with the line of the rig file. Also rejects a simulated robot: no switch can be held in
-/// simulated time. Opens nothing.
+/// Rejects an `enable` that does not name an enabling switch, with the line of the rig file, and a switch in place of a device. Also rejects a
+/// simulated robot: no switch can be held in simulated time. Opens nothing.
 pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
+    check_places(rig, drivers)?;
     let Some(operator) = &rig.operator else {
         return Ok(());
     };
@@ -210,6 +211,26 @@ pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), Scene
         let problem = "`enable`: the robot is simulated, and no switch can be held in simulated time: remove [operator]";
         let problem = SceneProblem::Contradiction(problem.to_owned());
         return Err(refused((enable.at(), problem)));
+    }
+    Ok(())
+}
+
+/// Rejects an enabling switch as robot, force transducer or sensor of `rig`.
+fn check_places(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
+    let robot = rig.robot.as_ref().map(|robot| &robot.driver);
+    let force = rig.force.as_ref().map(|force| &force.driver);
+    let sensor = rig.sensor.as_ref().map(|sensor| &sensor.driver);
+    for device in [robot, force, sensor].into_iter().flatten() {
+        let selector: Result<Selector, _> = device.value.parse();
+        if let Ok(selector) = selector
+            && drivers.switches.has(selector.driver())
+        {
+            let problem = format!(
+                "`{}` is an enabling switch and measures nothing: write it as `enable` under [operator]",
+                selector.driver()
+            );
+            return Err(rig.error(device.at(), SceneProblem::Contradiction(problem)));
+        }
     }
     Ok(())
 }

@@ -66,7 +66,8 @@ pub(crate) fn drivers(world: &World) -> Drivers {
     let lamp = OnWall::new(LAMP, Facts::Lighting(facts), world);
     drivers.lightings.add(Box::new(lamp)).expect("one");
     let held = world.clone();
-    drivers.switches.add(SWITCH, Vec::new(), move |_| {
+    let title = "what somebody holds with a foot";
+    drivers.switches.add(SWITCH, title, Vec::new(), move |_| {
         match held.state().is_unplugged {
             true => Err(OpenError::Device(unplugged("open"))),
             false => Ok(Arc::new(Pedal(held.clone()))),
