@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import html
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
 from taceva._figure import Figure, figures_of
-from taceva._result import Result, not_measured
+from taceva._result import Result
 
 
 class Comparison:
@@ -17,7 +16,6 @@ class Comparison:
 
     def __init__(self, results: Sequence[Result], metrics: Sequence[str], margins: Mapping[str, float], seed: int) -> None:
         self._asked = ([result.text for result in results], list(metrics), dict(margins), seed)
-        self._said = not_measured([result.source for result in results])
 
     def _form(self, form: str) -> str:
         return _taceva.comparison(*self._asked, form)
@@ -28,17 +26,17 @@ class Comparison:
 
     def to_latex(self) -> str:
         """Return a table for a paper."""
-        return "".join(f"% {line}\n" for line in self._said) + self._form("tex")
+        return self._form("tex")
 
     def figures(self) -> list[Figure]:
         """Return every figure that shows the results together."""
         return figures_of(self._asked[0])
 
     def __str__(self) -> str:
-        return "\n".join([*self._said, self._form("text")])
+        return self._form("text")
 
     def _repr_html_(self) -> str:
-        return "".join(f"<p>{html.escape(line)}</p>" for line in self._said) + self._form("html")
+        return self._form("html")
 
 
 def compare(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, overload
@@ -200,7 +200,8 @@ class Result(Mapping[tuple[str, str], Score]):
 
     def _said(self) -> list[str]:
         """Return what a reader must know first: that nothing was measured, and the notes."""
-        return [*not_measured([self.source]), *self.notes]
+        unmeasured = _taceva.not_measured([self.source])
+        return [*([unmeasured] if unmeasured else []), *self.notes]
 
     def _absent(self) -> list[str]:
         """Return what a reader misses: metrics that were skipped, and intervals of arrays."""
@@ -229,15 +230,6 @@ class Result(Mapping[tuple[str, str], Score]):
 
     def __reduce__(self) -> tuple[Any, tuple[int, str]]:
         return _arrived, (PICKLE_VERSION, self._text)
-
-
-def not_measured(sources: Sequence[str]) -> list[str]:
-    """Return the sentence that precedes every output about simulated or synthetic samples."""
-    kinds = sorted({source for source in sources if source in ("simulated", "synthetic")})
-    if not kinds:
-        return []
-    whose = "the samples are" if set(sources) == set(kinds) else "some of the samples are"
-    return [f"{'Nothing here was measured' if whose.startswith('the') else 'Not all of this was measured'}: {whose} {' and '.join(kinds)}."]
 
 
 def load(path: str | os.PathLike[str]) -> Result:

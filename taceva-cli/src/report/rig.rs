@@ -37,6 +37,7 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
         serde_json::to_writer_pretty(&mut *out, &WrittenTap { schema, tap })?;
         return writeln!(out);
     }
+    unmeasured(tap.simulated, out)?;
     writeln!(
         out,
         "{taps} taps; with the present corrections of the stamps:"
@@ -73,7 +74,16 @@ pub(crate) fn check(check: &RigCheck, format: ListFormat, out: &mut dyn Write) -
     }
 }
 
+/// Says that an emulated rig gives no measurements.
+fn unmeasured(is_simulated: bool, out: &mut dyn Write) -> io::Result<()> {
+    match is_simulated {
+        true => writeln!(out, "Nothing here was measured: the devices are simulated."),
+        false => Ok(()),
+    }
+}
+
 fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
+    unmeasured(check.simulated, out)?;
     let streams = [
         ("force", &check.force, "N"),
         ("robot", &check.robot, "mm"),

@@ -42,6 +42,8 @@ const NOISE_PART: f64 = 0.5;
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigCheck {
+    /// True if the devices are emulated, as the rig file states.
+    pub simulated: bool,
     /// Force transducer at rest; noise in N.
     pub force: Option<Stream>,
     /// Pose of the robot at rest; noise in mm.
@@ -85,7 +87,10 @@ pub fn check_rig(
     let opener = FileOpener::new(rig, drivers);
     check_switch(rig, drivers)?;
     opener.check()?;
-    let mut check = RigCheck::default();
+    let mut check = RigCheck {
+        simulated: rig.simulated,
+        ..RigCheck::default()
+    };
     // The switch comes first: without it no robot moves.
     let switch = check.of("switch", open_switch(rig, drivers)).flatten();
     let sensor = check.of("sensor", opener.sensor()).flatten();

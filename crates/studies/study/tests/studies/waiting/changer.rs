@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use taceva_acquire::AcquireError;
 use taceva_core::{Changer, Deadline, DriverError, ErrorKind, Interrupt, Progress, SilentProgress};
+use taceva_dataset::Source;
 use taceva_drivers::MonotonicClock;
 use taceva_protocol::{Answer, Cancel, Left, Operator, Question, StopCause};
 use taceva_study::StudyError;
@@ -13,7 +14,7 @@ use taceva_study::StudyError;
 use crate::waiting::devices::CAROUSEL;
 use crate::waiting::operator::LIGHTS;
 use crate::waiting::record_on;
-use crate::waiting::session::{UPRIGHT, rig_file, scene};
+use crate::waiting::session::{self, UPRIGHT, rig_file, scene};
 use crate::waiting::world::{Misfortune, World};
 
 /// Two units, of which the surface is felt at two places each, with a tip so slow in contact that a busy machine is in time.
@@ -142,6 +143,29 @@ fn changers_bring_units_and_specimens_while_the_robot_stands_halted_and_nobody_i
             *height_mm <= -0.3 + 1e-9 && *was_halted && *stood,
             "{changes:?}"
         );
+    }
+}
+
+#[test]
+fn one_simulated_changer_makes_the_recording_of_a_real_rig_a_simulated_one() {
+    for (changer, source) in [
+        ("carousel", Source::Recorded),
+        ("revolver", Source::Simulated),
+    ] {
+        let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+        let rig = rig_file(folder.path(), UPRIGHT);
+        let text = std::fs::read_to_string(&rig).expect("written");
+        let changers = format!("[changers]\nspecimen = \"wall/{changer}:holds={BALL}\"\n");
+        std::fs::write(&rig, text + &changers).expect("written");
+        let person = Mutex::new(session::Person::default());
+        let whole = record_on(
+            &world,
+            &folder.path().join("run"),
+            &SilentProgress,
+            (&scene(), Some(&rig), Some(&person)),
+        );
+        let whole = whole.expect("somebody lets it move");
+        assert_eq!(whole.header().source, source, "{changer}");
     }
 }
 

@@ -57,8 +57,12 @@ pub(crate) fn drivers(world: &World) -> Drivers {
     for key in [CAROUSEL, REVOLVER] {
         let holds = ArgSpec::text("holds").changes_facts();
         let facts = Facts::Changer(ChangerFacts::default());
+        let is_simulated = key == REVOLVER;
         let mut changer = OnWall::new(key, facts, world);
-        let spec = changer.descriptor.to_spec().arguments([holds]);
+        let mut spec = changer.descriptor.to_spec().arguments([holds]);
+        if is_simulated {
+            spec.source = DriverSource::Simulated;
+        }
         changer.descriptor = spec.check().expect("no contradiction");
         drivers.changers.add(Box::new(changer)).expect("one");
     }
