@@ -12,7 +12,7 @@ from taceva._result import Result
 
 
 class Comparison:
-    """Differences with intervals and tests, adjusted by Holm over all of them."""
+    """What `compare` returns: differences between results with intervals and p-values, adjusted by Holm for the number of comparisons."""
 
     def __init__(self, results: Sequence[Result], metrics: Sequence[str], margins: Mapping[str, float], seed: int) -> None:
         self._asked = ([result.text for result in results], list(metrics), dict(margins), seed)
@@ -49,10 +49,19 @@ def compare(
 
     Parameters
     ----------
+    results
+        Of the same metrics, such as of two models on one recording. Results that scored the same samples are compared in pairs.
     metrics
         Metrics and groups by name; all that the results share, if empty.
     margins
-        By ``metric.channel`` or ``metric``: the largest difference that still counts as equal, in the unit of the metric.
+        The largest difference that still counts as equal, in the unit of the metric: ``{"mae.Fz": 0.05}``, or ``{"mae": 0.05}`` for every channel.
+    seed
+        Of the random signs of the sign-flip test.
+
+    Raises
+    ------
+    ValueError
+        For fewer than two results.
 
     >>> import taceva
     >>> truth = [[0.0], [1.0], [2.0], [3.0], [4.0], [5.0]]

@@ -48,7 +48,8 @@ def evaluate(
         - a name, such as ``"ridge"``, ``"fast"``, ``"cnn"``, ``"auto"`` or ``"linfa/elastic-net"``, or the key of a plugin: fitted here; see `models`;
         - the file of a model that ``taceva fit`` wrote, which brings its own split;
         - an object with ``fit(X, y)`` and ``predict(X)``, as scikit-learn's: fitted here on ``X``, float32 ``[rows, features]`` (see
-          `Dataset.features`, 32×32 gray by default), and ``y``, float64 ``[rows, channels]`` in their units; ``fit`` changes it;
+          `Dataset.features`, 32×32 gray by default), and ``y``, float64 ``[rows, channels]`` in their units, or ``[rows]`` of one channel.
+          The object stays fitted;
         - `onnx` of a file;
         - a ``torch.nn.Module``: called in ``eval`` mode without gradients, on its own device and in its own precision, with
           ``[rows, samples, height, width]`` from 0 to 1;
@@ -67,8 +68,12 @@ def evaluate(
     bounded
         ``False`` scores the predictions of an object with ``fit`` unchanged, and a note says so. Otherwise they are clamped to the range of its
         training labels plus a quarter of that range, as for every model that is fitted here.
+    metrics
+        Metrics and groups by name; ``all`` scores every metric that the recording supports, and the result names those that were skipped.
     batch
         Number of frames in one call of a module or a callable.
+    jobs
+        Number of threads, all cores if 0; results do not depend on it.
 
     Returns
     -------

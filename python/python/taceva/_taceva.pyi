@@ -22,6 +22,7 @@ __all__ = [
     "import_recording",
     "metric_titles",
     "model_names",
+    "not_measured",
     "plugin_log",
     "plugin_manifest",
     "read_result",
