@@ -14,7 +14,7 @@ use super::stream::{Listener, Stream};
 use super::switch::{SwitchCheck, look_at};
 use crate::error::AcquireError;
 use crate::presses::FileOpener;
-use crate::scene::{check_switch, open_switch};
+use crate::scene::{check_switch, is_untaught, open_switch};
 
 /// Duration of the measurement of each device.
 const LISTENED: Duration = Duration::from_secs(2);
@@ -75,7 +75,7 @@ pub struct HaltTrip {
 /// Measures the devices of `rig`, and halts its robot once on its way up, if `operator` allows it or the rig is emulated.
 ///
 /// Every device is tried: one that fails becomes a problem, and the next one follows. Nothing moves if the robot, the force transducer or the
-/// enabling switch failed.
+/// enabling switch failed, or if the tip is not above the gel according to the file.
 ///
 /// # Errors
 /// [`AcquireError::Scene`] with the line of a wrong rig file, before a device is opened.
@@ -127,6 +127,15 @@ pub fn check_rig(
         check.note("robot", &heard, stated.map(|noise| noise.0));
         check.robot = Some(heard);
     }
+    let pose = robot.pose(DEADLINE).map_err(without_answer);
+    if let Some((tip, _)) = check.of("robot", pose) {
+        let depth_mm = tip.position.z.0;
+        if is_untaught(rig, drivers) {
+            check.problems.push(RigProblem::Untaught);
+        } else if depth_mm > 0.0 {
+            check.problems.push(RigProblem::InGel { depth_mm });
+        }
+    }
     let name = descriptor.key().to_string();
     check.halt_left_out = check.obstacle();
     if check.halt_left_out.is_some() {
@@ -165,7 +174,7 @@ impl RigCheck {
         }
     }
 
-    /// Reason for which the robot must not move: the devices that failed.
+    /// Reason for which the robot must not move: devices that failed, or a place at which upwards may be downwards.
     fn obstacle(&self) -> Option<String> {
         let failed = self.problems.iter().filter(|problem| problem.is_failure());
         let failed: Vec<&str> = failed
@@ -176,7 +185,13 @@ impl RigCheck {
                 _ => None,
             })
             .collect();
+        let mut problems = self.problems.iter();
+        let is_misplaced =
+            problems.any(|of| matches!(of, RigProblem::Untaught | RigProblem::InGel { .. }));
         match failed.as_slice() {
+            [] if is_misplaced => {
+                Some("nothing moves, because the place of the robot is wrong".to_owned())
+            }
             [] => None,
             failed => Some(format!(
                 "nothing moves, because {} failed",

@@ -37,6 +37,13 @@ pub enum RigProblem {
         /// Noise that the driver states, in the same unit.
         stated: f64,
     },
+    /// The file has the place of the robot that a new file begins with.
+    Untaught,
+    /// The tip is inside the gel according to the file.
+    InGel {
+        /// Depth of the tip, in mm.
+        depth_mm: f64,
+    },
     /// The robot stops too late.
     SlowHalt {
         /// Time until the motion had ended, in ms.
@@ -68,6 +75,13 @@ impl fmt::Display for RigProblem {
                 f,
                 "the {device} has noise of {measured:.4}, but its driver states {stated:.4}: presses may be halted without cause; check what shakes it"
             ),
+            RigProblem::Untaught => f.write_str(
+                "`origin_mm` and `axes` of [robot] are those of a new file, and upwards may be downwards: run `taceva rig teach`",
+            ),
+            RigProblem::InGel { depth_mm } => write!(
+                f,
+                "by `origin_mm` and `axes` of [robot] the tip is {depth_mm:.1} mm inside the gel: raise it by a centimetre, or run `taceva rig teach` if it is above the gel"
+            ),
             RigProblem::SlowHalt { ended_ms } => write!(
                 f,
                 "the robot came to rest {ended_ms:.0} ms after a halt, expected at most {HALT_MS} ms: lower `speed_mm_s` in contact, or shorten its braking at the controller"
@@ -90,6 +104,7 @@ impl RigProblem {
             | RigProblem::Unheard { device }
             | RigProblem::Noise { device, .. } => Some(device),
             RigProblem::Gaps { .. } => Some("force"),
+            RigProblem::Untaught | RigProblem::InGel { .. } => Some("robot"),
             RigProblem::Unheld => Some("switch"),
             RigProblem::SlowHalt { .. } | RigProblem::NotHalted => None,
         }

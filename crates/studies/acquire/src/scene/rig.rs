@@ -267,6 +267,33 @@ pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), Sce
     Ok(())
 }
 
+/// True if the robot of `rig` moves in its base frame, and the file still has the place that a new file begins with.
+pub(crate) fn is_untaught(rig: &RigFile, drivers: &Drivers) -> bool {
+    let Some(robot) = &rig.robot else {
+        return false;
+    };
+    let selector: Option<Selector> = robot.driver.value.parse().ok();
+    let factory = selector.and_then(|selector| drivers.robots.get(selector.driver()).ok());
+    let facts = factory.and_then(|factory| factory.descriptor().robot());
+    facts.is_some_and(|facts| facts.base_frame)
+        && robot.origin_mm.value.iter().all(|mm| *mm == 0.0)
+        && robot.axes.value.to_string() == r#"["x", "y", "z"]"#
+}
+
+/// Rejects a robot whose place is that of a new file: it would move elsewhere than to the gel. Opens nothing.
+pub(crate) fn check_taught(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
+    match &rig.robot {
+        Some(robot) if is_untaught(rig, drivers) => {
+            let problem = format!(
+                "`origin_mm` and `axes` are those of a new file: run taceva rig teach {}; nothing moves before",
+                taceva_core::shown(rig.name())
+            );
+            Err(rig.error(robot.origin_mm.at(), SceneProblem::Contradiction(problem)))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// True if the robot of `rig` is simulated in this program.
 fn is_simulated_here(rig: &RigFile, drivers: &Drivers) -> bool {
     let robot = rig.robot.as_ref().map(|robot| &robot.driver.value);

@@ -16,6 +16,8 @@ use crate::waiting::changer::Carousel;
 use crate::waiting::world::{World, pose};
 
 const ROBOT: DriverKey = DriverKey::fixed("wall/robot");
+/// The same robot in a base frame.
+const ARM: DriverKey = DriverKey::fixed("wall/arm");
 const FORCE: DriverKey = DriverKey::fixed("wall/force");
 const SWITCH: DriverKey = DriverKey::fixed("wall/pedal");
 pub(crate) const CAROUSEL: DriverKey = DriverKey::fixed("wall/carousel");
@@ -50,8 +52,11 @@ pub(crate) fn drivers(world: &World) -> Drivers {
     };
     let gel = OnWall::new(SENSOR, Facts::Sensor(Box::new(sensor)), world);
     drivers.sensors.add(Box::new(gel)).expect("one");
-    let arm = OnWall::new(ROBOT, Facts::Robot(robot), world);
-    drivers.robots.add(Box::new(arm)).expect("one");
+    for (key, is_base) in [(ROBOT, false), (ARM, true)] {
+        let facts = Facts::Robot(robot.with_base_frame(is_base));
+        let arm = OnWall::new(key, facts, world);
+        drivers.robots.add(Box::new(arm)).expect("one");
+    }
     let transducer = OnWall::new(FORCE, Facts::Force(force), world);
     drivers.forces.add(Box::new(transducer)).expect("one");
     for key in [CAROUSEL, REVOLVER] {

@@ -1,11 +1,15 @@
 //! Setting a rig up: what is heard of its devices, how soon its robot stands, and where somebody jogged it.
 
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
 use taceva_acquire::{AcquireError, RigProblem, check_rig, read_rig, teach_rig};
-use taceva_core::ErrorKind;
+use taceva_core::{ErrorKind, SilentProgress};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile, Spot};
 
 use crate::waiting::devices::drivers;
-use crate::waiting::session::{UPRIGHT, rig_file};
+use crate::waiting::record_on;
+use crate::waiting::session::{self, UPRIGHT, rig_file, scene};
 use crate::waiting::world::World;
 
 /// Lets the robot move, or not.
@@ -104,6 +108,62 @@ fn nothing_moves_in_a_check_whose_force_or_robot_failed_and_nobody_is_asked_to_p
         let left_out = check.halt_left_out.expect("a reason");
         assert_eq!(left_out, format!("nothing moves, {why}"));
     }
+}
+
+#[test]
+fn nothing_moves_in_a_check_whose_rig_file_has_the_tip_in_the_gel_or_was_never_taught() {
+    let world = World::new();
+    assert!(world.travel([0.0, 0.0, 0.25], 50.0));
+    let check = check_rig(&rig(), &drivers(&world), Some(&mut Nobody)).expect("a file");
+    let is_deep = |problem: &RigProblem| match problem {
+        RigProblem::InGel { depth_mm } => (depth_mm - 0.25).abs() < 1e-9,
+        _ => false,
+    };
+    assert!(check.problems.iter().any(is_deep), "{:?}", check.problems);
+    assert!(check.halt.is_none() && world.state().motions == 1);
+    let world = World::new();
+    let check = check_rig(&untaught(), &drivers(&world), Some(&mut Nobody)).expect("a file");
+    assert!(check.problems.contains(&RigProblem::Untaught));
+    assert!(check.halt.is_none() && world.state().motions == 0);
+    let why = "nothing moves, because the place of the robot is wrong";
+    assert_eq!(check.halt_left_out.as_deref(), Some(why));
+}
+
+/// A rig file as `init rig` writes it.
+fn untaught() -> RigFile {
+    let folder = tempfile::tempdir().expect("a folder");
+    read_rig(&new_file(folder.path())).expect("a rig")
+}
+
+fn new_file(folder: &Path) -> PathBuf {
+    let path = rig_file(folder, UPRIGHT);
+    let text = std::fs::read_to_string(&path).expect("written");
+    std::fs::write(&path, text.replace("wall/robot", "wall/arm")).expect("written");
+    path
+}
+
+#[test]
+fn a_run_with_a_rig_file_that_was_never_taught_is_refused_with_its_line_before_anything_is_opened()
+{
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    world.state().is_lost = true;
+    let rig = new_file(folder.path());
+    let person = Mutex::new(session::Person::default());
+    let refused = record_on(
+        &world,
+        &folder.path().join("run"),
+        &SilentProgress,
+        (&scene(), Some(&rig), Some(&person)),
+    );
+    let said = refused.expect_err("never taught").to_string();
+    assert!(
+        said.contains(
+            "lab.toml, line 5: `origin_mm` and `axes` are those of a new file: run taceva rig teach"
+        ),
+        "{said}"
+    );
+    let state = world.state();
+    assert_eq!((state.readings, state.motions), (0, 0));
 }
 
 /// Fails the test if it is asked.
