@@ -115,6 +115,14 @@ fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
         }
         (None, None) => {}
     }
+    for key in ["specimen", "unit", "light"] {
+        if let Some(failure) = failure(check, key) {
+            writeln!(out, "{key:<7} error: {failure}")?;
+        }
+        for changer in check.changers.iter().filter(|changer| changer.key == key) {
+            writeln!(out, "{key:<7} ok: holds {}", changer.holds.join(", "))?;
+        }
+    }
     match (&check.halt, &check.halt_left_out) {
         (Some(halt), _) => writeln!(
             out,

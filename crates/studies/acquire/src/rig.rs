@@ -1,5 +1,6 @@
 //! Setup of a rig: registration of its robot, latencies, and checks of its devices.
 
+mod changer;
 mod check;
 mod problem;
 mod stream;
@@ -12,6 +13,7 @@ use std::path::Path;
 use taceva_protocol::RigFile;
 
 use crate::error::AcquireError;
+pub use changer::ChangerCheck;
 pub use check::{HaltTrip, RigCheck, check_rig};
 pub use problem::RigProblem;
 pub use stream::Stream;

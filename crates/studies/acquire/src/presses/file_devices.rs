@@ -13,7 +13,7 @@ use super::device::Opened;
 use super::devices::{FIRST_POSE, Opener, written_latencies_ms};
 use super::registration::{Registered, Turned};
 use crate::error::AcquireError;
-use crate::scene::RigSpec;
+use crate::scene::{Refused, RigSpec, check_changers};
 
 /// An open device and its descriptor.
 type Described<D> = (Box<D>, Descriptor);
@@ -40,7 +40,35 @@ impl<'a> FileOpener<'a> {
     pub(crate) fn check(&self) -> Result<(), AcquireError> {
         self.check_device(&self.drivers.sensors, self.spec.sensor.as_ref())?;
         self.check_device(&self.drivers.robots, self.spec.robot.as_ref())?;
-        self.check_device(&self.drivers.forces, self.spec.force.as_ref())
+        self.check_device(&self.drivers.forces, self.spec.force.as_ref())?;
+        check_changers(self.rig, self.drivers)?;
+        let light = self.rig.changers.light.as_ref();
+        let described = self.spec.describe(&self.drivers.lightings, light, "1");
+        described.map(drop).map_err(|refused| self.refused(refused))
+    }
+
+    /// Opens the changer `device` and returns the names of what it holds. Nothing moves.
+    ///
+    /// # Errors
+    /// [`AcquireError::OpenOfRig`] if the device does not open.
+    pub(crate) fn held(
+        &self,
+        device: Option<&Setting<String>>,
+    ) -> Result<Option<Vec<String>>, AcquireError> {
+        let opened = self.opened(&self.drivers.changers, device)?;
+        Ok(opened.map(|opened| opened.device.holds().to_vec()))
+    }
+
+    /// Opens the lighting `device` and returns the names of its scenes. The light stays as it is.
+    ///
+    /// # Errors
+    /// As [`held`](FileOpener::held).
+    pub(crate) fn scenes(
+        &self,
+        device: Option<&Setting<String>>,
+    ) -> Result<Option<Vec<String>>, AcquireError> {
+        let opened = self.opened(&self.drivers.lightings, device)?;
+        Ok(opened.map(|opened| opened.device.scenes().to_vec()))
     }
 
     /// Opens the sensor.
@@ -110,6 +138,15 @@ impl<'a> FileOpener<'a> {
         device: Option<&Setting<String>>,
     ) -> Result<Option<Opened<D>>, AcquireError> {
         self.check_device(registry, device)?;
+        self.opened(registry, device)
+    }
+
+    /// Opens a device that was checked before.
+    fn opened<D: Device + ?Sized>(
+        &self,
+        registry: &Registry<D>,
+        device: Option<&Setting<String>>,
+    ) -> Result<Option<Opened<D>>, AcquireError> {
         let opener = Opener {
             rig: &self.spec,
             unit: "1",
@@ -123,10 +160,8 @@ impl<'a> FileOpener<'a> {
         registry: &Registry<D>,
         device: Option<&Setting<String>>,
     ) -> Result<(), AcquireError> {
-        let refused = |(at, problem): (Option<usize>, SceneProblem)| {
-            AcquireError::from(self.rig.error(at, problem))
-        };
-        let described = self.spec.describe(registry, device, "1").map_err(refused)?;
+        let described = self.spec.describe(registry, device, "1");
+        let described = described.map_err(|refused| self.refused(refused))?;
         match device.zip(described) {
             Some((device, described)) if described.source() != DriverSource::Real => {
                 let problem = format!(
@@ -134,10 +169,15 @@ impl<'a> FileOpener<'a> {
                     taceva_core::shown(&device.value)
                 );
                 let problem = SceneProblem::Contradiction(problem);
-                Err(refused((device.at(), problem)))
+                Err(self.refused((device.at(), problem)))
             }
             _ => Ok(()),
         }
+    }
+
+    fn refused(&self, refused: Refused) -> AcquireError {
+        let (at, problem) = refused;
+        AcquireError::from(self.rig.error(at, problem))
     }
 
     fn failed(&self, device: DriverKind, source: OpenError) -> AcquireError {

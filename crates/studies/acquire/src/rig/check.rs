@@ -9,6 +9,7 @@ use taceva_core::{
 use taceva_drivers::{Drivers, MonotonicClock};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile};
 
+use super::changer::{ChangerCheck, TriedChanger, open_changers};
 use super::problem::{HALT_MS, RigProblem};
 use super::stream::{Listener, Stream};
 use super::switch::{SwitchCheck, look_at};
@@ -52,6 +53,8 @@ pub struct RigCheck {
     pub sensor: Option<Stream>,
     /// Enabling switch, if the rig file names one.
     pub switch: Option<SwitchCheck>,
+    /// Changers and lighting that the rig file names and that opened.
+    pub changers: Vec<ChangerCheck>,
     /// Halt of the robot in motion; `None` if it was left out.
     pub halt: Option<HaltTrip>,
     /// Reason for which the halt was left out; `None` if it was timed.
@@ -96,6 +99,11 @@ pub fn check_rig(
     let sensor = check.of("sensor", opener.sensor()).flatten();
     let robot = check.of("robot", opener.robot()).flatten();
     let force = check.of("force", opener.force()).flatten();
+    for TriedChanger { key, holds } in open_changers(rig, &opener) {
+        if let Some(holds) = check.of(key, holds).flatten() {
+            check.changers.push(ChangerCheck { key, holds });
+        }
+    }
     if let Some((mut force, descriptor)) = force {
         let heard = listen_to_force(&mut *force).map_err(without_answer);
         if let Some(heard) = check.of("force", heard) {
@@ -126,10 +134,8 @@ pub fn check_rig(
         let stated = facts.and_then(|facts| facts.pose_noise.or(facts.repeatability));
         check.note("robot", &heard, stated.map(|noise| noise.0));
         check.robot = Some(heard);
-    }
-    let pose = robot.pose(DEADLINE).map_err(without_answer);
-    if let Some((tip, _)) = check.of("robot", pose) {
-        let depth_mm = tip.position.z.0;
+        let pose = robot.pose(DEADLINE).ok().filter(|_| heard.count > 0);
+        let depth_mm = pose.map_or(0.0, |(tip, _)| tip.position.z.0);
         if is_untaught(rig, drivers) {
             check.problems.push(RigProblem::Untaught);
         } else if depth_mm > 0.0 {

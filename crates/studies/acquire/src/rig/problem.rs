@@ -11,7 +11,7 @@ pub(super) const HALT_MS: f64 = 50.0;
 pub enum RigProblem {
     /// A device did not open, or failed while it was read.
     Failed {
-        /// `force`, `robot`, `sensor` or `switch`.
+        /// `force`, `robot`, `sensor`, `switch`, `specimen`, `unit` or `light`.
         device: &'static str,
         /// Failure and its remedy.
         why: String,
@@ -97,7 +97,7 @@ impl fmt::Display for RigProblem {
 }
 
 impl RigProblem {
-    /// Device of the problem: `force`, `robot`, `sensor` or `switch`; `None` for a problem of the halt.
+    /// Device of the problem, as of [`RigProblem::Failed`]; `None` for a problem of the halt.
     pub fn device(&self) -> Option<&'static str> {
         match self {
             RigProblem::Failed { device, .. }
