@@ -67,7 +67,9 @@ impl Facts {
         };
         let facts = RecordingFacts::new(source, clock, sensor);
         Ok(match self.footprint_mm {
-            Some((width, height)) => facts.with_footprint(Footprint::rectangle(width, height)),
+            Some((width, height)) => {
+                facts.with_footprint(Footprint::rectangle(width / 2.0, height / 2.0))
+            }
             None => facts,
         })
     }

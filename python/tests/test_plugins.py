@@ -470,6 +470,25 @@ def test_complex_predictions_of_a_plugin_are_refused_as_those_of_any_model(tmp_p
     assert "what the model predicted: expected numbers, found an array of complex128" in "\n".join(done["failed"]), done
 
 
+@pytest.mark.parametrize("before", ["", "import sys; sys.setrecursionlimit(10**9); "])
+def test_an_estimator_that_calls_itself_without_end_fails_with_its_line_whatever_limit_it_sets(
+    before: str, tmp_path: Path, program: Program
+) -> None:
+    made = new(tmp_path, "estimator", "my-plane")
+    code = made / "__init__.py"
+    code.write_text(code.read_text().replace("return np.einsum(", f"{before}return self.predict(features) or np.einsum("))
+    why = "\n".join(program.check("org.example.my-plane", made, "--only", "estimator/fits")["failed"])
+    assert "RecursionError: " in why and "it calls itself without end" in why and "__init__.py, line" in why, why
+
+
+def test_an_estimator_that_asks_for_plugins_fails_in_words_and_starts_none(tmp_path: Path, program: Program) -> None:
+    made = new(tmp_path, "estimator", "my-plane")
+    code = made / "__init__.py"
+    code.write_text(code.read_text().replace("return np.einsum(", "import taceva; taceva.plugins()\n        return np.einsum("))
+    why = "\n".join(program.check("org.example.my-plane", made, "--only", "estimator/fits")["failed"])
+    assert "a plugin cannot use plugins or the command" in why, why
+
+
 # The study of the guide.
 SCENE = re.findall(r"^```toml eye.toml\n(.*?)^```$", (Path(__file__).parents[2] / "docs/python-plugins.md").read_text(), re.MULTILINE | re.DOTALL)[0]
 

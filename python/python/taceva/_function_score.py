@@ -46,7 +46,7 @@ def score_function(
     """Return by channel the number that ``function`` gives for truth and prediction, with an interval by contact point.
 
     The interval of 95 % is BCa: the function is called again for ``draws`` samples of whole points, drawn with replacement, and once without each
-    point, or each two-hundredth of them. The same ``seed`` gives the same interval.
+    point, or each two-hundredth of them. The same ``seed`` gives the same interval. Fewer than six points give none.
 
     Parameters
     ----------

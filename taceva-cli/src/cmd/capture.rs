@@ -149,6 +149,11 @@ pub(super) fn open(args: &LiveArgs, context: &Context) -> anyhow::Result<(LiveSp
     )?;
     let drivers = context.drivers(args.rig.as_deref())?;
     let live = spec.open(&drivers)?;
+    if live.is_simulated() {
+        context.say(format_args!(
+            "nothing here is measured: the devices are simulated"
+        ));
+    }
     Ok((spec, live))
 }
 

@@ -87,6 +87,12 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             study.plan.contact.speed_mm_s.value,
             limits.overshoot.healthy_mm,
         ));
+        if study.is_untaught(drivers) {
+            context.say(format_args!(
+                "rig: `origin_mm` and `axes` are those of a new file: a run is refused until taceva rig teach {}",
+                shown(rig.name())
+            ));
+        }
         let by_changer = study.by_changer(drivers);
         for change in by_changer.into_iter().chain(study.by_hand(drivers)) {
             context.say(format_args!("rig: {change}"));

@@ -12,7 +12,7 @@ use taceva_report::{
     Figure, FigureStyle, Layout, Picture, ReportPage, ScoreTable, Study, Triple, figures_for,
     paper_form, picks, study_figures, undrawn,
 };
-use taceva_results::EvaluationReport;
+use taceva_results::{EvaluationReport, not_measured};
 
 use crate::args::Format;
 use crate::context::Context;
@@ -161,11 +161,8 @@ impl Page {
     pub(crate) fn write_scores(&self, folder: &Path) -> anyhow::Result<()> {
         let table = ScoreTable::of(&self.studies);
         let headlines = table.headlines();
-        let simulated = self.studies.iter().filter(|study| study.is_simulated());
-        let note = match simulated.count() {
-            0 => "",
-            _ => " Nothing here was measured where samples are simulated.",
-        };
+        let sources = self.studies.iter().map(|study| study.source.as_str());
+        let note = not_measured(sources).map_or_else(String::new, |words| format!(" {words}"));
         let caption = format!("{}: scores with 95 % intervals.{note}", self.title);
         let mut main = Vec::new();
         super::main_scores(&table, Format::Tex, None, &mut main)?;

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use taceva_core::PressOutcome;
 use taceva_metrics::{Better, catalogue, plane_of};
 use taceva_report::{Align, Column, Study, Table, escape_terminal, short_digests};
-use taceva_results::EvaluationReport;
+use taceva_results::{EvaluationReport, not_measured};
 
 use super::line::{Line, lines, standings};
 use super::number::formatted;
@@ -16,14 +16,9 @@ use super::text::{over_seeds, presses};
 type Row = [String; 3];
 
 pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
-    let is_model = |report: &EvaluationReport| report.subject.source != "recorded";
-    if reports.iter().all(is_model) {
-        writeln!(out, "Nothing here was measured: the samples are simulated.")?;
-    } else if reports.iter().any(is_model) {
-        writeln!(
-            out,
-            "Not everything here was measured: some of the samples are simulated."
-        )?;
+    let sources = reports.iter().map(|report| report.subject.source.as_str());
+    if let Some(words) = not_measured(sources) {
+        writeln!(out, "{words}")?;
     }
     for report in reports {
         let subject = &report.subject;

@@ -2,6 +2,7 @@
 
 use taceva_core::counted;
 use taceva_metrics::Better;
+use taceva_results::not_measured;
 
 use crate::number::{FormattedValue, numeral};
 use crate::results::{ModelBench, ModelRow};
@@ -36,11 +37,8 @@ impl ModelBench {
         for row in &self.rows {
             table.push(row.cells(&channels));
         }
-        if self.is_simulated() {
-            let source = &recording.source;
-            table.note(format!(
-                "Nothing here was measured: the samples are {source}."
-            ));
+        if let Some(words) = not_measured([recording.source.as_str()]) {
+            table.note(words);
         }
         table.note(format!(
             "Fitted on {}, scored on {}, split {}; {}, {} of {}. Intervals of 95 % by contact point.",

@@ -26,7 +26,7 @@ use taceva_metrics::{
 use crate::names::listed;
 use crate::results::Study;
 use remarks::Remarks;
-use taceva_results::Score;
+use taceva_results::{Score, not_measured};
 
 /// Options of a comparison.
 #[derive(Clone, Debug, Default)]
@@ -178,7 +178,7 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
         asides: asides(studies, &names, &answers),
         notes: comparability::notes(studies, &names)
             .into_iter()
-            .chain(simulated(studies))
+            .chain(unmeasured(studies))
             .chain(trainings(&names, &answers))
             .chain(unpaired)
             .chain(unknown(studies, request))
@@ -189,16 +189,10 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     }
 }
 
-/// Note that some or all samples are simulated.
-fn simulated(studies: &[Study]) -> Option<String> {
-    let simulated = studies.iter().filter(|study| study.is_simulated()).count();
-    match simulated {
-        0 => None,
-        _ if simulated == studies.len() => {
-            Some("the samples are simulated: nothing here was measured".to_owned())
-        }
-        _ => Some("some of the samples are simulated and were not measured".to_owned()),
-    }
+/// Note that some or all samples were not measured.
+fn unmeasured(studies: &[Study]) -> Option<String> {
+    let words = not_measured(studies.iter().map(|study| study.source.as_str()))?;
+    Some(words.trim_end_matches('.').to_owned())
 }
 
 /// Note on metrics of several studies that no comparison includes, because the catalogue has no direction for them.

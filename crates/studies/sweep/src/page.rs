@@ -4,6 +4,7 @@ mod times;
 
 use taceva_core::counted;
 use taceva_report::{Cell, Column, PagePart, PageSection, Table, TablesPage};
+use taceva_results::not_measured;
 
 use crate::analysis::{self, Found, Loaded};
 use crate::choices;
@@ -84,16 +85,7 @@ fn title(list: &TaskList) -> String {
 /// The badge of a page whose samples are all or partly simulated or synthetic.
 fn badge(loaded: &[Loaded<'_>]) -> Option<String> {
     let results = loaded.iter().filter_map(Loaded::result);
-    let drawn = results.map(|result| matches!(result.source.as_str(), "simulated" | "synthetic"));
-    let drawn: Vec<bool> = drawn.collect();
-    let words = match drawn.iter().filter(|is_drawn| **is_drawn).count() {
-        0 => return None,
-        count if count == drawn.len() => {
-            "Nothing here was measured: the samples are simulated or synthetic."
-        }
-        _ => "Not everything here was measured: some of the samples are simulated or synthetic.",
-    };
-    Some(words.to_owned())
+    not_measured(results.map(|result| result.source.as_str()))
 }
 
 /// The tasks without a result.

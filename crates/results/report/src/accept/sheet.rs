@@ -11,7 +11,7 @@ use crate::number::numeral;
 use crate::results::Study;
 use crate::short_digests::short_digests;
 use crate::table::{Cell, Column, Table};
-use taceva_results::SampleChannel;
+use taceva_results::{SampleChannel, not_measured};
 
 /// Schema of an acceptance as JSON. 1.1: each finding states which values are good.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
@@ -59,8 +59,8 @@ impl Acceptance<'_> {
         for finding in self.findings {
             table.push(row(finding));
         }
-        if self.study.is_simulated() {
-            table.note("Nothing here was measured: the samples are simulated.");
+        if let Some(words) = not_measured([self.study.source.as_str()]) {
+            table.note(words);
         }
         table
     }

@@ -230,13 +230,10 @@ impl LiveDevices {
         self.sensor.settings()
     }
 
-    pub(super) fn sensor_source(&self) -> DriverSource {
-        self.sensor_source
-    }
-
-    /// True if the rig file marks its devices as emulated.
-    pub(super) fn is_emulated(&self) -> bool {
-        self.is_emulated
+    /// True if a device is simulated or emulated, so that nothing is measured.
+    pub fn is_simulated(&self) -> bool {
+        // A simulated transducer is rejected at opening.
+        self.is_emulated || self.sensor_source == DriverSource::Simulated
     }
 
     /// Starts the devices and zeroes the force.

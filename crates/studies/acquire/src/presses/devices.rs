@@ -21,7 +21,7 @@ use super::registration::{Registered, Turned};
 use super::viewed_sensor::Seen;
 use super::workshop::{Surroundings, Workshop};
 use crate::error::AcquireError;
-use crate::scene::{PlannedStudy, RigSpec, open_switch};
+use crate::scene::{PlannedStudy, RigSpec, check_taught, open_switch};
 
 /// Deadline of the first pose of a robot.
 pub(super) const FIRST_POSE: Duration = Duration::from_secs(2);
@@ -87,6 +87,9 @@ impl OpenRig {
             switches: _,
         } = workshop.drivers;
         let rig_file = study.study.rig.as_deref();
+        if let Some(rig) = rig_file {
+            check_taught(rig, workshop.drivers)?;
+        }
         // The switch comes first: without it no moving device is opened.
         let switch = rig_file.map(|rig| open_switch(rig, workshop.drivers));
         let switch = switch.transpose().map_err(AcquireError::from)?.flatten();

@@ -10,7 +10,7 @@ use taceva_protocol::{Answer, Left, Plan, Question, RigFile, RunError, StopCause
 use super::changers::bring_unit;
 use super::devices::{OpenRig, Sitting};
 use crate::error::AcquireError;
-use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource};
+use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource, is_untaught};
 
 /// Changes on a real rig, by hand or by a changer.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -187,6 +187,11 @@ impl PlannedStudy {
     /// Rig file that names its devices, if any.
     pub fn rig(&self) -> Option<&RigFile> {
         self.study.rig.as_deref()
+    }
+
+    /// True if its rig file still has the place of the robot that a new file begins with, so that a run is refused.
+    pub fn is_untaught(&self, drivers: &Drivers) -> bool {
+        self.rig().is_some_and(|rig| is_untaught(rig, drivers))
     }
 }
 
