@@ -1,4 +1,4 @@
-//! Scores of one model fitted with several seeds.
+//! Scores of one model fitted with several seeds, and the variants that decide verdicts.
 
 use taceva_core::Field;
 use taceva_metrics::{Evaluation, Repeats};
@@ -10,18 +10,30 @@ pub fn of(seeds: &[u64], evaluations: &[&Evaluation]) -> OverSeeds {
     let scores = first.flat_map(|evaluation| evaluation.scores());
     let of_predictions =
         scores.filter(|(metric, ..)| metric.needs.fields.contains(Field::Prediction));
-    let scores = of_predictions.filter_map(|(metric, channel, score)| {
+    let with_deciding = of_predictions.flat_map(|(metric, channel, score)| {
+        let deciding = metric.decided_by.into_iter().map(Some);
+        let numbers = std::iter::once(None).chain(deciding);
+        numbers.map(move |variant| (metric, channel, score, variant))
+    });
+    let scores = with_deciding.filter_map(|(metric, channel, score, variant)| {
         let of_seed = evaluations.iter().map(|evaluation| {
-            let score = evaluation.score(metric.id, channel);
-            score.and_then(|score| score.value.scalar())
+            let score = evaluation.score(metric.id, channel)?;
+            match variant {
+                Some(name) => score.variant(name)?.value.scalar(),
+                None => score.value.scalar(),
+            }
         });
         let values: Vec<Option<f64>> = of_seed.collect();
         let known: Vec<f64> = values.iter().copied().flatten().collect();
         let repeats = Repeats::of(&known)?.within(range(metric.id, &known));
+        let variant = variant.and_then(|name| score.variant(name));
         Some(SeedScore {
-            metric: metric.id.to_owned(),
+            metric: match variant {
+                Some(variant) => format!("{}.{}", metric.id, variant.name),
+                None => metric.id.to_owned(),
+            },
             channel: channel.to_owned(),
-            unit: score.unit,
+            unit: variant.map_or(score.unit, |variant| variant.unit),
             values,
             mean: repeats.mean,
             standard_deviation: repeats.standard_deviation,

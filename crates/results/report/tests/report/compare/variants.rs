@@ -4,7 +4,13 @@ use super::{of_metric, score, study};
 use taceva_report::Study;
 
 /// A study of one score of Fz whose variant `name` has another value and interval.
-fn with_variant(sensor: &str, metric: &str, value: f64, name: &str, variant: f64) -> Study {
+pub(super) fn with_variant(
+    sensor: &str,
+    metric: &str,
+    value: f64,
+    name: &str,
+    variant: f64,
+) -> Study {
     let mut drawn = score(value, 0.001, "N");
     drawn[name] = score(variant, 0.01, "N");
     study(sensor, &[(metric, "Fz", drawn)], &["Fz"])
