@@ -57,3 +57,47 @@ fn range(metric: &str, known: &[f64]) -> [f64; 2] {
         _ => [f64::MIN, f64::MAX],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{Channel, Channels, FieldSet, Readings, Sample, SampleSink};
+    use taceva_metrics::{Evaluator, MetricPlan, catalogue};
+
+    use super::*;
+
+    /// Two repeats at each of six points, `scatter` mm to either side at the first and six times as much at the last.
+    fn evaluation(scatter: f64) -> Evaluation {
+        let channels = Channels::new([Channel::PZ]).expect("one channel");
+        let wanted = catalogue::select(["repeatability"]).expect("a known name");
+        let fields: FieldSet = Field::ALL.into_iter().collect();
+        let mut evaluator = Evaluator::new(&MetricPlan::new(&wanted, channels, fields));
+        for press in 0..12_u32 {
+            let side = if press % 2 == 0 { scatter } else { -scatter };
+            let predicted = 1.0 + side * f64::from(press / 2 + 1);
+            let sample = Sample::default()
+                .with_point_id(format!("p{}", press / 2))
+                .with_depth_step(0)
+                .with_repeat(press % 2)
+                .with_truth(Readings::from_values([1.0]))
+                .with_prediction(Readings::from_values([predicted]));
+            evaluator.accept(&sample).expect("of the plan");
+        }
+        evaluator.finish().expect("scores")
+    }
+
+    #[test]
+    fn the_variant_that_decides_verdicts_stands_beside_the_value() {
+        let all = [0.01, 0.02].map(evaluation);
+        let over = of(&[3, 4], &all.each_ref());
+        let names: Vec<&str> = over.scores.iter().map(|of| of.metric.as_str()).collect();
+        assert_eq!(names, ["repeatability", "repeatability.pooled"]);
+        let pooled = |evaluation: &Evaluation| {
+            let score = evaluation.score("repeatability", "Pz").expect("a score");
+            score
+                .variant("pooled")
+                .and_then(|variant| variant.value.scalar())
+        };
+        assert_eq!(over.scores[1].values, all.each_ref().map(pooled));
+        assert_ne!(over.scores[0].values, over.scores[1].values);
+    }
+}
