@@ -1,5 +1,6 @@
 //! Differences of models that were trained several times: worked examples, apart from this program.
 
+use taceva_core::random::Draws;
 use taceva_metrics::{
     ClusterSums, Difference, DifferenceTest, Estimate, Scale, Sides, SignFlip, StatedInterval,
     TrainingSpread, by_intervals, paired_over_trainings,
@@ -162,4 +163,36 @@ fn without_any_variance_there_is_no_answer() {
     );
     assert_eq!(TrainingSpread::of_one(&[0.5]), None);
     assert_eq!(TrainingSpread::of_mean(&[0.5, f64::NAN]), None);
+}
+
+#[test]
+fn without_a_true_difference_at_most_one_in_twenty_is_shown() {
+    // Twenty points and three trainings a side, all normal; the trainings scatter 4.5 times as much as the mean of the points.
+    let side = |draws: Draws, is_over: bool| {
+        let points: Vec<f64> = (0..20).map(|counter| draws.normal(counter)).collect();
+        let mean = points.iter().sum::<f64>() / 20.0;
+        let squares = points.iter().map(|point| (point - mean) * (point - mean));
+        let error = (squares.sum::<f64>() / 19.0 / 20.0).sqrt();
+        let scores = [20, 21, 22].map(|counter| mean + draws.normal(counter));
+        let estimate = Estimate::try_new(scores[0], error, 20).expect("an estimate");
+        match is_over {
+            true => estimate.over_trainings(spread(&scores)),
+            false => estimate,
+        }
+    };
+    let shown = |is_over: bool| {
+        let mut shown = 0;
+        for run in 0..200 {
+            let draws = Draws::new(2027).of(run);
+            let difference = by_intervals(Sides {
+                a: side(draws.of(1), is_over),
+                b: side(draws.of(2), is_over),
+            });
+            shown += u32::from(difference.expect("both vary").is_shown);
+        }
+        shown
+    };
+    let (clusters, trainings) = (shown(false), shown(true));
+    assert!(clusters > 80, "{clusters}");
+    assert!(trainings <= 15, "{trainings}");
 }
