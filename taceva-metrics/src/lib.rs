@@ -40,7 +40,8 @@ pub use score::{
 pub use stats::{
     ClusterSum, ClusterSums, Clusters, ComparisonError, Difference, DifferenceTest, Estimate,
     HASHED_CLUSTERS, IntervalMethod, NAMED_CLUSTERS, PoissonBootstrap, Question, Repeats, Side,
-    Sides, SignFlip, StatedInterval, Verdict, by_intervals, decide, holm,
+    Sides, SignFlip, StatedInterval, TrainingSpread, Verdict, by_intervals, decide, holm,
+    paired_over_trainings,
 };
 // Types of the signatures here, so that a caller needs no other crate.
 pub use taceva_core::{

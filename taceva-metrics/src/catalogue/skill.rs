@@ -26,9 +26,9 @@ pub(crate) static SKILL: Metric = Metric {
     range: Range::BelowOne,
     definition: "skill/1",
     reference: "mean squared error skill score: Murphy 1988, Monthly Weather Review 116",
-    documentation: "Share of the squared error of the best constant prediction that the model removes: 1 − MSE of the model / MSE of the \
-                    constant. 1 is perfect, and 0 is no better than the constant. The constant is the mean of the training labels. If \
-                    those are unknown, it is the mean of the evaluated truth, and the score is flagged. In a plane, both errors are \
+    documentation: "Share of the squared error of a constant prediction that the model removes: 1 − MSE of the model / MSE of the constant. \
+                    1 is perfect, and 0 is no better than the constant. The constant is the mean of the training labels. If those are \
+                    unknown, it is the mean of the evaluated truth, and the score is flagged. In a plane, both errors are \
                     squared distances and the constant is a point. A channel takes part in verdicts only if its 95 % interval is above \
                     zero.",
     needs: PAIR_NEEDS,

@@ -69,7 +69,7 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
 
 /// Magnitudes of errors.
 pub(crate) struct Tolerances {
-    /// Best constant prediction of each channel, in millionths of the unit; `None` if the training part is unknown.
+    /// Constant prediction of each channel, as for skill, in millionths of the unit; `None` if the training part is unknown.
     constants: Vec<Option<i64>>,
     gathered: Gathered,
 }

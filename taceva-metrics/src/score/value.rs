@@ -150,6 +150,19 @@ pub enum UndefinedReason {
     NoForce,
     /// No sample is without contact.
     NoIdleSamples,
+    /// No press is light.
+    NoLightPresses,
+    /// Light presses are worth fewer independent places than the formula needs.
+    TooFewPlaces {
+        /// Number found.
+        have: u64,
+        /// Least number that is needed.
+        least: u64,
+    },
+    /// Predictions do not rise with the force of light presses.
+    NoRise,
+    /// The limit exceeds every force that it would rest on.
+    BeyondLightPresses,
     /// No sample is in contact and has a place.
     NoContact,
     /// Only one channel; a comparison needs two.
@@ -233,6 +246,22 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::NoOverlap => f.write_str("no common range"),
             UndefinedReason::NoForce => f.write_str("no force was measured"),
             UndefinedReason::NoIdleSamples => f.write_str("no sample is without contact"),
+            UndefinedReason::NoLightPresses => {
+                f.write_str("no light press: press ten places or more with 0.02 N to 0.2 N")
+            }
+            UndefinedReason::TooFewPlaces { have, least } => {
+                let places = if *have == 1 { "place" } else { "places" };
+                write!(
+                    f,
+                    "light presses are worth {have} {places}, {least} are needed"
+                )
+            }
+            UndefinedReason::NoRise => {
+                f.write_str("predictions do not rise with the force of light presses")
+            }
+            UndefinedReason::BeyondLightPresses => {
+                f.write_str("the limit exceeds the force of every light press")
+            }
             UndefinedReason::NoContact => f.write_str("no sample in contact has a place"),
             UndefinedReason::OneChannel => f.write_str("one channel, two are needed"),
             UndefinedReason::OneUnit => f.write_str("one unit, two are needed"),

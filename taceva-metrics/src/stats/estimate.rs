@@ -1,5 +1,7 @@
 //! A score with its interval, at any level of confidence.
 
+mod over_trainings;
+
 use super::error::ComparisonError;
 use super::exponential::exponential;
 use super::logarithm::logarithm;

@@ -8,7 +8,7 @@ use taceva_core::{
 };
 use taceva_metrics::{Evaluator, MetricError, MetricPlan, SensorFacts, State, catalogue};
 
-const METRICS: [&str; 12] = [
+const METRICS: [&str; 13] = [
     "repeatability",
     "signal_to_repeatability",
     "hysteresis",
@@ -16,6 +16,7 @@ const METRICS: [&str; 12] = [
     "intrinsic",
     "noise_equivalent_force",
     "zero_error",
+    "detection_limit",
     "linearity",
     "crosstalk",
     "bias_level",

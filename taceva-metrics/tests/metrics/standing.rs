@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use taceva_metrics::{
-    Channel, Channels, Evaluation, Evaluator, Field, FieldSet, MetricPlan, Rows, Standing, Value,
-    catalogue,
+    Channel, Channels, Evaluation, Evaluator, Field, FieldSet, Flag, MetricPlan, Rows, Standing,
+    Value, catalogue,
 };
 
 /// Ten presses at each of eight points, with truths 0 to 0.08 N and one of 2 N. The constant 0 is within 0.05 N of six of ten.
@@ -121,4 +121,33 @@ fn too_few_points_for_an_interval_are_no_verdict_that_there_is_no_skill() {
         assert_eq!(standing(8, metric), (Standing::Counts, true), "{metric}");
     }
     assert!(!Standing::NoInterval.takes_part());
+}
+
+#[test]
+fn an_interval_without_width_is_flagged_as_no_certainty() {
+    let flags = |errors: [f64; 2]| {
+        let truth: Vec<f64> = (0..20).map(f64::from).collect();
+        let errors = errors.into_iter().cycle();
+        let prediction: Vec<f64> = truth
+            .iter()
+            .zip(errors)
+            .map(|(truth, error)| truth + error)
+            .collect();
+        let points = (0..20).map(|row| (row / 2).to_string());
+        let mut evaluator = Evaluator::of_channels([Channel::FZ]).expect("one channel");
+        let rows = Rows::new().pairs(Channel::FZ, &truth, &prediction);
+        evaluator.update_rows(rows.points(points)).expect("rows");
+        let evaluation = evaluator.finish().expect("scores");
+        ["mae", "r2"].map(|metric| {
+            let score = evaluation.score(metric, "Fz").expect("a score");
+            let ends = score.interval.ends().expect("ten points");
+            (score.flags.contains(&Flag::EqualClusters), ends)
+        })
+    };
+    let [(is_flagged, ends), (of_r2, _)] = flags([0.25, 0.25]);
+    assert!(is_flagged && !of_r2);
+    assert_eq!(ends.map(f64::to_bits), [0.25_f64.to_bits(); 2]);
+    // Two errors at each point: every mean error is the same again.
+    let [(is_flagged, _), _] = flags([0.25, -0.5]);
+    assert!(is_flagged);
 }

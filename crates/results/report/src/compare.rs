@@ -19,8 +19,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::Unit;
 use taceva_metrics::{
-    Better, ComparisonError, Difference, Question, Side, Sides, Standing, Verdict, by_intervals,
-    catalogue, decide,
+    Better, ComparisonError, Difference, Estimate, Question, Side, Sides, Standing, Verdict,
+    by_intervals, catalogue, decide,
 };
 
 use crate::names::listed;
@@ -155,6 +155,9 @@ struct Pair<'a> {
 /// The mean absolute error is compared sample by sample if both studies predict the same samples (sign-flip test, by contact point). Other
 /// scores are compared by their intervals, on their own scales. The pairs and channels of one metric form one family of Holm's procedure,
 /// which yields verdict, p value and interval of an answer.
+///
+/// If a model was trained several times, the variance of the score between trainings is added to that between clusters. Predictions of the
+/// same samples are then compared by Student's t: signs of clusters do not show how another training would have scored.
 ///
 /// If a metric names a variant for verdicts (`excess` of `r_spatial`, `debiased` of `uniformity`, `pooled` of `repeatability`), the answers
 /// compare and contain that variant.
@@ -317,8 +320,18 @@ fn difference(
             )
         }),
     };
-    let difference = estimate::of_both(scores)
-        .and_then(|both| by_intervals(both).map_err(|error| error.to_string()));
+    let difference = estimate::of_both(scores).and_then(|both| {
+        let over_trainings =
+            |estimate: Estimate, study: &Study, score: &Score| match study.trainings(score) {
+                Some(spread) => estimate.over_trainings(spread),
+                None => estimate,
+            };
+        let both = Sides {
+            a: over_trainings(both.a, studies.a, scores.a),
+            b: over_trainings(both.b, studies.b, scores.b),
+        };
+        by_intervals(both).map_err(|error| error.to_string())
+    });
     (difference, unpaired)
 }
 
@@ -377,8 +390,8 @@ fn answer(pair: Pair<'_>, studies: &[Study], request: &CompareRequest) -> Answer
             b: pair.scores.b.standing,
         },
         one_training: Sides {
-            a: studies[pair.sides.a].is_one_training(metric),
-            b: studies[pair.sides.b].is_one_training(metric),
+            a: studies[pair.sides.a].is_one_training(pair.scores.a),
+            b: studies[pair.sides.b].is_one_training(pair.scores.b),
         },
     }
 }

@@ -66,17 +66,12 @@ impl Choice {
                 ));
             }
         }
-        let unknown = self.ranked.iter().flat_map(|candidate| {
-            let steps = candidate.steps.iter();
-            let unknown = steps.filter(|step| !step.is_bound && step.share.is_none());
-            unknown.map(move |step| format!("{} of {}", step.property, candidate.name))
-        });
-        let unknown: Vec<String> = unknown.collect();
-        if !unknown.is_empty() {
-            table.note(format!(
-                "Counted as a share of 0, because it is unknown: {}.",
-                unknown.join(", ")
-            ));
+        let ranked = self.ranked.iter();
+        let mut steps = ranked.flat_map(|candidate| &candidate.steps);
+        if steps.any(|step| step.property.is_of_both_axes()) {
+            table.note(
+                "MAE of Pxy or Fxy is the mean of both axes. The mean distance in the plane is up to twice as large.",
+            );
         }
         if !self.limits_of_catalogue.is_empty() {
             table.note(format!(

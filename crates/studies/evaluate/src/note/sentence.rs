@@ -177,10 +177,7 @@ impl fmt::Display for Note {
                 metrics.join(", "),
                 shown(&of.join(", "))
             ),
-            Note::DetectionLimit => f.write_str(
-                "detection limit: not verified; noise_equivalent_force uses untouched frames only; light presses at many places would \
-                 verify a limit",
-            ),
+            Note::DetectionLimit(detection) => write!(f, "{detection}"),
             Note::Spacings(way) => f.write_str(way),
             Note::FramesRetried(count) => write!(
                 f,
