@@ -8,13 +8,13 @@ use super::{ListFormat, Output};
 
 const RIG_HELP: &str = "\
 Order for a new rig (docs/rig.md):
-  taceva init rig --out lab.toml                 asks for devices and limits, and writes the file
-  taceva rig teach lab.toml                      origin and axes of the robot; you jog, nothing moves by itself
-  taceva rig check lab.toml                      every device for 2 s each, and one halt
-  taceva init scene                              what is measured; then taceva plan scene.toml --rig lab.toml
-  taceva run scene.toml --rig lab.toml --air     every contact point in the air
-  taceva rig tap lab.toml                        latencies
-  taceva run scene.toml --rig lab.toml           the measurement";
+  taceva init rig --out lab.toml               asks for devices and limits; writes the file
+  taceva rig teach lab.toml                    origin and axes of the robot, which you jog
+  taceva rig check lab.toml                    every device for 2 s, and one halt
+  taceva init scene                            asks what is measured; then taceva plan
+  taceva run scene.toml --rig lab.toml --air   every contact point in the air
+  taceva rig tap lab.toml                      latencies
+  taceva run scene.toml --rig lab.toml         the measurement";
 
 #[derive(Debug, Args)]
 #[command(after_help = RIG_HELP)]

@@ -120,8 +120,8 @@ fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
         if let Some(failure) = failure(check, key) {
             writeln!(out, "{key:<7} error: {failure}")?;
         }
-        for changer in check.changers.iter().filter(|changer| changer.key == key) {
-            writeln!(out, "{key:<7} ok: holds {}", changer.holds.join(", "))?;
+        for stock in check.changers.iter().filter(|stock| stock.key == key) {
+            writeln!(out, "{key:<7} ok: holds {}", stock.holds.join(", "))?;
         }
     }
     match (&check.halt, &check.halt_left_out) {

@@ -17,7 +17,7 @@ pub use presses::{
     AIR_MM, HeldRigs, Surroundings, SurroundingsOf, Upcoming, Workshop, rehearse_scene,
 };
 pub use rig::{
-    ChangerCheck, HaltTrip, RigCheck, RigProblem, RigTap, Stream, SwitchCheck, check_rig, read_rig,
+    HaltTrip, RigCheck, RigProblem, RigTap, Stock, Stream, SwitchCheck, check_rig, read_rig,
     tap_rig, teach_rig,
 };
 pub use scene::{Overrides, PlannedScene, PlannedStudy, SceneText};

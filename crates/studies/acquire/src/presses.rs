@@ -205,8 +205,8 @@ fn acquire_unit(
 fn origin(study: &PlannedStudy, rig: &RigSpec, drivers: &Drivers) -> Source {
     let file = study.study.rig.as_deref();
     let changers = file.map(|file| [&file.changers.specimen, &file.changers.unit]);
-    let is_simulated = |changer: &Setting<String>| {
-        let selector: Option<Selector> = changer.value.parse().ok();
+    let is_simulated = |device: &Setting<String>| {
+        let selector: Option<Selector> = device.value.parse().ok();
         let factory = selector.and_then(|selector| drivers.changers.get(selector.driver()).ok());
         factory.is_some_and(|factory| factory.descriptor().source() == DriverSource::Simulated)
     };

@@ -72,17 +72,19 @@ fn evaluated(studies: &[Study]) -> String {
 
 /// Sentence on the origin of the samples.
 fn origin(studies: &[Study]) -> String {
-    let simulated = studies.iter().filter(|study| study.is_simulated()).count();
+    let unmeasured = studies.iter().filter(|study| study.is_simulated());
+    let sources: Vec<&str> = unmeasured.map(|study| study.source.as_str()).collect();
+    let kinds: BTreeSet<&str> = sources.iter().copied().collect();
+    let kinds = kinds.into_iter().collect::<Vec<_>>().join(" and ");
     let published = studies
         .iter()
         .filter(|study| study.source == "published")
         .count();
-    let mut out = match (simulated, studies.len() - simulated) {
+    let mut out = match (sources.len(), studies.len() - sources.len()) {
         (0, _) => String::new(),
-        (_, 0) => " All samples were simulated on TacEva's bench, none was measured on hardware."
-            .to_owned(),
+        (_, 0) => format!(" All samples are {kinds}, none was measured on hardware."),
         (some, _) => format!(
-            " The samples of {} were simulated on TacEva's bench.",
+            " The samples of {} are {kinds} and were not measured on hardware.",
             counted(some, "sensor")
         ),
     };

@@ -9,8 +9,8 @@ use taceva_core::{
 use taceva_drivers::{Drivers, MonotonicClock};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile};
 
-use super::changer::{ChangerCheck, TriedChanger, open_changers};
 use super::problem::{HALT_MS, RigProblem};
+use super::stock::{Stock, TriedStock, take_stock};
 use super::stream::{Listener, Stream};
 use super::switch::{SwitchCheck, look_at};
 use crate::error::AcquireError;
@@ -54,7 +54,7 @@ pub struct RigCheck {
     /// Enabling switch, if the rig file names one.
     pub switch: Option<SwitchCheck>,
     /// Changers and lighting that the rig file names and that opened.
-    pub changers: Vec<ChangerCheck>,
+    pub changers: Vec<Stock>,
     /// Halt of the robot in motion; `None` if it was left out.
     pub halt: Option<HaltTrip>,
     /// Reason for which the halt was left out; `None` if it was timed.
@@ -99,9 +99,9 @@ pub fn check_rig(
     let sensor = check.of("sensor", opener.sensor()).flatten();
     let robot = check.of("robot", opener.robot()).flatten();
     let force = check.of("force", opener.force()).flatten();
-    for TriedChanger { key, holds } in open_changers(rig, &opener) {
+    for TriedStock { key, holds } in take_stock(rig, &opener) {
         if let Some(holds) = check.of(key, holds).flatten() {
-            check.changers.push(ChangerCheck { key, holds });
+            check.changers.push(Stock { key, holds });
         }
     }
     if let Some((mut force, descriptor)) = force {

@@ -1,31 +1,31 @@
-//! Changers and lighting of a rig, opened to be checked.
+//! What the changers and the lighting of a rig hold, opened to be checked.
 
 use taceva_protocol::RigFile;
 
 use crate::error::AcquireError;
 use crate::presses::FileOpener;
 
-/// An open changer or lighting of a rig. It is made by [`check_rig`](super::check_rig).
+/// Names of what an open changer or lighting of a rig holds. It is made by [`check_rig`](super::check_rig).
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 #[non_exhaustive]
-pub struct ChangerCheck {
+pub struct Stock {
     /// Key under `[changers]`: `specimen`, `unit` or `light`.
     pub key: &'static str,
     /// Names of the things that it holds, or of its scenes.
     pub holds: Vec<String>,
 }
 
-/// A changer or lighting that was opened or not.
-pub(super) struct TriedChanger {
+/// Stock of a device that was opened or not.
+pub(super) struct TriedStock {
     pub(super) key: &'static str,
     /// Names of what it holds; `None` if the rig file names none.
     pub(super) holds: Result<Option<Vec<String>>, AcquireError>,
 }
 
 /// Opens the changers of `rig` and its lighting, one after the other. Nothing moves.
-pub(super) fn open_changers(rig: &RigFile, opener: &FileOpener<'_>) -> [TriedChanger; 3] {
+pub(super) fn take_stock(rig: &RigFile, opener: &FileOpener<'_>) -> [TriedStock; 3] {
     let changers = &rig.changers;
-    let tried = |key, holds| TriedChanger { key, holds };
+    let tried = |key, holds| TriedStock { key, holds };
     [
         tried("specimen", opener.held(changers.specimen.as_ref())),
         tried("unit", opener.held(changers.unit.as_ref())),
