@@ -139,7 +139,7 @@ mod tests {
             ("[footprint]\nshape = \"disc\"", "needs `radius_mm`"),
             (
                 "[footprint]\nshape = \"disc\"\nradius_mm = -1.0",
-                "no length",
+                "-1 mm is not a length",
             ),
             (
                 "[footprint]\nshape = \"disc\"\nradius_mm = 1e9",

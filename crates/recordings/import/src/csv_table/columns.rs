@@ -124,7 +124,7 @@ impl CsvTable {
         let outcomes = each_part(parts, |(rows, values)| {
             let first = rows.start;
             let absent = self.parse(column, rows, values, invalid)?;
-            Ok((first, absent))
+            Ok::<_, ImportError>((first, absent))
         });
         let mut absent = Vec::new();
         for outcome in outcomes {

@@ -17,6 +17,7 @@ use crate::error::{ImportError, table_error};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{Place, Row};
+use taceva_video::Decoders;
 use views::MappedView;
 use zero::Zeros;
 
