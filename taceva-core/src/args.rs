@@ -169,7 +169,7 @@ fn missing(spec: &ArgSpec) -> ArgError {
 
 fn undeclared(key: &str, expected: &str, found: Option<&ArgValue>) -> ! {
     panic!(
-        "the driver did not declare `{key}` as a {expected} that is always there, found {found:?}"
+        "the driver did not declare `{key}` as a required {expected} or one with a default, found {found:?}"
     )
 }
 

@@ -76,7 +76,7 @@ impl Batch {
             channels,
             truth,
             prediction,
-            // As in `BatchBuilder`, a batch with a row without a point has no clusters.
+            // If any row has no point, the whole batch has no clusters, as in `BatchBuilder`.
             points: points.filter(Labels::all_named),
             recordings: None,
             labels: BTreeMap::new(),

@@ -250,9 +250,9 @@ pub enum ChannelError {
     Unit {
         /// The channel.
         name: String,
-        /// The unit it is kept in.
+        /// Unit of the channel.
         expected: Unit,
-        /// The unit that was given.
+        /// Unit found.
         found: Unit,
     },
     /// A period of a channel that is not in degrees, or one outside 1 to 360.

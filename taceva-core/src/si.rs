@@ -21,7 +21,7 @@ const LENGTH_TOLERANCE: f64 = 1e-6;
 pub struct SiPose {
     /// x, y and z.
     pub position_m: [f64; 3],
-    /// The real part, then those about x, y and z.
+    /// Real part first, then x, y and z.
     pub quaternion: [f64; 4],
 }
 
@@ -98,7 +98,7 @@ impl Speed {
         self.mm_per_s() / PER_METRE
     }
 
-    /// The speed of a number of m/s, on the grid of 1 nm/s.
+    /// Speed from m/s, rounded to whole nm/s.
     ///
     /// # Errors
     /// As [`try_new`](Speed::try_new).

@@ -101,7 +101,7 @@ impl fmt::Display for SignalInfo {
 /// # Shapes
 /// `[rows, columns, channels]`, contiguous and row-major; all numbers of a place are adjacent.
 /// # Units
-/// That of its [`SignalInfo`].
+/// Unit of its [`SignalInfo`].
 ///
 /// ```
 /// use taceva_core::{SignalInfo, Signals, Unit};

@@ -25,7 +25,7 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, _, candidate)| candidate)
 }
 
-/// The question for the nearest of `accepted`, or the list of all of them.
+/// "Did you mean" with the nearest of `accepted`, or the list of all of them.
 ///
 /// ```
 /// use taceva_core::suggestion;

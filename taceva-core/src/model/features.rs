@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::ModelError;
 use crate::error::ErrorKind;
 
-/// The shape of one sample's features: a small picture, or a flat list. A plain value, which gets no further fields.
+/// Shape of one sample's features: a small picture, or a flat list. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::FeatureShape;

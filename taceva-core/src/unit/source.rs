@@ -150,7 +150,7 @@ impl SourceUnit {
         SOURCE_UNITS.iter().map(|(symbol, _, _)| *symbol)
     }
 
-    /// The symbol it was written with.
+    /// Symbol as written.
     pub const fn symbol(&self) -> &'static str {
         self.symbol
     }
