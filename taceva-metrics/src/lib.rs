@@ -38,7 +38,7 @@ pub use stats::{
     HASHED_CLUSTERS, IntervalMethod, NAMED_CLUSTERS, PoissonBootstrap, Question, Repeats, Side,
     Sides, SignFlip, StatedInterval, Verdict, by_intervals, decide, holm,
 };
-// Types of the signatures here, so that a caller needs no other crate.
+// Types in these signatures, so that a caller needs no other crate.
 pub use taceva_core::{
     Batch, BatchBuilder, Channel, ChannelError, Channels, Column, Field, FieldSet, Footprint,
     FootprintError, GratingKind, Isa, IsaError, Labels, Nanometre, Needs, Phase, Readings, Sample,

@@ -40,7 +40,7 @@ pub struct Metric {
     pub unit: ScoreUnit,
     /// Range of possible values, which also bounds intervals.
     pub range: Range,
-    /// Definition with its version; another version has another meaning.
+    /// Definition with its version; a new version changes the meaning.
     pub definition: &'static str,
     /// Source of the definition.
     pub reference: &'static str,
@@ -54,7 +54,7 @@ pub struct Metric {
     pub(crate) constants: fn(Unit) -> Vec<Parameter>,
     /// True if predictions enter unclipped, beyond the bounds of the model too.
     pub(crate) reads_unbounded: bool,
-    /// True if its values are of forces alone.
+    /// True if it scores only forces.
     pub(crate) forces_only: bool,
     /// Variant that decides verdicts, if the value itself depends on noise or on the number of repeats.
     pub decided_by: Option<&'static str>,
@@ -101,7 +101,7 @@ impl Metric {
         self.needs.fields.contains(Field::Prediction)
     }
 
-    /// True if its values are of forces alone, so that it needs no predicted positions.
+    /// True if it scores only forces, so that it needs no predicted positions.
     pub fn is_of_forces(&self) -> bool {
         self.forces_only
     }

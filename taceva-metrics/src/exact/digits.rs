@@ -47,7 +47,7 @@ pub(super) fn low_digit(value: u128) -> i64 {
     (value & 0xffff_ffff) as i64
 }
 
-/// All above the lowest 32 bits, of a number below 2⁹⁵.
+/// All bits above the lowest 32, of a number below 2⁹⁵.
 #[inline]
 pub(super) fn high_digits(value: u128) -> i64 {
     #[expect(

@@ -232,7 +232,7 @@ mod tests {
         ] {
             let root = exact(value).root_over(&Dyadic::from(1));
             assert_eq!(root.to_bits(), value.sqrt().to_bits(), "{value:e}");
-            // Of the square of a value, whose square may be beyond the range, the root is the value.
+            // The root of a squared value is the value, even if the square exceeds the range of binary64.
             let square = &exact(value) * &exact(value);
             assert_eq!(
                 square.root_over(&Dyadic::from(1)).to_bits(),

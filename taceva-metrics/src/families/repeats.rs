@@ -112,7 +112,7 @@ impl Channelwise for Repeats {
                 sums.n_invalid += 1;
                 return;
             };
-            // A press without usable values was made all the same: its cell is counted.
+            // A press without usable values still counts as a cell.
             let cell = sums
                 .cells
                 .at(points.and_then(|points| points.get(row)), step);
@@ -236,7 +236,7 @@ fn whole_step(step: f64) -> Option<u32> {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "it was seen to be whole and in range"
+        reason = "checked to be whole and in range"
     )]
     whole.then_some(step as u32)
 }

@@ -130,7 +130,7 @@ impl ClusteredBins {
             return Err(UndefinedReason::Overflow);
         }
         if noise.variance <= 0.0 {
-            // Nothing scatters within bins, so the differences between them are exact.
+            // Without scatter within bins, the differences between them are exact.
             let value = variance.sqrt();
             return Ok(Excess {
                 value,
@@ -307,7 +307,7 @@ struct Noise {
     variance: f64,
     /// Number of bins.
     bins: f64,
-    /// Sum of the variances of their means, and below it the sum of their squares with a part for heavy tails.
+    /// Sum of the variances of their means; the next field is the sum of their squares, with a part for heavy tails.
     sum: f64,
     squares: f64,
     /// Degrees of freedom of the noise.
@@ -387,7 +387,7 @@ fn count(of: usize) -> u64 {
 fn number(count: u64) -> f64 {
     #[expect(
         clippy::cast_precision_loss,
-        reason = "no bin has 2^53 samples, each of which was one"
+        reason = "no bin has 2^53 samples"
     )]
     let number = count as f64;
     number

@@ -1,4 +1,4 @@
-//! Exact sums of the same numbers with other signs, fast enough for ten thousand patterns.
+//! Exact sums of the same numbers with varying signs, fast enough for ten thousand patterns.
 
 use crate::exact::ExactSum;
 

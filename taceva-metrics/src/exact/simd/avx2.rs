@@ -38,7 +38,7 @@ impl Avx2 {
     }
 }
 
-/// Four numbers; made from a proof or from others of its kind.
+/// Four numbers, made from a proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Four(__m256d);
 
@@ -83,7 +83,7 @@ impl Vector for Four {
 
     #[inline(always)]
     fn plus_aside(self, other: Four, _one: Four) -> Four {
-        // None of the sixteen registers is left for the ones, and loading them each time costs more than it saves.
+        // No register is free for the ones, and loading them each time costs more than it saves.
         self.plus(other)
     }
 

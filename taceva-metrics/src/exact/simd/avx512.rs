@@ -34,7 +34,7 @@ impl Avx512 {
     }
 }
 
-/// Eight numbers; made from a proof or from others of its kind.
+/// Eight numbers, made from a proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Eight(__m512d);
 

@@ -32,7 +32,7 @@ impl Neon {
     }
 }
 
-/// Two numbers; made from a proof or from others of its kind.
+/// Two numbers, made from a proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Two(float64x2_t);
 
@@ -72,7 +72,7 @@ impl Vector for Two {
 
     #[inline(always)]
     fn prefetch(_values: &[f64]) {
-        // There is no instruction for it in the stable library.
+        // The stable library has no prefetch instruction.
     }
 
     #[inline(always)]

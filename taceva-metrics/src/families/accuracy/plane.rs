@@ -36,7 +36,7 @@ impl PlaneAxes {
     }
 }
 
-/// The planes there are: their names, axes and units.
+/// All planes: names, axes and units.
 const PLANES: [(&str, [&str; 2], Unit); 2] = [
     ("Pxy", ["Px", "Py"], Unit::Millimetre),
     ("Fxy", ["Fx", "Fy"], Unit::Newton),
@@ -100,7 +100,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// Missing axis, if `channels` span no plane: the second of a plane whose first is there, or else the first of all.
+    /// Missing axis, if `channels` span no plane: the second axis of a plane with its first, else the first axis of all.
     fn missing_axis(channels: &Channels) -> Option<&'static str> {
         if !planes(channels).is_empty() {
             return None;
@@ -154,7 +154,7 @@ impl Family for Plane {
             for (x, y) in pairs(0).zip(pairs(2)) {
                 match PlaneSums::distance_of(x, y).filter(|distance| is_valid(*distance)) {
                     Some(distance) => self.distances.push(distance),
-                    // An unusable distance is skipped, and one beyond the range of columns is added on its own.
+                    // An unusable distance is skipped. A distance beyond the range of columns is added alone.
                     None => sums.add(x, y),
                 }
             }

@@ -220,7 +220,7 @@ mod tests {
         let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let leaks = Leaks::of(&sums(together, identity)).expect("varied truths");
         assert!(!leaks.joint);
-        // y₀ = x₀ = x₁ / 2: all of its full scale over all of the other's.
+        // y₀ = x₀ = x₁ / 2: its full-scale motion per full-scale motion of x₁ is 1.
         assert_eq!(leaks.shares[0][1], Some(1.0));
     }
 

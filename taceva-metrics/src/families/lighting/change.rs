@@ -150,7 +150,7 @@ mod tests {
                 "{error}: {slope}"
             );
         }
-        // Without more error R is 1, and no more certain than beyond the bend.
+        // If the error did not grow, R is 1, but no more certain than beyond the bend.
         assert_eq!(
             at(0.5).slope(true),
             at(0.5).slope(false).map(|slope| -slope)
