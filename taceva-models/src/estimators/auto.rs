@@ -27,7 +27,7 @@ use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
 
-/// Tries models, the cheapest first, and takes one.
+/// Tries models, the cheapest first, and chooses one.
 ///
 /// The training part is divided into five folds of whole groups, or runs of neighbouring samples. A trial learns from three folds,
 /// chooses settings on a fourth and scores the fifth. All models are tried on the first fold. The small network trains a quarter of
@@ -68,7 +68,7 @@ impl Auto {
         settings: &[BUDGET],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Auto::from_settings(settings)?)),
-        // A file names the taken model instead.
+        // A model file names the chosen model instead.
         load: |_| Err(FormatError::Card),
     };
 

@@ -182,7 +182,7 @@ fn markers(width: usize) -> Prepared {
 mod tests {
     use super::*;
 
-    /// Local mean, contrast, jitter and noise of pictures so wide and deep.
+    /// Local mean, contrast, jitter and noise of pictures of this width and depth.
     fn of(words: &[&str], width: usize, depth: usize) -> (f64, bool, usize, f64) {
         let settings = ModelSettings::parse(words.iter().copied()).expect("pairs");
         let preparation = Preparation::from_settings(&settings).expect("valid");
