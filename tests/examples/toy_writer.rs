@@ -1,4 +1,4 @@
-//! Runs one of the toy protocols: `toy_writer PROTOCOL`, in the current folder. Prints `ACK n` when it claims that n is durable.
+//! Runs one of the toy protocols: `toy_writer PROTOCOL`, in the current folder. Prints `ACK n` when it claims that record n is durable.
 #![expect(
     clippy::print_stdout,
     reason = "whoever cuts its power reads what was claimed"

@@ -1,5 +1,5 @@
-//! Records the frame without contact, a sample, and that frame anew: `two_references FOLDER`. Prints `ACK n` once the n-th is
-//! durable.
+//! Records the frame without contact, a sample, and a second frame without contact: `two_references FOLDER`. Prints `ACK n` once the n-th
+//! is durable.
 #![expect(
     clippy::print_stdout,
     reason = "whoever cuts its power reads what was acknowledged"

@@ -1,4 +1,4 @@
-//! Data that cannot be learnt from, and cancelled fits.
+//! Invalid training data, and cancelled fits.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -74,7 +74,7 @@ fn parts_that_do_not_fit_each_other_are_refused() {
     }
 }
 
-/// Cancels after some questions.
+/// Cancels after a number of progress queries.
 struct Cancel(usize, AtomicUsize);
 
 impl Progress for Cancel {

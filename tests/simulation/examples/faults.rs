@@ -1,7 +1,7 @@
-//! Plays seeds of the fault simulation: `faults [COUNT] [FIRST]`, 1,000 from seed 0 by default.
+//! Plays seeds of the fault simulation: `faults [COUNT] [FIRST]`, by default 1,000 from seed 0.
 //!
-//! Ends with 1 and the failing seeds if anything happened that must not, or if a kind of fault hardly struck; `faults 1 SEED` plays one
-//! again.
+//! Exits with 1 and prints the failing seeds if an invariant was violated or a kind of fault hardly occurred. `faults 1 SEED` repeats one
+//! seed.
 #![expect(clippy::print_stdout, reason = "it is run to be read")]
 
 use std::error::Error;
@@ -57,7 +57,7 @@ fn summary(reports: &[SimulationReport], count: u64) -> ExitCode {
             kind.name(),
             struck.of(kind)
         );
-        // A fault that hardly ever strikes was hardly tried.
+        // A rare fault was hardly tested.
         all_struck &= seeds as u64 >= count / 100;
     }
     println!(

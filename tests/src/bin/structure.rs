@@ -97,7 +97,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One line each, where all are asked for.
+/// One line each, if all are requested.
 fn list(
     out: &mut impl std::io::Write,
     shows_all: bool,

@@ -1,4 +1,4 @@
-//! What a study on emulated devices does when something goes wrong, again and again.
+//! Outcomes of a study on emulated devices under repeated faults.
 
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -9,45 +9,45 @@ use taceva_wire::{ArmFault, BenchOptions, Device, Fault, FaultKind, ServeOptions
 use super::{OnTheWire, RUN, UnderWay, scene_of};
 use crate::random::Random;
 
-/// Something that goes wrong.
+/// A fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wrong {
-    /// A link, for so long.
+    /// Fault of a link, for a duration.
     Link(Device, FaultKind, Duration),
-    /// The arm itself, until a person mends it.
+    /// Fault of the arm, until a person repairs it.
     Arm(ArmFault),
 }
 
-/// What must come of it.
+/// Required outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Nothing: the study goes on.
+    /// No effect: the study continues.
     Unharmed,
-    /// The arm is stopped within so many ms, and the study goes on by itself.
+    /// The arm is stopped within this time, ms, and the study continues by itself.
     Stopped(u64),
-    /// The study may end, and goes on where somebody asks it to; where the arm must be stopped, within so many ms.
+    /// The study may end and can be resumed; the arm is stopped within this time, ms, if that is required.
     MayEnd(Option<u64>),
     /// The study ends, and nothing moves any more.
     Left,
 }
 
-/// A fault that is played.
+/// A fault to play.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// How it is called.
+    /// Name of the case.
     pub name: &'static str,
-    /// What goes wrong.
+    /// Fault.
     pub wrong: Wrong,
-    /// What must come of it.
+    /// Required outcome.
     pub outcome: Outcome,
 }
 
-/// A reading that is older is stale, in ms.
+/// Age from which a reading is stale, ms.
 const STALE_MS: u64 = 50;
-/// What the machine and the arm may take beyond, in ms.
+/// Allowance for the machine and the arm, ms.
 const SLACK_MS: u64 = 25;
-/// From a signal that froze to an arm that stands, in ms of motion: eight readings that each come after the tip was seen elsewhere, which an arm shows
-/// 100 times a second, and the time of a halt.
+/// Time from a frozen signal to a standing arm, ms of motion: eight readings, each after a new position of the tip, which an arm reports
+/// 100 times per second, and the time of a halt.
 const FROZEN_MS: u64 = 100;
 
 const fn link(device: Device, kind: FaultKind, lasts_ms: u64) -> Wrong {
@@ -62,7 +62,7 @@ const fn case(name: &'static str, wrong: Wrong, outcome: Outcome) -> Case {
     }
 }
 
-/// Everything that is played.
+/// All cases.
 pub const CASES: [Case; 24] = {
     use Device::{Camera, Force, Robot};
     use FaultKind::{
@@ -103,23 +103,23 @@ pub const CASES: [Case; 24] = {
     ]
 };
 
-/// What came of a fault that was played some times.
+/// Result of a repeated fault.
 #[derive(Clone, Debug, Default)]
 pub struct Played {
-    /// How often it was played.
+    /// Number of repetitions.
     pub times: usize,
-    /// From the fault to the last motion before it was over, time at rest not counted, in ms: in order.
+    /// Times from the fault to the last motion before its end, without time at rest, ms, ascending.
     pub stopped_ms: Vec<f64>,
-    /// Studies that were begun.
+    /// Number of studies started.
     pub studies: usize,
-    /// Times that one ended early and was gone on with.
+    /// Number of studies that ended early and were resumed.
     pub ended: usize,
-    /// What must not have been.
+    /// Forbidden outcomes.
     pub broken: Vec<String>,
 }
 
 impl Played {
-    /// The greatest time to a stop, in ms; 0 of none.
+    /// Greatest time to a stop, ms; 0 if there is none.
     pub fn most_ms(&self) -> f64 {
         self.stopped_ms.last().copied().unwrap_or_default()
     }
