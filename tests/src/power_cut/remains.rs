@@ -95,7 +95,7 @@ impl Choices {
         choices
     }
 
-    /// Number of combinations, if it is not too large.
+    /// Number of combinations; `None` if it overflows.
     fn count(&self) -> Option<usize> {
         self.remains
             .iter()

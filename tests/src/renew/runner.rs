@@ -80,7 +80,7 @@ impl Runner {
             .current_dir(&self.root)
             .env("PATH", path)
             .env("OUT", self.out.path())
-            // No files of an earlier run, and a fixed terminal width.
+            // No cache of an earlier run, and no terminal width.
             .env("XDG_CACHE_HOME", self.out.path().join("cache"))
             .env_remove("COLUMNS")
             .output()?;

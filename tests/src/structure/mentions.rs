@@ -26,7 +26,7 @@ pub const EXAMPLES: &[Example] = &[
             "SignalToRepeatability",
             "SIGNAL_TO_REPEATABILITY",
         ],
-        // Its file, its row of the catalogue, and its radar axis.
+        // File, catalogue row and radar axis of the metric.
         most: 3,
     },
     Example {

@@ -62,7 +62,7 @@ pub struct SampleChannel<'a> {
     prediction: Option<&'a Column>,
 }
 
-/// Reason that a table of samples is rejected.
+/// Reason why a table of samples is rejected.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SamplesError {

@@ -11,7 +11,7 @@ use taceva_protocol::{Cancel, SharedSupervisor};
 /// Interval between readings, and between looks at the robot, s.
 const READING_S: f64 = 0.005;
 const LOOK_S: f64 = 0.01;
-/// Longest usual wait of a thread for the processor, s; the next constants are the rare longer wait.
+/// Longest wait of a thread for the processor, s: usual, and in a share `LONG_OF` of its turns.
 const SHORT_WAIT_S: f64 = 0.000_5;
 const LONG_WAIT_S: f64 = 0.02;
 const LONG_OF: f64 = 1.0 / 64.0;

@@ -205,7 +205,7 @@ fn process(
     let guard =
         limits.map(|limits| SharedSupervisor::new(Supervisor::new(limits, robot.halt_handle())));
     if let Some(guard) = &guard {
-        // Released until the first look at the switch.
+        // Counts as released until the thread first reads the switch.
         guard.lock().enabling(Enabling::Released);
     }
     let looking = guard.clone();
