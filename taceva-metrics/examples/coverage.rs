@@ -50,7 +50,10 @@ fn main() {
         .zip(expected())
         .map(|((metric, label), value)| format!("{metric} {label} {value:.5}"))
         .collect();
-    println!("Scores of infinitely many samples: {}.\n", expected.join(", "));
+    println!(
+        "Scores of infinitely many samples: {}.\n",
+        expected.join(", ")
+    );
     let names = METRICS.map(|(metric, label)| format!("{metric} {label}"));
     println!("| locations × presses | interval | {} |", names.join(" | "));
     println!("|---|---|{}", "---|".repeat(METRICS.len()));

@@ -127,10 +127,7 @@ impl ColumnAdder {
         }
         if strays.len() < block[0].len() {
             let fitting: Vec<&[f64]> = fitting.iter().map(Vec::as_slice).collect();
-            assert!(
-                self.add_block(&fitting),
-                "rows out of range were removed"
-            );
+            assert!(self.add_block(&fitting), "rows out of range were removed");
             into.take(&fitting);
         }
         strays
