@@ -12,7 +12,7 @@
 //!
 //! # Threads
 //! Each device takes one call at a time. The exceptions are [`Halt`], [`RobotWatch`], [`EnablingSwitch`] and [`Interrupt`]: they may be called
-//! from any thread beside any other call.
+//! from any thread during any other call.
 //!
 //! # Values
 //! mm, degrees, N and N·mm in the sensor's frame. A value that is not finite is refused on the way in

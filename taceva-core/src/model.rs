@@ -133,7 +133,7 @@ pub trait Regressor: Send + Sync {
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError>;
 }
 
-/// A fitted model that can be saved as bytes in its own format, such as that of a plugin.
+/// A fitted model that can be saved as bytes in its own format, such as a plugin's format.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, FeatureShape, Features, Regressor};

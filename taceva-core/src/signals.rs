@@ -14,7 +14,7 @@ use crate::unit::Unit;
 ///
 /// ```
 /// use taceva_core::{SignalInfo, Unit};
-/// // Five magnetometers behind each other, of three axes each.
+/// // Five magnetometers in a row, of three axes each.
 /// let info = SignalInfo::new(5, 1, 3, Unit::Microtesla)?;
 /// assert_eq!((info.len(), info.to_string().as_str()), (15, "5×1 places of 3 in uT"));
 /// # Ok::<(), taceva_core::SignalError>(())

@@ -37,7 +37,7 @@ pub type SinkError = Box<dyn std::error::Error + Send + Sync>;
 /// # Ok::<(), SinkError>(())
 /// ```
 pub trait SampleSink {
-    /// Fields that it reads of a sample; a source need not fill the rest.
+    /// Fields of a sample that it reads; a source need not fill the rest.
     fn fields(&self) -> FieldSet;
 
     /// Takes one sample.

@@ -121,7 +121,7 @@ fn coverage(
 
 /// Value and ends of the interval of every score of a study, by name.
 ///
-/// Untouched frames form a separate recording, because beside presses they would count as one more contact point.
+/// Untouched frames form a separate recording, because together with presses they would count as one more contact point.
 fn evaluated(points: u32, seed: u64) -> BTreeMap<Name, (f64, Option<[f64; 2]>)> {
     let mut study = Study::new(points, seed);
     let mut presses = evaluator();

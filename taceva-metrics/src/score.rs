@@ -62,7 +62,7 @@ pub struct Score {
     pub definition: &'static str,
     /// The constants of the definition.
     pub parameters: Vec<Parameter>,
-    /// Counts beside the value: samples outside the footprint, bins that have a value.
+    /// Further counts: samples outside the footprint, bins that have a value.
     pub counts: Vec<Count>,
     /// Warnings for the reader.
     pub flags: Vec<Flag>,

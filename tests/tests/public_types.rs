@@ -17,7 +17,7 @@ const PROMISED: [&str; 6] = [
 
 /// Words in the doc comment of a complete struct with public fields; the sentence gives the reason.
 const COMPLETE_STRUCT: &str = "gets no further field";
-/// Same words for an enum.
+/// Words in the doc comment of a complete enum.
 const COMPLETE_ENUM: &str = "gets no further variant";
 
 /// A public type as declared in its source.

@@ -1,4 +1,4 @@
-//! Simulated bench besides its devices: a virtual clock, and the exchange of specimens.
+//! Simulated bench without its devices: a virtual clock, and the exchange of specimens.
 
 use std::time::Duration;
 

@@ -55,7 +55,7 @@ pub trait Sensor: Send {
     /// [`DriverError`] of kind
     /// - `InvalidArgument` if the size or format of `into` is not [`frame_info`](Sensor::frame_info), or the sensor must be started first,
     /// - `Timeout` if no frame came within `deadline`,
-    /// - `Protocol` if what came is no whole frame; the next call may succeed,
+    /// - `Protocol` for an incomplete frame; the next call may succeed,
     /// - `Disconnected` or `EndOfStream` if none will come any more.
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
 

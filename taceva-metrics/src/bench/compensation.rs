@@ -63,7 +63,7 @@ impl RunningSum for Kahan {
     }
 }
 
-/// Collects the rounding errors beside the sum (Neumaier 1974).
+/// Sums the rounding errors separately (Neumaier 1974).
 #[derive(Clone, Copy, Default)]
 pub(super) struct Neumaier {
     sum: f64,

@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use super::scores::Scores;
 use crate::pair::Paired;
 
-/// Exponent of two of which every value is a multiple.
+/// Every value is a multiple of 2 to this power.
 const LEAST: i32 = -1074;
 
 /// The true scores of `pairs`.

@@ -1,4 +1,4 @@
-//! Description of a metric as data: names, unit, direction, needs, and the family that its scores are finished from.
+//! Description of a metric as data: names, unit, direction, needs, and the family whose sums its scores need.
 
 use std::any::Any;
 use std::fmt;
@@ -34,7 +34,7 @@ pub struct Metric {
     pub theme: Theme,
     /// Direction of good values.
     pub better: Better,
-    /// Variants whose direction is not that of the metric.
+    /// Variants with another direction than the metric.
     pub variants: &'static [(&'static str, Better)],
     /// The unit of its values.
     pub unit: ScoreUnit,
@@ -62,7 +62,7 @@ pub struct Metric {
     pub(crate) verdict: VerdictRule,
     /// Value of the deciding variant under chance alone, which its interval must exclude.
     pub(crate) chance: Option<f64>,
-    /// The family whose sums it is finished from.
+    /// Family whose sums the metric is computed from.
     pub(crate) family: &'static FamilyKind,
     /// Formula, if its family has several metrics.
     pub(crate) formula: Formula,

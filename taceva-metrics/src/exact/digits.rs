@@ -1,4 +1,4 @@
-//! Digits of an exact sum: their positions, those of numbers and products, and the propagation of carries.
+//! Digits of an exact sum: positions of digits, numbers and products, and the propagation of carries.
 
 /// Digits of the whole range: from below the square of the least denormal to above 2⁶⁴ squares of the greatest number.
 pub(super) const DIGITS: usize = 140;

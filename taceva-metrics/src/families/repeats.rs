@@ -35,7 +35,7 @@ pub(crate) const REPEAT_NEEDS: Needs = Needs::new(
 )
 .with_least_samples(2);
 
-/// Formula of a metric that is finished from the repeats of each press.
+/// Formula of a metric that is computed from the repeats of each press.
 pub(crate) struct RepeatFormula {
     /// The numbers, in the unit of the channel.
     pub(crate) finish: fn(&SpreadSums, Unit) -> Numbers,

@@ -29,7 +29,7 @@ use sums::{NORMAL_ONLY, Place, Press, SurfaceSums};
 pub(crate) static SURFACE: FamilyKind =
     FamilyKind::new("taceva.surface/1", |plan| erased(Surface::for_plan(plan)?));
 
-/// Formula of a metric that is finished from the compliance of the surface.
+/// Formula of a metric that is computed from the compliance of the surface.
 pub(crate) struct SurfaceFormula {
     /// Channels of the score.
     pub(crate) of: &'static [&'static str],

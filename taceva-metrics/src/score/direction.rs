@@ -1,4 +1,4 @@
-//! Direction of good values, and its sign beside a name.
+//! Direction of good values, and its sign after a name.
 
 /// Direction of good values of a metric.
 ///

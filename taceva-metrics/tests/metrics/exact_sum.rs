@@ -1,4 +1,4 @@
-//! Sums at which common algorithms fail: beside whole numbers, across the whole range, after many carries.
+//! Sums at which common algorithms fail: among whole numbers, across the whole range, after many carries.
 
 use taceva_metrics::ExactSum;
 

@@ -114,7 +114,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             all[last]
         );
     }
-    println!("v·t = {bound_mm:.3} mm; {unhalted} trips ended before anybody halted them");
+    println!("v·t = {bound_mm:.3} mm; {unhalted} trips ended without a halt");
     Ok(
         match unhalted == 0 && late_ms <= LATEST_MS && far_mm <= bound_mm {
             true => ExitCode::SUCCESS,

@@ -29,7 +29,7 @@ pub enum FaultKind {
     Frozen,
     /// A reading is NaN.
     NotANumber,
-    /// Messages come in pieces.
+    /// Messages arrive in pieces.
     Split,
     /// Several messages arrive at once.
     Merged,

@@ -109,7 +109,7 @@ impl Samples {
             .push((name.to_owned(), SampleColumn::Words(words)));
     }
 
-    /// Adds the protocol parts of each sample, behind `sample`.
+    /// Adds the protocol parts of each sample, in a column after `sample`.
     pub fn insert_protocol(&mut self, parts: Vec<Option<String>>) {
         let column = ("protocol".to_owned(), SampleColumn::Words(parts));
         self.columns.insert(1.min(self.columns.len()), column);

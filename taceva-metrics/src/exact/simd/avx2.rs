@@ -33,7 +33,7 @@ impl Avx2 {
         fn with_instructions<J: Job>(proof: Avx2, job: J) -> J::Output {
             job.run::<Four>(proof)
         }
-        // SAFETY: `self` is made by `detect` alone, which found the instructions.
+        // SAFETY: only `detect` makes `self`, after it found the instructions.
         unsafe { with_instructions(self, job) }
     }
 }
@@ -45,7 +45,7 @@ struct Four(__m256d);
 /// One instruction on values whose existence proves that the machine has it.
 macro_rules! with_avx2 {
     ($instruction:expr) => {
-        // SAFETY: a `Four` or an `Avx2` is at hand, which only machines with AVX2 and FMA have; no memory is touched.
+        // SAFETY: a `Four` or an `Avx2` exists only on machines with AVX2 and FMA; no memory is accessed.
         unsafe { $instruction }
     };
 }

@@ -25,7 +25,7 @@ pub(crate) struct PlaneAxes {
 }
 
 impl PlaneAxes {
-    /// The plane's score, finished from its own sums at position 0.
+    /// The plane's score, computed from its own sums at position 0.
     pub(crate) fn output(&self) -> Output {
         Output {
             label: self.label.to_owned(),
@@ -55,7 +55,7 @@ pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
     spanned.collect()
 }
 
-/// Formula of a metric that is finished from the distances in a plane.
+/// Formula of a metric that is computed from the distances in a plane.
 pub(crate) struct PlaneFormula(pub(crate) fn(&PlaneSums) -> Finished);
 
 /// Family of distances in planes of two channels.

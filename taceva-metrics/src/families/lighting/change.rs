@@ -1,4 +1,4 @@
-//! One scene beside the reference scene.
+//! One scene compared with the reference scene.
 
 use super::sums::SceneSums;
 use crate::exact::Dyadic;

@@ -101,12 +101,12 @@ impl Random {
         usize::try_from(self.next() % length as u64).expect("below a usize")
     }
 
-    /// `u()`.
+    /// `u()` of the recipes: uniform from 0 to below 1.
     pub(crate) fn unit(&mut self) -> f64 {
         self.0.unit()
     }
 
-    /// `g()`.
+    /// `g()` of the recipes: approximately normal.
     pub(crate) fn bell(&mut self) -> f64 {
         (1..12).fold(self.unit(), |sum, _| sum + self.unit()) - 6.0
     }

@@ -33,7 +33,7 @@ pub(crate) fn press(point: usize, place: [f64; 3], force_n: f64, error: f64) -> 
         .with_prediction(Readings::from_values(truth.map(|value| value + error)))
 }
 
-/// An evaluator that has taken in `samples` one by one.
+/// An evaluator with `samples`, added one by one.
 pub(crate) fn evaluator<'a>(
     plan: &MetricPlan,
     samples: impl IntoIterator<Item = &'a Sample>,

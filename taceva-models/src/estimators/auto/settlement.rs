@@ -89,7 +89,7 @@ impl Race<'_> {
         Ok(())
     }
 
-    /// True if one model is left, or one beside the baseline and clearly ahead of it.
+    /// True if one model is left, or the baseline and one model that is clearly ahead of it.
     fn is_decided(&self) -> bool {
         let going = self.entrants.iter().filter(|own| own.left.is_none());
         let going: Vec<&Entrant> = going.collect();

@@ -10,7 +10,7 @@ use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Appearance {
     /// Moving markers: subtracts a local mean, divides each picture by its standard deviation, and shifts training pictures.
-    /// Widths are those of [`USUAL`], in proportion to the picture's width.
+    /// Widths are taken from [`USUAL`], in proportion to the picture's width.
     Markers,
     /// Light and position: pictures are unchanged.
     Light,
