@@ -45,8 +45,7 @@ impl From<Pose> for SiPose {
 impl SiPose {
     /// Pose on its grid ([`Pose::on_grid`]); `None` if a number is not finite or the length of the quaternion is not 1.
     ///
-    /// A pose on the grid is returned unchanged if it is turned by more than −180° and at most 180° about x and z, and by less than 90°
-    /// about y.
+    /// A pose on the grid is returned unchanged for these rotations: above −180° and up to 180° about x and z, less than 90° about y.
     ///
     /// ```
     /// use taceva_core::{Degree, Millimetre, Pose, SiPose};

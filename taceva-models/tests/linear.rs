@@ -173,7 +173,10 @@ fn predicting_another_shape_is_an_error() {
         let error = regressor
             .predict(&recording.features, &mut [0.0; 6])
             .expect_err("buffer");
-        assert_eq!(error.to_string(), "6 places for 20 samples of 3 channels");
+        assert_eq!(
+            error.to_string(),
+            "a buffer of 6 values for 20 samples of 3 channels"
+        );
     }
 }
 

@@ -4,7 +4,7 @@
 //! `wire_faults TIMES kill` kills one study TIMES times instead.
 //!
 //! Exits with 1 if any outcome was forbidden. Printed times depend on this machine and its load.
-#![expect(clippy::print_stdout, reason = "it is run to be read")]
+#![expect(clippy::print_stdout, reason = "an example shows its result")]
 
 use std::error::Error;
 use std::process::ExitCode;

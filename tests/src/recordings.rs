@@ -15,7 +15,8 @@ pub fn recording(name: &str) -> Option<PathBuf> {
     if folder.is_dir() {
         return Some(folder);
     }
-    let reason = format!("no recording `{name}`: TACEVA_DATA names the folder that holds it");
+    let reason =
+        format!("recording `{name}` is missing: set TACEVA_DATA to the folder that holds it");
     skip(Need::Recordings, reason);
     None
 }

@@ -1,7 +1,7 @@
 //! Exact sums of columns of one length and of products of two of them, computed block by block.
 //!
-//! As in `block_sums.rs`, blocks are summed in whole units of grids that fit the latest values, and a row that does not fit is added alone.
-//! The choice of these rows depends on earlier rows, but the sums do not.
+//! As in `block_sums.rs`, blocks are summed in whole units of grids that fit the latest values. A row that does not fit is added alone. The
+//! choice of these rows depends on earlier rows, but the sums do not.
 
 use super::bounds::best_top;
 use super::column_kernel::{OfColumn, OfProducts, range_of};

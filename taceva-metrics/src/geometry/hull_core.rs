@@ -86,7 +86,7 @@ impl Core {
 }
 
 impl Core {
-    /// True if the point at `place` is in the hull of this core or on its edge, by the two edges of the outline above and below it.
+    /// True if the point at `place` is in the hull or on its edge. Compares it with the edges of the outline above and below it.
     pub(crate) fn outline_holds(&self, place: Place) -> bool {
         let [first, last] = self.ends;
         let along = |chain: &[Place]| {

@@ -205,7 +205,9 @@ impl<T: Merge + Clone> Clustering<T> {
         if !cells.contains_key(name) {
             cells.insert(name.to_owned(), self.empty.clone());
         }
-        cells.get_mut(name).expect("it was there or was inserted")
+        cells
+            .get_mut(name)
+            .expect("the entry exists or was inserted")
     }
 
     fn hash_if_crowded(&self, clusters: &mut Clusters<T>) {

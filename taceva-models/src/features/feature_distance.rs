@@ -118,7 +118,7 @@ impl FeatureDistance {
     pub fn of(&self, sample: &[f32]) -> Result<f64, ModelError> {
         if sample.len() != self.shape.len() {
             return Err(invalid(format!(
-                "{} features for a distance of {}",
+                "a sample of {} features, expected {}",
                 sample.len(),
                 self.shape.len()
             )));

@@ -83,7 +83,7 @@ impl Gradients {
                 bytes.extend(step(number).to_le_bytes());
             }
         }
-        Frame::new(slopes_info(frame.info()), bytes).expect("three numbers a pixel")
+        Frame::new(slopes_info(frame.info()), bytes).expect("three numbers per pixel")
     }
 }
 

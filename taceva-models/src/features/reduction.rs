@@ -82,7 +82,7 @@ impl FrameReduction {
         self.areas.for_each(frame, |cell| {
             bytes.extend(cell.iter().map(|sum| rounded(*sum, full_scale)));
         });
-        Ok(Frame::new(self.to, bytes).expect("a byte a sample of every cell"))
+        Ok(Frame::new(self.to, bytes).expect("one byte per sample of every cell"))
     }
 }
 

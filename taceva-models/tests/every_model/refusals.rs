@@ -70,7 +70,10 @@ fn parts_that_do_not_fit_each_other_are_refused() {
         let error = regressor
             .predict(&training.features, &mut [0.0; 6])
             .expect_err("buffer");
-        assert_eq!(error.to_string(), "6 places for 24 samples of 2 channels");
+        assert_eq!(
+            error.to_string(),
+            "a buffer of 6 values for 24 samples of 2 channels"
+        );
     }
 }
 

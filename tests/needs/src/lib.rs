@@ -26,7 +26,7 @@ pub fn skip(need: Need, reason: impl Display) {
     let required = required.unwrap_or_else(|error| panic!("{error}"));
     assert!(
         !required.contains(&need),
-        "TACEVA_REQUIRE names `{need}`, which is not there: {reason}"
+        "TACEVA_REQUIRE names `{need}`, which is missing: {reason}"
     );
     eprintln!("skipped: {need}: {reason}");
     record::record(need, &reason);

@@ -59,7 +59,7 @@ fn a_need_that_is_required_fails_its_test_and_says_so() {
     let (output, list) = trial("browser,gpu");
     assert!(!output.status.success());
     let said = String::from_utf8_lossy(&output.stdout);
-    let expected = "TACEVA_REQUIRE names `gpu`, which is not there: this is a trial";
+    let expected = "TACEVA_REQUIRE names `gpu`, which is missing: this is a trial";
     assert!(said.contains(expected), "{said}");
     assert_eq!(list, "");
 }

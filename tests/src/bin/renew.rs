@@ -132,8 +132,8 @@ fn renew(document: &mut Document, runner: &Runner, asked: &Asked) -> anyhow::Res
 fn left_out(kind: Kind, asked: &Asked) -> Option<&'static str> {
     match kind {
         Kind::Quick => None,
-        _ if asked.is_quick => Some("takes longer than a test may"),
-        Kind::Times if asked.is_check => Some("times are never twice the same"),
+        _ if asked.is_quick => Some("takes too long for a test"),
+        Kind::Times if asked.is_check => Some("its output contains times"),
         Kind::Times if asked.without_times => Some("times were not asked for"),
         Kind::Data if env::var_os("TACEVA_DATA").is_none() => {
             Some("TACEVA_DATA names no recordings")

@@ -152,7 +152,7 @@ impl<'a> Follower<'a> {
                 });
                 object
             }
-            (None, place) => return Err(format!("opened {place:?}, which nobody made")),
+            (None, place) => return Err(format!("opened {place:?}, which does not exist")),
         };
         if flags.contains("O_TRUNC") && self.disk.length(object) > 0 {
             self.act(Operation::Resize {
@@ -196,7 +196,10 @@ impl<'a> Follower<'a> {
             return Ok(());
         };
         if bytes.len() < length {
-            return Err(format!("{length} bytes written and {} shown", bytes.len()));
+            return Err(format!(
+                "{length} bytes written, but the trace shows {}",
+                bytes.len()
+            ));
         }
         bytes.truncate(length);
         let end = self.disk.length(object);
@@ -257,7 +260,7 @@ impl<'a> Follower<'a> {
                 Ok(())
             }
             _ => Err(format!(
-                "`{}({})`: over the edge of the watched folder",
+                "`{}({})`: outside the watched folder",
                 call.name,
                 call.arguments.join(", ")
             )),
@@ -269,7 +272,10 @@ impl<'a> Follower<'a> {
         match (self.name(from_at, from), self.name(to_at, to)) {
             (None, None) => Ok(()),
             (Some((from, old)), Some((folder, name))) => {
-                let object = self.disk.lookup(from, &old).ok_or("a link to nothing")?;
+                let object = self
+                    .disk
+                    .lookup(from, &old)
+                    .ok_or("a link to a missing file")?;
                 self.act(Operation::Link {
                     folder,
                     name,
@@ -277,7 +283,7 @@ impl<'a> Follower<'a> {
                 });
                 Ok(())
             }
-            _ => Err("a link over the edge of the watched folder".to_owned()),
+            _ => Err("a link to a file outside the watched folder".to_owned()),
         }
     }
 

@@ -200,7 +200,8 @@ fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value
 fn mounted(specimen: &Specimen) -> Result<Mounted, WireError> {
     let refused = WireError::Request;
     let length = |mm: f64| {
-        Nanometre::from_millimetres(mm).ok_or_else(|| refused(format!("{mm} mm is no length")))
+        Nanometre::from_millimetres(mm)
+            .ok_or_else(|| refused(format!("{mm} mm is not a valid length")))
     };
     match specimen {
         Specimen {

@@ -65,12 +65,12 @@ impl fmt::Display for Violation {
                 write!(f, "no halt within {:.1} ms of {hazard}", after_s * 1e3)
             }
             Violation::Defied(asked) => {
-                write!(f, "asked for {asked}, which nobody may")
+                write!(f, "forbidden request: {asked}")
             }
-            Violation::Lost(what) => write!(f, "acknowledged and lost: {what}"),
+            Violation::Lost(what) => write!(f, "acknowledged but missing: {what}"),
             Violation::Doubled(what) => write!(f, "recorded twice: {what}"),
-            Violation::Invented(what) => write!(f, "recorded and never planned so: {what}"),
-            Violation::Untrue(what) => write!(f, "a sample says what was not: {what}"),
+            Violation::Invented(what) => write!(f, "recorded but not planned: {what}"),
+            Violation::Untrue(what) => write!(f, "a sample differs from the truth: {what}"),
             Violation::Unfinished(what) => write!(f, "never finished: {what}"),
         }
     }

@@ -68,7 +68,7 @@ fn one_sided(planned: &PlannedPress, entry: &Entry) -> Option<Violation> {
     let out = entry.samples.iter().filter(on_way_out).count();
     (comes_out && !(2 * out..=2 * out + 1).contains(&samples)).then(|| {
         let what = format!(
-            "{} has {out} samples of {samples} on its way out",
+            "{} has {out} samples of {samples} on its retreat",
             entry.press
         );
         Violation::Untrue(what)

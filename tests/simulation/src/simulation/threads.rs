@@ -113,7 +113,7 @@ impl Shared {
         let seen = guard.seen;
         let is_old = |(_, stamp): (Pose, Stamp)| now_s - stamp.valid_s > STALE_S;
         if held.is_under_way() && seen.is_some_and(is_old) {
-            world.hazard("a robot that reports nothing", now_s);
+            world.hazard("a robot without reports", now_s);
         }
         drop(world);
         if is_wish {

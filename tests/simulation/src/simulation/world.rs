@@ -293,7 +293,7 @@ impl World {
         self.last_force = Some(force);
         if self.faults.strike(FaultKind::NotANumber, self.now_s) {
             force[2] = f64::NAN;
-            self.hazard("a reading that is no number", self.now_s);
+            self.hazard("a NaN reading", self.now_s);
         }
         if self.faults.strike(FaultKind::Saturation, self.now_s) {
             force[2] = self.gel.saturation_n;
@@ -301,7 +301,7 @@ impl World {
         }
         if self.faults.strike(FaultKind::StaleStamps, self.now_s) {
             valid_s -= STALE_S;
-            self.hazard("a reading that is old", self.now_s);
+            self.hazard("an old reading", self.now_s);
         }
         (force, valid_s)
     }
