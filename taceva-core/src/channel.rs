@@ -129,7 +129,7 @@ impl Channel {
         self.unit
     }
 
-    /// Period of the values, degrees; `None` if the channel is no angle or declares no period.
+    /// Period of the values, degrees; `None` if the channel is not an angle or declares no period.
     pub fn period(&self) -> Option<u16> {
         self.period.map(NonZeroU16::get)
     }

@@ -111,12 +111,12 @@ impl fmt::Display for Nanometre {
     }
 }
 
-/// Text that is no length in mm.
+/// Text that is not a length in mm.
 ///
 /// ```
 /// use taceva_core::Nanometre;
 /// let error = "1 mm".parse::<Nanometre>().unwrap_err();
-/// assert_eq!(error.to_string(), "`1 mm` is no length, expected millimetres such as 0.35");
+/// assert_eq!(error.to_string(), "`1 mm` is not a length, expected millimetres such as 0.35");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NanometreError {
@@ -127,7 +127,7 @@ impl fmt::Display for NanometreError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "`{}` is no length, expected millimetres such as 0.35",
+            "`{}` is not a length, expected millimetres such as 0.35",
             self.text
         )
     }

@@ -326,7 +326,7 @@ fn a_place_that_cannot_be_written_or_read_is_named() {
         Some(after_each_step(folder.path())),
         &SilentProgress,
     );
-    let error = error.expect_err("a folder is no file");
+    let error = error.expect_err("a folder is not a file");
     assert!(
         matches!(cause(&error), CheckpointError::Read { .. }),
         "{error}"

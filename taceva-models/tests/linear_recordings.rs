@@ -90,7 +90,7 @@ pub(crate) fn model(name: &str, words: &[&str]) -> Box<dyn LinearEstimator> {
         "baseline" => Box::new(Baseline::from_settings(&settings).expect(valid)),
         "ridge" => Box::new(Ridge::from_settings(&settings).expect(valid)),
         "pls" => Box::new(Pls::from_settings(&settings).expect(valid)),
-        _ => panic!("{name} is no linear model"),
+        _ => panic!("{name} is not a linear model"),
     }
 }
 

@@ -292,7 +292,7 @@ fn folds_of_points(text: &str, points: &[String]) -> Result<Vec<Split>, SplitErr
         ..SplitInput::default()
     };
     let SplitKind::Folds(folds) = spec(text).kind else {
-        panic!("{text} is no cross-validation");
+        panic!("{text} is not a cross-validation");
     };
     Ok(folds.folds(&input, Fractions::default(), 3)?.splits)
 }

@@ -201,7 +201,7 @@ fn a_crate_that_keeps_a_word_still_has_it() {
             let metadata = metadata();
             let of_that_name = |package: &&cargo_metadata::Package| package.name.as_str() == *name;
             let package = metadata.packages.iter().find(of_that_name);
-            let folder = package.unwrap_or_else(|| panic!("{name} is no crate"));
+            let folder = package.unwrap_or_else(|| panic!("{name} is not a crate"));
             let src = folder.manifest_path.parent().expect("a folder").join("src");
             let has = rust_files(src.as_std_path()).iter().any(|file| {
                 let code = without_text(&fs::read_to_string(file).expect("readable"));

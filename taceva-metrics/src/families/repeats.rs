@@ -63,7 +63,7 @@ pub(crate) struct RepeatSums {
 }
 
 impl RepeatSums {
-    /// True if the standard deviation of labels is below the pooled spread of repeats: then differences of predictions are no signal.
+    /// True if the standard deviation of labels is below the pooled spread of repeats: then differences of predictions are noise.
     fn is_low_stimulus(&self) -> bool {
         let stimulus = self.truth.deviation(1);
         let spread = SpreadSums::of(&self.cells).pooled().ok();
@@ -230,7 +230,7 @@ fn depth_curve(parts: &[&RepeatSums]) -> Value {
     })
 }
 
-/// Depth step from its number `step`; `None` if it is no whole number from 0 to 2³² − 1.
+/// Depth step from its number `step`; `None` if it is not a whole number from 0 to 2³² − 1.
 fn whole_step(step: f64) -> Option<u32> {
     let whole = (0.0..=f64::from(u32::MAX)).contains(&step) && step.fract().abs() <= 0.0;
     #[expect(

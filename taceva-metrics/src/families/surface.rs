@@ -74,7 +74,7 @@ impl Surface {
         })
     }
 
-    /// Cell of the sample at `row`; `None` if a coordinate is no usable number.
+    /// Cell of the sample at `row`; `None` if a coordinate is not a usable number.
     fn place(&self, batch: &Batch, row: usize) -> Option<Place> {
         let (Some(grid), Some([x, y])) = (&self.grid, self.place) else {
             return Some(Place::Unknown);

@@ -95,9 +95,9 @@ impl ClusteredBins {
     /// The spread of the means beyond chance.
     ///
     /// Each mean has a variance from the variances between and within clusters of a bin, pooled over bins. Clusters in several bins move
-    /// their means together, which is no spread. The rest of the variance is noise. The interval inverts the test of the ratio of both
-    /// variances by the F distribution in Paulson's approximation, with the degrees of freedom of Satterthwaite, because other bins would
-    /// have had other clusters.
+    /// their means together, which is not a spread. The rest of the variance is noise. The interval inverts the test of the ratio of both
+    /// variances by the F distribution in Paulson's approximation. The degrees of freedom are Satterthwaite's, because other bins would
+    /// have other clusters.
     ///
     /// # Reference
     /// Thomas and Hultquist, Annals of Statistics 6 (1978); Searle, Casella and McCulloch, Variance Components (1992), chapter 3; Paulson, Annals

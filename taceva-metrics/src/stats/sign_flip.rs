@@ -77,9 +77,9 @@ impl SignFlip {
     /// one of those means, found by counting.
     ///
     /// # Errors
-    /// [`ComparisonError::Unpaired`] or [`ComparisonError::Counts`] if the two do not have the same clusters with as many
-    /// samples, [`ComparisonError::TooFewClusters`] if there are fewer than five with samples,
-    /// [`ComparisonError::NoInterval`] if a number is beyond the range of binary64.
+    /// - [`ComparisonError::Unpaired`] or [`ComparisonError::Counts`] if the two do not have the same clusters with as many samples.
+    /// - [`ComparisonError::TooFewClusters`] if there are fewer than five with samples.
+    /// - [`ComparisonError::NoInterval`] if a number is beyond the range of binary64.
     pub fn test(&self, sums: Sides<&ClusterSums>) -> Result<Difference, ComparisonError> {
         let pairs = PairedClusters::of(sums)?;
         let mean = pairs.mean_difference()?;

@@ -11,7 +11,7 @@ fn power(exponent: i32) -> f64 {
     let bits = match exponent {
         -1022..=1023 => u64::from((exponent + 1023).unsigned_abs()) << 52,
         -1074..=-1023 => 1 << (exponent + 1074),
-        _ => panic!("2^{exponent} is no binary64"),
+        _ => panic!("2^{exponent} is not a binary64"),
     };
     f64::from_bits(bits)
 }

@@ -134,7 +134,9 @@ fn left_out(kind: Kind, asked: &Asked) -> Option<&'static str> {
         Kind::Quick => None,
         _ if asked.is_quick => Some("takes too long for a test"),
         Kind::Times if asked.is_check => Some("its output contains times"),
-        Kind::Times if asked.without_times => Some("times were not asked for"),
+        Kind::Times if asked.without_times => {
+            Some("its output contains times, which were excluded")
+        }
         Kind::Data if env::var_os("TACEVA_DATA").is_none() => {
             Some("TACEVA_DATA names no recordings")
         }

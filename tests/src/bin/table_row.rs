@@ -97,7 +97,7 @@ fn score(table: &str, cell: &str) -> anyhow::Result<Score> {
         let ends = row[low].parse().ok().zip(row[high].parse().ok());
         let unit = &row[unit];
         return Ok(Score {
-            value: row[value].parse().context("a value that is no number")?,
+            value: row[value].parse().context("a value that is not a number")?,
             ends: ends.map(|(low, high)| [low, high]),
             unit: Unit::from_symbol(unit).with_context(|| format!("`{unit}`: no unit"))?,
             standing: row[standing].to_owned(),

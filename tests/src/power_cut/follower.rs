@@ -242,7 +242,7 @@ impl<'a> Follower<'a> {
                 self.act(Operation::Resize { file, length });
                 Ok(())
             }
-            (Some(_), None) => Err(format!("`{}` to no length", call.name)),
+            (Some(_), None) => Err(format!("truncated `{}` without a length", call.name)),
             (None, _) => Ok(()),
         }
     }

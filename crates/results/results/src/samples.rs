@@ -69,7 +69,7 @@ pub enum SamplesError {
     /// Invalid CSV, or a row whose length differs from the header.
     #[error("samples: {0}")]
     Csv(#[from] csv::Error),
-    /// A cell that is no finite number.
+    /// A cell that is not a finite number.
     #[error("samples, line {line}, column `{column}`: expected a finite number, found `{found}`")]
     Cell {
         /// Line, from 1.

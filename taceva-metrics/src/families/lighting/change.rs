@@ -33,7 +33,7 @@ impl Change {
         })
     }
 
-    /// The same with b = max(0, MAEc/MAEo − 1): a smaller error is no lack of robustness.
+    /// The same with b = max(0, MAEc/MAEo − 1): a smaller error is not a lack of robustness.
     pub(super) fn robustness_plus(self) -> Finished {
         self.share(|difference| {
             if difference.is_negative() {

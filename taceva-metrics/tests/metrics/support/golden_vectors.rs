@@ -43,28 +43,28 @@ pub(crate) fn check_keys(object: &Value, known: &[&str]) {
 pub(crate) fn whole(value: &Value) -> u64 {
     value
         .as_u64()
-        .unwrap_or_else(|| panic!("{value} is no count"))
+        .unwrap_or_else(|| panic!("{value} is not a count"))
 }
 
 /// A signed whole number.
 pub(crate) fn signed(value: &Value) -> i64 {
     value
         .as_i64()
-        .unwrap_or_else(|| panic!("{value} is no whole number"))
+        .unwrap_or_else(|| panic!("{value} is not a whole number"))
 }
 
 /// A binary64 number as JSON writes it.
 pub(crate) fn real(value: &Value) -> f64 {
     value
         .as_f64()
-        .unwrap_or_else(|| panic!("{value} is no number"))
+        .unwrap_or_else(|| panic!("{value} is not a number"))
 }
 
 /// A text.
 pub(crate) fn text(value: &Value) -> &str {
     value
         .as_str()
-        .unwrap_or_else(|| panic!("{value} is no text"))
+        .unwrap_or_else(|| panic!("{value} is not text"))
 }
 
 /// A binary64 number by its bits: `"0x3ff…"`, or an object with such a text in `bits` or `rn`.

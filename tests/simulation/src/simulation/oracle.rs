@@ -198,7 +198,7 @@ impl Oracle {
     /// Checks the end of a motion.
     ///
     /// The stated overshoot limits how far the tip goes beyond a limit, so only the end of an inward motion can violate it. The tip then
-    /// comes out step by step, still beyond the limit for a while, which is no second violation.
+    /// comes out step by step, still beyond the limit for a while, which is not a second violation.
     pub(super) fn moved(&mut self, ended: Ended) {
         let Ended {
             depth_mm, force_n, ..
@@ -250,7 +250,7 @@ impl Oracle {
         self.overlooked |= unseen.is_some();
     }
 
-    /// Records that readings have returned; a gap shorter than a stale reading is no hazard.
+    /// Records that readings have returned; a gap shorter than a stale reading is not a hazard.
     pub(super) fn heard(&mut self) {
         self.hazard.take_if(|(hazard, _)| *hazard == SILENCE);
     }

@@ -150,7 +150,7 @@ fn a_force_that_comes_late_costs_time_and_no_way() {
     let mut log = Memory::default();
     let report = bench
         .run(Mode::Acquire, &mut log)
-        .expect("slow is no fault");
+        .expect("slow is not a fault");
     assert!(report.limited > 0);
     assert_eq!(bench.shared.world().oracle.violations, []);
     let checks = bench.shared.world().oracle.checks;
@@ -208,7 +208,7 @@ fn a_gel_that_is_not_there_is_searched_for_and_left() {
     let mut log = Memory::default();
     let report = bench
         .run(Mode::Acquire, &mut log)
-        .expect("nothing touched is no fault");
+        .expect("nothing touched is not a fault");
     let searched = bench.plan.presses.iter();
     let searched = searched.filter(|press| !matches!(press.press.motion, Motion::Rest { .. }));
     assert_eq!(report.without_contact, searched.count());

@@ -50,7 +50,7 @@ fn a_robot_whose_pose_jitters_makes_two_hundred_presses_without_a_false_halt() {
     let mut log = Memory::default();
     let report = bench
         .run(Mode::Acquire, &mut log)
-        .expect("noise is no fault");
+        .expect("noise is not a fault");
     assert_eq!((report.made, report.limited, report.redone), (200, 0, 0));
     assert_eq!(bench.events.iter().find(is_halt), None);
     assert_eq!(bench.shared.world().oracle.violations, []);

@@ -43,7 +43,7 @@ impl<E: Arm> Setup<E> {
         self.open();
     }
 
-    /// A path that is no serial line is rejected with the matching error.
+    /// A path that is not a serial line is rejected with the matching error.
     pub(crate) fn refuses_what_is_no_line(&self) {
         let file = tempfile::NamedTempFile::new().expect("a file");
         let path = file.path().display();
