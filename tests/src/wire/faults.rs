@@ -253,7 +253,7 @@ impl Played {
     fn is_still(&mut self, on: &OnTheWire, is_well: bool) {
         let bench = on.served.bench();
         if is_well {
-            self.broken.push("a study that went on".to_owned());
+            self.broken.push("a study that continued".to_owned());
         }
         let stood = bench.truth().way_mm;
         let (is_well, _) = UnderWay::begin(on.study()).end();
