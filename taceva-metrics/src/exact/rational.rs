@@ -83,7 +83,7 @@ impl Dyadic {
             |natural: &Natural| i64::try_from(natural.bits()).expect("bits that fit in memory");
         let up = (128 - (bits(&self.magnitude) - bits(&divisor.magnitude))).max(0);
         let exponent = i64::from(self.exponent) - i64::from(divisor.exponent);
-        // An even power of two comes out of the root whole.
+        // The root of an even power of two is exact.
         let up = up + (exponent - up).rem_euclid(2);
         let places = usize::try_from(up).expect("not below 0");
         let (quotient, is_exact) = self

@@ -46,7 +46,7 @@ impl CellKey {
 
 /// Summaries by cell. Copies share them, so each is computed once.
 ///
-/// Once a row lacks a location, all cells are merged into one for good, because the presses cannot be grouped. The outcome depends on the
+/// Once a row lacks a location, all cells are merged into one permanently, because the presses cannot be grouped. The outcome depends on the
 /// set of rows alone.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells<V> {

@@ -10,7 +10,7 @@ use super::student::upper;
 
 /// Score of A minus score of B.
 ///
-/// Verdict, p value and interval rest on one decision. [`decide`] makes it for a family of differences at once; until then a difference is
+/// Verdict, p value and interval follow from one decision. [`decide`] makes it for a family of differences at once; until then a difference is
 /// its own family.
 ///
 /// ```

@@ -1,6 +1,6 @@
 //! Student's t distribution, for any positive number of degrees of freedom.
 //!
-//! Only + − × ÷ and √ are used, which IEEE 754 rounds alike everywhere. A platform's own logarithm or gamma function would not give the
+//! Only + − × ÷ and √ are used, which IEEE 754 rounds the same everywhere. A platform's own logarithm or gamma function would not give the
 //! same bytes on every machine.
 
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};

@@ -284,7 +284,7 @@ pub fn play_kills(times: usize, seed: u64) -> Result<usize, String> {
         let mut study = UnderWay::begin(on.study());
         std::thread::sleep(Duration::from_millis(300 + random.below(30_000) as u64));
         if study.ended() == Some(true) {
-            // The study was faster than the kill: check its recording and start anew.
+            // The study was faster than the kill: check its recording and restart.
             lacks(&on.recording(RUN), presses).map_or(Ok(()), Err)?;
             let folder = on.folder().join(RUN);
             std::fs::remove_dir_all(folder).map_err(|error| error.to_string())?;

@@ -30,7 +30,7 @@ fn wrong_axes_of_the_transducer_end_a_session_with_their_line_before_anything_is
         fs::write(&file, format!("{robot}[force]{turned}")).expect("written");
         let mut said = String::new();
         for _ in 0..PATIENCE {
-            // Nothing was pressed: start the run anew.
+            // Nothing was pressed: restart the run.
             let _ = fs::remove_dir_all(on.folder().join(RUN));
             said = finished(on.study()).expect_err("the axes are wrong");
             if !said.contains("ms old") {
