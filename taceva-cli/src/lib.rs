@@ -164,7 +164,7 @@ fn missing_dataset(error: &Error) -> Option<&Path> {
 }
 
 /// The error of a dataset that `cause` is, or that an import has.
-fn dataset_error(cause: &(dyn std::error::Error + 'static)) -> Option<&DatasetError> {
+fn dataset_error<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a DatasetError> {
     let import = cause.downcast_ref::<ImportError>();
     import.map_or_else(|| cause.downcast_ref(), ImportError::dataset)
 }

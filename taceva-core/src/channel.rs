@@ -129,7 +129,7 @@ impl Channel {
         self.unit
     }
 
-    /// Period of the values, degrees; `None` if the channel is no angle or declares no period.
+    /// Period of the values, degrees; `None` if the channel is not an angle or declares no period.
     pub fn period(&self) -> Option<u16> {
         self.period.map(NonZeroU16::get)
     }
@@ -254,9 +254,9 @@ pub enum ChannelError {
     Unit {
         /// The channel.
         name: String,
-        /// The unit it is kept in.
+        /// Unit of the channel.
         expected: Unit,
-        /// The unit that was given.
+        /// Unit found.
         found: Unit,
     },
     /// A period of a channel that is no angle, or one outside 1 to 360 degrees.

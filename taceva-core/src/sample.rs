@@ -44,7 +44,7 @@ pub struct Sample {
     pub phase: Option<Phase>,
     /// Limit of the gel that kept the tip from its target. Labels and picture then belong to the place that was reached.
     pub limited_by: Option<Limit>,
-    /// When it was taken.
+    /// Time of the observation.
     pub stamp: Option<Stamp>,
     /// The relief of the grating that is touched.
     pub kind: Option<GratingKind>,

@@ -1,4 +1,4 @@
-//! The unit a channel is kept in, and the units that labels may arrive in.
+//! Stored units of channels, and accepted units of labels.
 
 mod source;
 

@@ -43,7 +43,7 @@ pub use stats::{
     Sides, SignFlip, StatedInterval, TrainingSpread, Verdict, by_intervals, decide, holm,
     paired_over_trainings,
 };
-// Types of the signatures here, so that a caller needs no other crate.
+// Types in these signatures, so that a caller needs no other crate.
 pub use taceva_core::{
     Batch, BatchBuilder, Channel, ChannelError, Channels, Column, Field, FieldSet, Footprint,
     FootprintError, GratingKind, Isa, IsaError, Labels, Nanometre, Needs, Phase, Readings, Sample,

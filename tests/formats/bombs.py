@@ -19,7 +19,7 @@ import tarfile
 import tempfile
 import zlib
 
-# The process that measures stays small: what its children take is counted from what it had itself.
+# The measuring process stays small: the memory of its children is counted from its own.
 if "--make" in sys.argv:
     import h5py
     import lz4.frame

@@ -1,4 +1,5 @@
-//! Reports of real recordings: compared, chosen from and drawn as far as their labels allow. Skipped, with a printed reason, where a set is absent.
+//! Reports of real recordings: compared, chosen and drawn, as far as their labels allow. Skipped, with a printed reason, if a set is
+//! absent.
 
 use std::num::NonZeroUsize;
 
@@ -18,7 +19,7 @@ const WORK: Work<'_> = Work {
     cache: None,
 };
 
-/// What `model` makes of the set `name`, with its samples.
+/// Evaluates `model` on the set `name`, with its samples.
 fn study(name: &str, model: &str, split: &str) -> Option<Study> {
     let source = recording(name)?;
     let map = root()

@@ -150,7 +150,7 @@ impl SourceUnit {
         SOURCE_UNITS.iter().map(|(symbol, _, _)| *symbol)
     }
 
-    /// The symbol it was written with.
+    /// Symbol as written.
     pub const fn symbol(&self) -> &'static str {
         self.symbol
     }
@@ -160,7 +160,7 @@ impl SourceUnit {
         self.unit
     }
 
-    /// Shift of the decimal point in the conversion to the stored unit, places; `None` if the factor is no power of ten. Shifting the point
+    /// Shift of the decimal point in the conversion to the stored unit, places; `None` if the factor is not a power of ten. Shifting the point
     /// of a text before parsing rounds once; parsing and then converting rounds twice.
     pub fn decimal_shift(&self) -> Option<i32> {
         let find = |factor: f64| {
@@ -192,7 +192,7 @@ impl SourceUnit {
     }
 }
 
-/// A symbol that is no known unit.
+/// A symbol that is not a known unit.
 ///
 /// ```
 /// use taceva_core::SourceUnit;

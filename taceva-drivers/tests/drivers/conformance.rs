@@ -197,7 +197,7 @@ fn each_check_of_a_changer_can_fail() {
     );
 }
 
-/// The toy behind a failing link.
+/// A toy behind a failing link.
 struct Failing {
     toy: ToyFactory,
     plan: FaultPlan,

@@ -1,4 +1,4 @@
-//! Compliance of the gel. A softer gel yields more, which is no merit by itself, so the score only describes.
+//! Compliance of the gel. A softer gel yields more, which is not a merit by itself, so the score only describes.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 

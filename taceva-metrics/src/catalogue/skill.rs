@@ -45,7 +45,7 @@ pub(crate) static SKILL: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// The sums that it reads.
+/// Sums that skill reads.
 const STREAMS: Streams = Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]);
 
 /// RN(1 − Σ Sdd / Σ Scc) over the axes, Scc = Syy − 2 c Sy + n c² about the constant c, or Syy − Sy² / n about the mean of truth.
@@ -74,7 +74,7 @@ fn constant(axis: Axis<'_>) -> Option<f64> {
     axis.constant.or_else(mean)
 }
 
-/// The constant of one channel, flagged if it is the mean of truth.
+/// Constant of one channel, flagged if it is the mean of truth.
 fn details(axes: &[Axis<'_>], output: &Output) -> Details {
     let is_mean = axes.iter().any(|axis| axis.constant.is_none());
     let variants = match axes[..] {

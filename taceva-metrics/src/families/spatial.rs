@@ -58,7 +58,7 @@ impl Spatial {
         })
     }
 
-    /// The mean absolute error over the centres of the bins.
+    /// Mean absolute error at the centres of the bins.
     fn curve(&self, bins: &SortedMap<u8, Moments>, extent: Nanometre) -> Value {
         let of = |bin: u8| {
             bins.get(&bin)

@@ -30,7 +30,7 @@ use sums::{NORMAL_ONLY, Place, Press, SurfaceSums};
 pub(crate) static SURFACE: FamilyKind =
     FamilyKind::new("taceva.surface/1", |plan| erased(Surface::for_plan(plan)?));
 
-/// Formula of a metric that is finished from the compliance of the surface.
+/// Formula of a metric that is computed from the compliance of the surface.
 pub(crate) struct SurfaceFormula {
     /// Channels of the score.
     pub(crate) of: &'static [&'static str],
@@ -75,7 +75,7 @@ impl Surface {
         })
     }
 
-    /// Cell of the sample at `row`; `None` if a coordinate is no usable number.
+    /// Cell of the sample at `row`; `None` if a coordinate is not a usable number.
     fn place(&self, batch: &Batch, row: usize) -> Option<Place> {
         let (Some(grid), Some([x, y])) = (&self.grid, self.place) else {
             return Some(Place::Unknown);

@@ -1,4 +1,4 @@
-//! Facts about a sensor beside its samples.
+//! Facts about a sensor that are not in its samples.
 
 use taceva_core::{Footprint, Outline, SkipReason};
 

@@ -1,4 +1,4 @@
-//! Values of a score: a number, many numbers in their places, or the reason for a missing one.
+//! Values of a score: one number, many numbers, or the reason for a missing value.
 
 use std::fmt::{self, Write as _};
 

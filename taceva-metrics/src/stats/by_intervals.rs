@@ -18,8 +18,8 @@ pub(super) const LEAST_P: f64 = f64::EPSILON / 2.0;
 /// is the level at which that interval ends at 0, so verdict, p and all three intervals rest on the same numbers. Its least value is
 /// 1.1e-16.
 ///
-/// Without a true difference about 0.04 of pairs are shown to differ, more if few locations make most of the error. `docs/coverage.md` has
-/// the simulation, with Welch's test beside it.
+/// If two sensors are equal, about 0.04 of pairs are still shown to differ, and more if few locations cause most of the error.
+/// `docs/coverage.md` has the simulation, with Welch's test for comparison.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals};

@@ -8,9 +8,9 @@ use super::holm::{LEVEL, Step, steps};
 use super::sides::Sides;
 use super::student::{beyond, upper};
 
-/// Score of A less that of B.
+/// Score of A minus score of B.
 ///
-/// Verdict, p value and interval rest on one decision. [`decide`] makes it for a family of differences at once; until then a difference is
+/// Verdict, p value and interval follow from one decision. [`decide`] makes it for a family of differences at once; until then a difference is
 /// its own family.
 ///
 /// ```
@@ -51,7 +51,7 @@ pub struct Difference {
 pub(super) enum Inverse {
     /// Intervals of both scores, at any level.
     Intervals(Pair),
-    /// Differences at which each pattern of signs begins to count, to either side.
+    /// Differences at which each pattern of signs begins to count, on either side.
     Flips(Flips),
     /// Student's distribution about the difference, for its standard error.
     Student { freedom: f64 },

@@ -7,8 +7,8 @@ use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{ClusteredBy, Interval};
 
-/// Least degrees of freedom of a variance of few clusters. If one cluster makes all of the variance, fewer would widen the interval several
-/// times and contain the truth no more often.
+/// Least degrees of freedom of a variance of few clusters. If one cluster causes all of the variance, fewer would widen the interval
+/// several times without containing the truth more often.
 const LEAST_FREEDOM: f64 = 3.0;
 
 /// The score with one cluster left out.
@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn one_cluster_that_makes_all_of_an_error_leaves_a_finite_interval() {
-        // Nine of ten locations are read perfectly, or all but: what is left without the tenth is nothing, or next to nothing.
+        // Nine of ten locations have almost no error: the rest without the tenth is zero or nearly zero.
         let ends = |rest: f64| {
             let of_others = (0..9).map(|_| 1e-6 * 10.0 / 9.0);
             let left_out = of_others.chain([rest]).map(|left| LeftOut {

@@ -22,7 +22,7 @@ pub(super) fn ends(share: f64, n: f64, z: f64) -> [f64; 2] {
     let centre = (share + z * z / (2.0 * n)) / scale;
     let spread = share * (1.0 - share) / n + z * z / (4.0 * n * n);
     let half = z * spread.sqrt() / scale;
-    // At the ends the formula gives 0 and 1 exactly, but for rounding.
+    // At the ends the formula gives 0 and 1 up to rounding.
     [
         if share <= 0.0 { 0.0 } else { centre - half },
         if share >= 1.0 { 1.0 } else { centre + half },

@@ -1,11 +1,11 @@
-//! What a program that embeds the crate relies on.
+//! Guarantees for programs that embed the crate.
 
 use taceva_metrics::{
     Channel, Channels, Evaluation, Evaluator, FieldSet, InapplicableReason, MetricPlan, Readings,
     Rows, Sample, SampleSink, UndefinedReason, Unit, Value, catalogue,
 };
 
-/// Predictions of 100 samples that all differ, and their truth.
+/// Predictions of 100 different samples, and their truth.
 fn drawn() -> (Vec<f64>, Vec<f64>) {
     let truth: Vec<f64> = (0..100).map(|row| f64::from(row) / 10.0).collect();
     let error = |row: u32| f64::from(row * 37 % 101) / 1000.0;
@@ -95,7 +95,7 @@ fn many_pairs_are_summed_block_by_block_to_the_same_bits() {
         let updated = evaluator.update_pairs(Channel::FZ, &truth, &prediction);
         updated.expect("as many");
     });
-    // Nobody knows beforehand how many pass a filter.
+    // The length of a filtered iterator is unknown.
     let of_unknown_length = of(&|evaluator| {
         let (some, others) = (
             truth.iter().filter(|_| true),

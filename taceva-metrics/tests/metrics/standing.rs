@@ -1,4 +1,4 @@
-//! Which scores take part in verdicts.
+//! Standing of scores in verdicts.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use taceva_metrics::{
     Value, catalogue,
 };
 
-/// Ten presses at each of eight points, with truths 0 to 0.08 N and one of 2 N. The constant 0 is within 0.05 N of six of ten.
+/// Ten presses at each of eight points, with truths 0 to 0.08 N and one of 2 N. The constant 0 is within 0.05 N of six truths in ten.
 fn evaluated(errors: [f64; 2], constant: Option<f64>) -> Evaluation {
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let fields = FieldSet::PAIRS.with(Field::Point);
@@ -32,7 +32,7 @@ fn evaluated(errors: [f64; 2], constant: Option<f64>) -> Evaluation {
     evaluator.finish().expect("scores")
 }
 
-/// The standing of `tolerance`, and the share that the constant reaches.
+/// Standing of `tolerance`, and the share that the constant reaches.
 fn tolerance(evaluation: &Evaluation) -> (Standing, Option<f64>) {
     let score = evaluation.score("tolerance", "Fz").expect("a score");
     let of_constant = score.variant("of_constant");
@@ -44,7 +44,7 @@ fn tolerance(evaluation: &Evaluation) -> (Standing, Option<f64>) {
 fn a_share_within_tolerance_counts_above_what_the_constant_reaches_and_not_below() {
     let near = evaluated([0.001, 0.06], Some(0.0));
     assert_eq!(tolerance(&near), (Standing::Counts, Some(0.6)));
-    // Nine of ten errors lie beyond the tolerance: the constant meets more, though the model is much nearer in the mean square.
+    // Nine of ten errors exceed the tolerance. The constant meets more samples, although the model has a much smaller mean squared error.
     let far = evaluated([0.06, 0.001], Some(0.0));
     assert_eq!(tolerance(&far), (Standing::NotAboveConstant, Some(0.6)));
 }
@@ -82,7 +82,7 @@ fn what_a_constant_reaches_is_merged_with_that_of_the_same_constant_and_lost_bes
     assert_eq!(share([0.25, 0.0]), None);
 }
 
-/// Six presses at each of so many points, read to within 1 % of a spread of 1 N.
+/// Six presses at each of `points` points, predicted to within 1 % of a spread of 1 N.
 fn of_points(points: usize) -> Evaluation {
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let plan = MetricPlan::new(

@@ -1,4 +1,4 @@
-//! What scores by press, unit, time and level say of samples whose answer is known, and why some have none.
+//! Scores by press, unit, time and level of samples with a known answer, and reasons for missing ones.
 
 mod detection;
 mod loops;
@@ -14,7 +14,7 @@ use taceva_metrics::{
     Evaluation, Evaluator, Flag, Interval, MetricPlan, Score, SensorFacts, Value, catalogue,
 };
 
-/// Evaluates samples whose readings are of `channels`.
+/// Evaluates samples with readings of `channels`.
 fn evaluate(metric: &str, channels: &[&str], samples: &[Sample]) -> Evaluation {
     let channel = |name: &&str| {
         let unit = match name.as_bytes() {

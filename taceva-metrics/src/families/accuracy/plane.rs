@@ -25,7 +25,7 @@ pub(crate) struct PlaneAxes {
 }
 
 impl PlaneAxes {
-    /// The plane's score, finished from its own sums at position 0.
+    /// The plane's score, computed from its own sums at position 0.
     pub(crate) fn output(&self) -> Output {
         Output {
             label: self.label.to_owned(),
@@ -67,7 +67,7 @@ pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
     spanned.collect()
 }
 
-/// Formula of a metric that is finished from the distances in a plane.
+/// Formula of a metric that is computed from the distances in a plane.
 pub(crate) struct PlaneFormula(pub(crate) fn(&PlaneSums) -> Finished);
 
 /// Family of distances in planes of two channels.
@@ -112,7 +112,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// Missing axis, if `channels` span no plane: the second of a plane whose first is there, or else the first of all.
+    /// Missing axis, if `channels` span no plane: the second axis of a plane with its first, else the first axis of all.
     fn missing_axis(channels: &Channels) -> Option<&'static str> {
         if !planes(channels).is_empty() {
             return None;
@@ -166,7 +166,7 @@ impl Family for Plane {
             for (x, y) in pairs(0).zip(pairs(2)) {
                 match PlaneSums::distance_of(x, y).filter(|distance| is_valid(*distance)) {
                     Some(distance) => self.distances.push(distance),
-                    // An unusable distance is skipped, and one beyond the range of columns is added on its own.
+                    // An unusable distance is skipped. A distance beyond the range of columns is added alone.
                     None => sums.add(x, y),
                 }
             }

@@ -52,7 +52,7 @@ impl Intervals {
         Ok(1.0 / self.median())
     }
 
-    /// RN of the standard deviation (over n − 1) of the intervals that are no gap, s.
+    /// RN of the standard deviation (over n − 1) of the intervals that are not gaps, s.
     pub(super) fn jitter(&self) -> Finished {
         let regular: Moments = self.regular().iter().copied().collect();
         regular
@@ -68,7 +68,7 @@ impl Intervals {
         Dyadic::from(gaps).over(&Dyadic::from(all))
     }
 
-    /// The intervals that are no gap.
+    /// The intervals that are not gaps.
     fn regular(&self) -> &[f64] {
         let limit = GAP * self.median();
         let regular = self.sorted.partition_point(|interval| *interval <= limit);

@@ -1,4 +1,4 @@
-//! Robustness to light from outside.
+//! Robustness to external light.
 
 use super::*;
 
@@ -129,7 +129,7 @@ fn little_light_and_smaller_errors_are_flagged() {
     let evaluation = evaluate(&["r_light"], &samples);
     let score = evaluation.score("r_light", "Fz").expect("a score");
     assert_eq!(score.flags, [Flag::LowStimulus, Flag::ImprovedError]);
-    // The light of a plane is that of its axes.
+    // The light of a plane equals that of its axes.
     let plane = evaluation.score("r_light", "Fxy").expect("a plane");
     assert_eq!(plane.flags, score.flags);
     assert_eq!(
