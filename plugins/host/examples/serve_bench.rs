@@ -1,6 +1,6 @@
-//! A program that opens its own simulated bench in a child process: `cargo run -p taceva-host --example serve_bench`.
+//! Opens this program's own simulated bench in a child process: `cargo run -p taceva-host --example serve_bench`.
 //!
-//! As a host child, it serves its linked drivers. A plugin's library would be loaded at the same point.
+//! As a host child, it serves its linked drivers. A plugin library would be loaded at the same point.
 
 #[path = "../tests/support/built_in.rs"]
 mod built_in;

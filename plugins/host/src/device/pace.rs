@@ -4,9 +4,9 @@ use std::time::{Duration, Instant};
 
 use taceva_core::Hertz;
 
-/// Periods of the declared rate after which a sample is late.
+/// Number of periods of the declared rate after which a sample is late.
 const LATE: u32 = 10;
-/// Late samples in a row that are an error of the device.
+/// Number of consecutive late samples that is an error of the device.
 const LATE_MAX: u32 = 10;
 /// Maximum drift of stamps against the clock of this machine between two samples.
 const JUMP: Duration = Duration::from_secs(60);
@@ -15,7 +15,7 @@ const JUMP: Duration = Duration::from_secs(60);
 #[derive(Debug)]
 pub(super) struct Pace {
     rate: Option<Hertz>,
-    /// True for a device of a simulated bench, whose time is not that of the host.
+    /// True for a device of a simulated bench, which has its own clock.
     is_simulated: bool,
     late: u32,
     last: Option<(Instant, Duration)>,
@@ -86,7 +86,7 @@ mod tests {
 
     const PERIOD: Duration = Duration::from_millis(10);
 
-    /// Samples that each take `took`, and whose stamps are apart by it.
+    /// Takes samples that last `took` each, with stamps at the same distance.
     fn taken(pace: &mut Pace, count: u32, took: Duration) -> Result<(), String> {
         let begun = Instant::now();
         (0..count).try_for_each(|number| {

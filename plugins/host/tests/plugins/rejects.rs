@@ -50,7 +50,7 @@ refused!(torques_in_the_unit_of_an_older_interface: ["MINOR=2", "FORCE_ID=\"tace
 refused!(two_drivers_of_one_key: ["DRIVERS=2"], LoadProblem::Table(_), "two of its drivers are called");
 refused!(more_drivers_than_anybody_has: ["DRIVERS=4000000000u"], LoadProblem::Table(_), "a factory of 4000000000 drivers");
 refused!(a_description_that_is_not_utf_8: ["SAYS_NO_TEXT"], LoadProblem::Describe(_), "not UTF-8");
-refused!(a_length_that_overflows: ["SAYS_ENDLESS"], LoadProblem::Describe(_), "more text than is accepted");
+refused!(a_length_that_overflows: ["SAYS_ENDLESS"], LoadProblem::Describe(_), "more than 4096 texts or 1 MiB of text");
 refused!(an_init_that_fails: ["INIT_FAILS"], LoadProblem::Init(_), "its `init` failed: nothing is there");
 refused!(a_factory_that_is_null: ["NO_FACTORY"], LoadProblem::Lacks { what: "factory" }, "`factory` is NULL");
 refused!(an_open_that_is_null: ["NO_OPEN"], LoadProblem::Lacks { what: "open" }, "`open` is NULL");
