@@ -1,4 +1,4 @@
-//! Every defect of a plugin gives a message that names it, and this process survives.
+//! Every defect of a plugin gives a message that names it, and the host's process survives.
 
 use std::fs;
 use std::io::{Seek, SeekFrom, Write};
@@ -37,7 +37,7 @@ macro_rules! refused {
 }
 
 refused!(a_wrong_magic: ["MAGIC=0x12345678u"], LoadProblem::Magic { found: 0x1234_5678 }, "begins with 0x12345678");
-refused!(a_newer_major: ["MAJOR=2"], LoadProblem::Major { found: 2 }, "version 2 of the interface, this TacEva has 1");
+refused!(a_newer_major: ["MAJOR=2"], LoadProblem::Major { found: 2 }, "version 2 of the interface, but this TacEva has 1");
 refused!(a_smaller_struct: ["SIZE=40"], LoadProblem::Size { found: 40, .. }, "40 bytes, expected at least");
 refused!(a_missing_symbol: ["NO_SYMBOL"], LoadProblem::Symbol(_), "no `taceva_plugin_v1`");
 refused!(another_id: ["ID=\"org.example.other\""], LoadProblem::Differs { .. }, "`id`: the manifest says `org.example.fixture`, the library `org.example.other`");
@@ -103,7 +103,7 @@ not_opened!(a_handle_that_is_null: ["NULL_HANDLE"], Abi, "its handle is NULL");
 not_opened!(a_table_that_is_null: ["NULL_TABLE"], Abi, "the table is NULL");
 not_opened!(an_ability_that_is_promised_and_absent: ["NO_EXTENSIONS"], Abi, "taceva.sensor.lighting/1");
 
-/// Error of a capture by the plugin built with `macros`, which repeats on a second call; `None` without a C compiler.
+/// Error of a capture by the plugin built with `macros`. A second call gives the same error. `None` without a C compiler.
 fn capture(macros: &[&str]) -> Option<(ErrorKind, String)> {
     let fixture = Fixture::built(macros)?;
     let mut eye = fixture
@@ -272,5 +272,5 @@ not_listed!(a_manifest_with_an_unknown_key: "license" => "licence", Manifest, "d
 not_listed!(a_manifest_with_a_wrong_type: "rate_hz = 1000" => "rate_hz = true", Manifest, "line 16, column 11: invalid type");
 not_listed!(a_path_with_two_dots: "libfixture.so" => "../libfixture.so", Manifest, "without `..`");
 not_listed!(a_folder_instead_of_a_file: "libfixture.so" => ".", Manifest, "without `..`");
-not_listed!(two_tables_that_claim_one_key: "key = \"arm\"" => "key = \"eye\"", Manifest, "two tables are called `eye`");
+not_listed!(two_tables_that_claim_one_key: "key = \"arm\"" => "key = \"eye\"", Manifest, "two tables have the key `eye`");
 not_listed!(a_manifest_for_a_newer_interface: "major = 1" => "major = 2", Abi, "version 2.0 of the interface");

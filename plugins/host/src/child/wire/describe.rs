@@ -241,7 +241,7 @@ impl Wire for Descriptor {
         let spec = DescriptorSpec::new(key, title, Wire::read(from)?, Wire::read(from)?);
         spec.arguments(Vec::<ArgSpec>::read(from)?)
             .check()
-            .map_err(|_| from.malformed("a description that does not contradict itself"))
+            .map_err(|_| from.malformed("a consistent description"))
     }
 }
 
