@@ -1,11 +1,11 @@
-//! The helper for C++: whatever a sensor throws, the tables answer with a status and a message, and nothing is left behind.
+//! C++ helpers: for every exception of a sensor, the tables return a status and a message, and no memory leaks.
 
 use std::path::Path;
 use std::process::Command;
 
 use taceva_needs::{Need, skip};
 
-/// What the host in `cpp/sensor.cpp` prints: a line a call, with the status, the length of the message and how it begins.
+/// Expected output of the host in `cpp/sensor.cpp`: one line per call, with the status, the length of the message and its beginning.
 const EXPECTED: &str = "\
 well: 0 0 
 2x1 of 4, 12 bytes to 9, picture 1 at 5
