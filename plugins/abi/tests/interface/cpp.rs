@@ -15,7 +15,7 @@ failure: -5 16 the cable is out
 success: -15 29 a failure that claims success
 exception: -15 10 row 7 of 3
 memory: -15 14 std::bad_alloc
-whatever: -15 36 what was thrown is no std::exception
+whatever: -15 37 the exception is not a std::exception
 long: -15 502 xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx
 stop throws: 0 0 
 wait: -4 20 nothing came in time
