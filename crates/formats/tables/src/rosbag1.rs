@@ -16,12 +16,12 @@ use crate::message::{Channel, Entry, Message, MessageReader, MessageStore, Schem
 use crate::source::Source;
 use record::{Head, op};
 
-/// The first line of a bag.
+/// First line of a bag.
 pub(crate) const MAGIC: [u8; 13] = *b"#ROSBAG V2.0\n";
 /// Nanoseconds of a second.
 const NANO: u64 = 1_000_000_000;
 
-/// A ROS 1 bag.
+/// ROS 1 bag.
 #[derive(Debug)]
 pub(crate) struct Rosbag1 {
     source: Source,
@@ -31,10 +31,10 @@ pub(crate) struct Rosbag1 {
 }
 
 impl Rosbag1 {
-    /// The recording in `source`: reads the heads of all its records, and no chunk.
+    /// Recording in `source`. Reads the heads of all its records, but no chunk.
     ///
     /// # Errors
-    /// [`TableError::Damaged`] if it is truncated, was not closed, or has other records than it announces.
+    /// [`TableError::Damaged`] if it is truncated, was not closed, or its records differ from its header.
     pub(crate) fn open(source: Source) -> Result<Rosbag1, TableError> {
         let mut records = Records::new(&source)?;
         let mut bag = Rosbag1 {
@@ -52,7 +52,7 @@ impl Rosbag1 {
         else {
             return Err(source.damaged(
                 Place::byte(begin),
-                "not a bag: its first record is not a bag header",
+                "not a bag: the first record is not a bag header",
             ));
         };
         let reindex = || cut::remedy(&source);
@@ -105,7 +105,7 @@ impl Rosbag1 {
                     })?;
                     bag.channels.insert(number, channel);
                 }
-                // Chunk information is not needed, and bags of version 2.0 have no messages outside chunks.
+                // Chunk information is not needed. Bags of version 2.0 have no messages outside chunks.
                 Some(op::CHUNK_INFO) => {}
                 other => {
                     let other =
@@ -130,7 +130,7 @@ impl Rosbag1 {
         Ok(bag)
     }
 
-    /// Counts the messages of each connection by their indices.
+    /// Counts the messages of each connection from their indices.
     fn count(&mut self, records: &mut Records<'_>) -> Result<(), TableError> {
         for (connection, indices) in &self.indices {
             let Some(channel) = self.channels.get_mut(connection) else {
@@ -208,7 +208,7 @@ impl MessageStore for Rosbag1 {
     }
 }
 
-/// Reader of the records of a bag through one cursor; caches the last chunk.
+/// Reader of the records of a bag with one cursor. Caches the last chunk.
 struct Records<'a> {
     source: &'a Source,
     file: File,
@@ -226,7 +226,7 @@ impl<'a> Records<'a> {
         })
     }
 
-    /// The head of the record at `at`; its data must end within the file.
+    /// Head of the record at `at`. Its data must end within the file.
     fn head(&mut self, at: u64) -> Result<Head, TableError> {
         match self.head_within(at)? {
             Ok(head) => Ok(head),
@@ -238,7 +238,7 @@ impl<'a> Records<'a> {
         }
     }
 
-    /// The head of the record at `at`, or a message if the file ends before the record does.
+    /// Head of the record at `at`, or a message if the file ends before the record does.
     fn head_within(&mut self, at: u64) -> Result<Result<Head, String>, TableError> {
         let mut four = |at: u64| {
             let bytes = self.source.bytes(&mut self.file, at, 4, 4).ok()?;
@@ -269,14 +269,14 @@ impl<'a> Records<'a> {
         })
     }
 
-    /// The data of the record with this head.
+    /// Data of the record with this head.
     fn data(&mut self, head: &Head) -> Result<Vec<u8>, TableError> {
         let length = head.end - head.data_at;
         self.source
             .bytes(&mut self.file, head.data_at, length, limits::PAGE_BYTES)
     }
 
-    /// The unpacked records of the chunk at `at`.
+    /// Unpacked records of the chunk at `at`.
     fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some((kept, bytes)) = &self.kept
             && *kept == at
@@ -348,7 +348,7 @@ impl MessageReader for Records<'_> {
     }
 }
 
-/// The number of a connection, and its channel.
+/// Number of a connection, and its channel.
 fn connection(head: &Head, data: &[u8]) -> Option<(u32, Channel)> {
     let number = head.number::<4>("conn").map(u32::from_le_bytes)?;
     let said = Head::new(data.to_vec(), 0, 0)?;

@@ -21,7 +21,7 @@ use super::printed_lines::PrintedLines;
 use super::usage::{Usage, processor_time};
 use super::watch::{PRINTED_MAX, Watch};
 
-/// Limit of output within [`Flood::WITHIN`](super::flood::Flood::WITHIN), bytes.
+/// Limit of output within [`Flood::WITHIN`], bytes.
 const PRINTED_IN_ALL: u64 = 64 << 20;
 /// Capacity of a pipe, bytes.
 const PIPE_MAX: usize = 64 * 1024;

@@ -1,4 +1,4 @@
-//! Whole messages of a bag that was truncated or not closed.
+//! Complete messages of a bag that was truncated or not closed.
 
 use super::record::{self, op};
 use super::{MAGIC, Records};
@@ -12,7 +12,7 @@ pub(super) fn remedy(source: &Source) -> String {
     )
 }
 
-/// Number of messages in complete chunks, and in an uncompressed truncated chunk before its end.
+/// Number of messages in complete chunks, plus those in an uncompressed truncated chunk before its end.
 fn whole_messages(source: &Source) -> u64 {
     let Ok(mut records) = Records::new(source) else {
         return 0;
@@ -52,7 +52,7 @@ fn cut_chunk(records: &mut Records<'_>, at: u64) -> Option<Vec<u8>> {
     (head.op() == Some(op::CHUNK) && is_plain).then(|| records.data(&head).ok())?
 }
 
-/// Number of whole messages among the records of a chunk.
+/// Number of complete messages among the records of a chunk.
 fn messages_of(chunk: &[u8]) -> u64 {
     let (mut at, mut messages) = (0, 0);
     while let Some((head, data)) = record::within(chunk, at) {

@@ -1,4 +1,4 @@
-//! Pages of a database through one cursor.
+//! Pages of a database, read with one cursor.
 
 use std::fs::File;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Database;
 use crate::error::{Place, TableError};
 
-/// Pages of a database; the last one is cached.
+/// Pages of a database. The last one is cached.
 pub(crate) struct Pages<'a> {
     pub(super) database: &'a Database,
     file: File,
@@ -22,7 +22,7 @@ impl<'a> Pages<'a> {
         })
     }
 
-    /// The page with this number, from 1.
+    /// Page with this number, from 1.
     pub(super) fn page(&mut self, number: u32) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some((kept, page)) = &self.kept
             && *kept == number
@@ -34,7 +34,7 @@ impl<'a> Pages<'a> {
         Ok(page)
     }
 
-    /// The page with this number, read again and not cached.
+    /// Page with this number, read again and not cached.
     pub(super) fn read(&mut self, number: u32) -> Result<Vec<u8>, TableError> {
         let database = self.database;
         if number == 0 || number > database.pages {
@@ -46,7 +46,7 @@ impl<'a> Pages<'a> {
         database.source.bytes(&mut self.file, at, bytes, bytes)
     }
 
-    /// The error for a damaged page with this number.
+    /// Error for a damaged page with this number.
     pub(super) fn damaged(&self, number: u32, problem: impl Into<String>) -> TableError {
         let at = u64::from(number.saturating_sub(1)) * u64::from(self.database.page_bytes);
         let place = Place::byte(at).in_name(&format!("page {number}"));
