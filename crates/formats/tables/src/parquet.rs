@@ -169,7 +169,7 @@ impl ParquetTable {
                     *bytes = bytes.saturating_add(cell.bytes());
                     if *bytes > most {
                         let problem = format!(
-                            "more than {most} bytes of memory, for a file of {}; split the file, or read a part of a list, such \
+                            "more than {most} bytes in memory, for a file of {}; split the file, or read a part of a list, such \
                              as `{name}[0]`",
                             self.source.length()
                         );

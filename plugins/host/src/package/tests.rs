@@ -207,14 +207,14 @@ fn a_second_manifest_is_refused_wherever_it_lies() {
     );
     refused(
         with(&[plain("lib/plugin.toml", manifest.as_bytes())]),
-        "does not name it",
+        "not named in the manifest",
     );
 }
 
 #[test]
 fn what_the_manifest_does_not_name_is_refused() {
-    refused(with(&[plain("lib/helper.so", b"code")]), "does not name it");
-    refused(with(&[plain("lib/LICENSE", b"text")]), "does not name it");
+    refused(with(&[plain("lib/helper.so", b"code")]), "not named in the manifest");
+    refused(with(&[plain("lib/LICENSE", b"text")]), "not named in the manifest");
 }
 
 #[test]
@@ -231,11 +231,11 @@ fn another_digest_none_or_one_of_nothing_is_refused() {
         parts(&digests(&[("lib/lamp.so", b"core")])),
         "its sha256 is",
     );
-    refused(parts(""), "does not name it");
+    refused(parts(""), "not named in the manifest");
     refused(parts("0  lib/lamp.so\n"), "line 1: expected 64");
     let both = digests(&[("lib/lamp.so", b"code"), ("lamp.dll", b"code")]);
     refused(parts(&both), "`lamp.dll` in the archive: it is missing");
-    refused(with(&[plain("LICENSE", b"text")]), "does not name it");
+    refused(with(&[plain("LICENSE", b"text")]), "not named in the manifest");
 }
 
 #[test]

@@ -202,7 +202,7 @@ fn sets_that_cannot_be_meant_are_refused() {
     spoilt[3] = f64::NAN;
     for (names, targets, expected) in [
         (["Px", "Fz"], spoilt, "not finite"),
-        (["Fz", "Px"], TARGETS, "another order"),
+        (["Fz", "Px"], TARGETS, "wrong order"),
         (["Fz", "Fz"], TARGETS, "given twice"),
         (["F z", "Px"], TARGETS, "not a channel name"),
     ] {

@@ -162,7 +162,7 @@ fn numbers_that_are_not_finite_go_neither_way() {
     let sensor = Open::new(SENSOR_FACTORY, "nan");
     let (status, message) = captured(&sensor);
     assert_eq!(status, Status::DEVICE_FAULT);
-    assert!(message.contains("is not a time"), "{message}");
+    assert!(message.contains("expected finite times"), "{message}");
     let (status, wrench) = read(&Open::new(FORCE_FACTORY, "nan"));
     assert_eq!((status, wrench), (Status::DEVICE_FAULT, Wrench::default()));
     let robot = Open::new(ROBOT_FACTORY, "nan");

@@ -173,7 +173,7 @@ fn an_interpreter_that_is_gone_fails_says_nothing_or_lacks_the_package_is_named_
         ("echo hello", "it printed `hello\\n`"),
         (
             "echo '# taceva environment'; echo 'version = 3'",
-            "it did not list its environment",
+            "cannot list its environment",
         ),
         (
             "echo '# taceva environment'; echo 'version = \"3.11.0\"'; echo 'readable = []'",
