@@ -231,11 +231,11 @@ fn another_digest_none_or_one_of_nothing_is_refused() {
         parts(&digests(&[("lib/lamp.so", b"core")])),
         "its sha256 is",
     );
-    refused(parts(""), "not named in the manifest");
+    refused(parts(""), "does not name it");
     refused(parts("0  lib/lamp.so\n"), "line 1: expected 64");
     let both = digests(&[("lib/lamp.so", b"code"), ("lamp.dll", b"code")]);
     refused(parts(&both), "`lamp.dll` in the archive: it is missing");
-    refused(with(&[plain("LICENSE", b"text")]), "not named in the manifest");
+    refused(with(&[plain("LICENSE", b"text")]), "does not name it");
 }
 
 #[test]
