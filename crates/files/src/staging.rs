@@ -80,7 +80,10 @@ impl Staged {
 
     fn make(target: &Path) -> io::Result<Staged> {
         let name = target.file_name().ok_or_else(|| {
-            io::Error::new(io::ErrorKind::InvalidInput, "the path has no file or folder name")
+            io::Error::new(
+                io::ErrorKind::InvalidInput,
+                "the path has no file or folder name",
+            )
         })?;
         let folder = TemporaryFolder::make(parent_of(target), STAGED)?;
         Ok(Staged {

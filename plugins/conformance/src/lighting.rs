@@ -35,7 +35,10 @@ fn declared<'a>(tried: &'a Tried<'_, dyn Lighting>) -> Result<&'a [String], Unme
 
 pub(crate) fn has_scenes(lighting: &dyn Lighting, declared: &[String]) -> Result<(), Unmet> {
     expect(lighting.scenes() == declared, || {
-        format!("has the scenes {:?}, declares {declared:?}", lighting.scenes())
+        format!(
+            "has the scenes {:?}, declares {declared:?}",
+            lighting.scenes()
+        )
     })
 }
 

@@ -38,7 +38,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let patience = Deadline::after(Duration::from_secs(1));
     sensor.start(patience)?;
     let info = sensor.frame_info();
-    let mut bytes = vec![0; info.byte_len().ok_or("the frame exceeds the address space")?];
+    let mut bytes = vec![
+        0;
+        info.byte_len()
+            .ok_or("the frame exceeds the address space")?
+    ];
     let stamp = sensor.capture(FrameMut::new(info, &mut bytes)?, patience)?;
     println!(
         "a frame of {info} at {:?}, the first pixel is {:?}",

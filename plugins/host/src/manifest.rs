@@ -169,7 +169,8 @@ impl Manifest {
         if let Ok(Versioned { manifest_version }) = toml::from_str(text) {
             let version = *manifest_version.get_ref();
             if version != VERSION {
-                let problem = format!("`manifest_version`: {version}, but this TacEva reads {VERSION}");
+                let problem =
+                    format!("`manifest_version`: {version}, but this TacEva reads {VERSION}");
                 return Err(ManifestError::at(text, &manifest_version.span(), problem));
             }
         }

@@ -74,8 +74,12 @@ unsafe fn bench(rig: *const AbiRig, name: Text) -> Result<Arc<dyn SimulatedBench
         let mut names = prefixes.iter().map(|prefix| format!("{prefix} {name}"));
         names.find_map(|name| rig.bench(&name))
     };
-    with_rig(rig, find)?
-        .ok_or_else(|| Failure::new(ErrorKind::NotFound, format!("no bench has the name `{name}`")))
+    with_rig(rig, find)?.ok_or_else(|| {
+        Failure::new(
+            ErrorKind::NotFound,
+            format!("no bench has the name `{name}`"),
+        )
+    })
 }
 
 unsafe extern "C" fn now_ns(rig: *mut AbiRig, name: Text) -> u64 {

@@ -101,7 +101,11 @@ fn touches(parameters: &Parameters) -> Vec<View> {
 
 fn take(camera: &mut Camera, view: &View) -> Result<Frame, Box<dyn Error>> {
     let info = camera.frame_info();
-    let mut bytes = vec![0; info.byte_len().ok_or("the frame exceeds the address space")?];
+    let mut bytes = vec![
+        0;
+        info.byte_len()
+            .ok_or("the frame exceeds the address space")?
+    ];
     camera.render(view, FrameMut::new(info, &mut bytes)?)?;
     Ok(Frame::new(info, bytes)?)
 }

@@ -127,9 +127,7 @@ impl<'de> Visitor<'de> for Reader {
         while let Some((key, value)) = entries.next_entry::<String, Canonical>()? {
             if let Some(_twice) = object.insert(key.clone(), value) {
                 let key = key.escape_debug();
-                return Err(de::Error::custom(format!(
-                    "duplicate key `{key}`"
-                )));
+                return Err(de::Error::custom(format!("duplicate key `{key}`")));
             }
         }
         Ok(Canonical::Object(object))

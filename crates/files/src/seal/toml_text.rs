@@ -119,7 +119,9 @@ impl Written {
         let File { seal } =
             toml::from_str(text).map_err(|error| unreadable(error.message().to_owned()))?;
         if !seal.digest.starts_with(PREFIX) {
-            return Err(unreadable(format!("`digest` does not begin with `{PREFIX}`")));
+            return Err(unreadable(format!(
+                "`digest` does not begin with `{PREFIX}`"
+            )));
         }
         Ok(Written {
             digest: seal.digest,

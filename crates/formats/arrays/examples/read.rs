@@ -14,8 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let path = arguments.next().ok_or("which file?")?;
     let path = Path::new(&path);
-    let format =
-        ArrayFormat::of(path).ok_or("the extension of the file is unknown")?;
+    let format = ArrayFormat::of(path).ok_or("the extension of the file is unknown")?;
     let file = ArrayFile::open(path, format)?;
     let Some(array) = arguments.next() else {
         for name in file.names() {

@@ -114,9 +114,7 @@ impl LeRobot {
             });
         }
         if files.is_empty() {
-            return Err(
-                source.damaged(Place::of("data_path"), "no data file exists at this path")
-            );
+            return Err(source.damaged(Place::of("data_path"), "no data file exists at this path"));
         }
         if rows > limits::ROWS {
             let problem = format!("{rows} rows, at most {} are accepted", limits::ROWS);

@@ -69,7 +69,9 @@ impl ParquetTable {
         check_footer(&source, &mut file)?;
         let metadata = ParquetMetaDataReader::new()
             .parse_and_finish(&file)
-            .map_err(|error| source.damaged(Place::default(), format!("invalid footer: {error}")))?;
+            .map_err(|error| {
+                source.damaged(Place::default(), format!("invalid footer: {error}"))
+            })?;
         let mut columns = schema::columns(metadata.file_metadata().schema_descr())
             .map_err(|problem| source.unsupported(Place::default(), problem))?;
         if let Some(text) = written(&metadata, "ARROW:schema") {

@@ -99,8 +99,9 @@ impl ForeignClip {
             return Err(VideoError::NoDecoder {
                 path: path.to_owned(),
                 codec: format!("{} with pixel format {pixel_format}", known.codec()),
-                remedy: "convert it, for example with `ffmpeg -i OLD -pix_fmt bgr0 -c:v ffv1 NEW.mkv`"
-                    .to_owned(),
+                remedy:
+                    "convert it, for example with `ffmpeg -i OLD -pix_fmt bgr0 -c:v ffv1 NEW.mkv`"
+                        .to_owned(),
             });
         };
         if frame_bytes as u64 > limits::FRAME_BYTES {

@@ -44,7 +44,11 @@ impl Augmentation {
             return refuse("brightness", self.brightness.to_string(), "0 to 1");
         }
         if !(self.noise.is_finite() && self.noise >= 0.0) {
-            return refuse("noise", self.noise.to_string(), "a finite number, at least 0");
+            return refuse(
+                "noise",
+                self.noise.to_string(),
+                "a finite number, at least 0",
+            );
         }
         let side = architecture.input.height.min(architecture.input.width);
         if self.jitter.pixels >= side || self.jitter.pixels > 1 << 20 {

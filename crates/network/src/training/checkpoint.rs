@@ -122,7 +122,10 @@ impl<'a> Trainer<'a> {
             return refuse(format!("{} samples, expected {samples}", summary.samples));
         }
         if summary.state.best.is_some() != best.is_some() {
-            return refuse("the best epoch and the tensors `best.…` must both be present or both be absent".into());
+            return refuse(
+                "the best epoch and the tensors `best.…` must both be present or both be absent"
+                    .into(),
+            );
         }
         trainer.best = best;
         trainer.state = summary.state;

@@ -104,7 +104,11 @@ impl Recipe {
             }
         };
         if !(decay.is_finite() && decay >= 0.0) {
-            return refuse("weight_decay", decay.to_string(), "a finite number, at least 0");
+            return refuse(
+                "weight_decay",
+                decay.to_string(),
+                "a finite number, at least 0",
+            );
         }
         match self.schedule {
             Schedule::OneCycle { rise } if !(rise > 0.0 && rise < 1.0) => {

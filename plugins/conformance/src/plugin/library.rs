@@ -96,7 +96,10 @@ fn unknown_factory(subject: &Subject) -> Result<(), Unmet> {
     ] {
         let found = factory(subject, abi::Text::from(id))?;
         expect(found == 0, || {
-            format!("it returned a factory for the unknown id {:?}", &id[..id.len().min(40)])
+            format!(
+                "it returned a factory for the unknown id {:?}",
+                &id[..id.len().min(40)]
+            )
         })?;
     }
     let nothing = abi::Text {

@@ -6,8 +6,6 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     #[cfg(target_os = "linux")]
     taceva_host::main_if_child();
-    eprintln!(
-        "taceva-host-child is started by programs that host plugins; do not run it directly"
-    );
+    eprintln!("taceva-host-child is started by programs that host plugins; do not run it directly");
     ExitCode::from(64)
 }

@@ -84,7 +84,10 @@ impl SharedMemory {
     /// # Panics
     /// If `into` is longer than the memory.
     pub(crate) fn copy_to(&self, into: &mut [u8]) {
-        assert!(into.len() <= self.length, "a copy of at most the memory's length");
+        assert!(
+            into.len() <= self.length,
+            "a copy of at most the memory's length"
+        );
         // SAFETY: both places are valid for `into.len()` bytes, and a borrowed slice cannot overlap a mapping without borrows.
         unsafe { std::ptr::copy_nonoverlapping(self.start.as_ptr(), into.as_mut_ptr(), into.len()) }
     }

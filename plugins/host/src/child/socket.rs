@@ -133,7 +133,9 @@ impl Caller {
         if sequence == self.sequence {
             Ok(answer)
         } else {
-            Err(LinkError::Breach("an answer without a pending call".to_owned()))
+            Err(LinkError::Breach(
+                "an answer without a pending call".to_owned(),
+            ))
         }
     }
 }

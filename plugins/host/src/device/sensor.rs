@@ -195,7 +195,10 @@ impl PluginSensor {
             return refused(ErrorKind::Protocol, why);
         }
         if frame.data.is_null() {
-            return refused(ErrorKind::Protocol, "the frame's data pointer is NULL".to_owned());
+            return refused(
+                ErrorKind::Protocol,
+                "the frame's data pointer is NULL".to_owned(),
+            );
         }
         let is_in_buffer = buffer.is_some_and(|buffer| std::ptr::eq(buffer, frame.data));
         if !is_in_buffer && frame.release.is_none() {

@@ -93,7 +93,9 @@ impl PluginDriver {
         let session = self.host.session(&self.plugin, key);
         let said = session.and_then(|session| session.describe(key, args));
         said.unwrap_or_else(|error| {
-            let line = format!("used the description in the manifest, because the library gave none: {error}");
+            let line = format!(
+                "used the description in the manifest, because the library gave none: {error}"
+            );
             (self.host.log)(&self.plugin, Level::Warn, key.as_str(), &line);
             manifest.clone()
         })

@@ -127,7 +127,8 @@ impl Promised {
         } else if is_licence(name) && self.licences < LICENCES_MAX {
             Ok(LICENCE_MAX)
         } else {
-            let problem = "not named in the manifest: expected only libraries of `[library]`, and licences";
+            let problem =
+                "not named in the manifest: expected only libraries of `[library]`, and licences";
             Err(PackageError::entry(name, problem))
         }
     }

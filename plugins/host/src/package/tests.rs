@@ -213,8 +213,14 @@ fn a_second_manifest_is_refused_wherever_it_lies() {
 
 #[test]
 fn what_the_manifest_does_not_name_is_refused() {
-    refused(with(&[plain("lib/helper.so", b"code")]), "not named in the manifest");
-    refused(with(&[plain("lib/LICENSE", b"text")]), "not named in the manifest");
+    refused(
+        with(&[plain("lib/helper.so", b"code")]),
+        "not named in the manifest",
+    );
+    refused(
+        with(&[plain("lib/LICENSE", b"text")]),
+        "not named in the manifest",
+    );
 }
 
 #[test]

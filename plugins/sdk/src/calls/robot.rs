@@ -63,7 +63,9 @@ impl Opened {
             (Some(workspace), _) if !workspace.contains(&target.position) => {
                 refused(format!("{x}, {y}, {z} is outside the workspace"))
             }
-            (_, Some(most)) if speed > most => refused(format!("the speed is {speed}, expected at most {most}")),
+            (_, Some(most)) if speed > most => {
+                refused(format!("the speed is {speed}, expected at most {most}"))
+            }
             _ => Ok((target, speed)),
         }
     }
@@ -178,7 +180,10 @@ unsafe extern "C" fn halt(handle: *mut c_void, error: *mut Error) -> Status {
         let handle = handles::find::<Handle<Opened>>(handle)?;
         match &handle.halt {
             Some(halt) => Ok(halt.halt()?),
-            None => Err(Failure::new(ErrorKind::Internal, "the robot has no halt handle")),
+            None => Err(Failure::new(
+                ErrorKind::Internal,
+                "the robot has no halt handle",
+            )),
         }
     };
     // SAFETY: the host guarantees that `error` is valid.
@@ -215,7 +220,10 @@ unsafe extern "C" fn move_guarded(
         }
         let guard = Guard::at(Newton(guard_n));
         let robot = opened.robot.guarded_motion().ok_or_else(|| {
-            Failure::new(ErrorKind::Unsupported, "the robot does not support guarded motions")
+            Failure::new(
+                ErrorKind::Unsupported,
+                "the robot does not support guarded motions",
+            )
         })?;
         let (is_guarded, pose, at) =
             match robot.move_guarded(target, speed, guard, deadline(timeout_ns))? {

@@ -121,7 +121,10 @@ fn format(format: PixelFormat) -> Result<AbiFormat, Failure> {
         PixelFormat::Rgb8 => Ok(AbiFormat::RGB8),
         PixelFormat::Rgb16 => Ok(AbiFormat::RGB16),
         newer => {
-            let message = format!("the plugin interface has no pixel format for {}", newer.name());
+            let message = format!(
+                "the plugin interface has no pixel format for {}",
+                newer.name()
+            );
             Err(Failure::new(ErrorKind::Unsupported, message))
         }
     }

@@ -17,7 +17,10 @@ pub(super) fn write(regressor: &dyn SavedRegressor) -> Result<Vec<u8>, Failure> 
     } = regressor.shape();
     for count in [height, width, depth, regressor.channels().len()] {
         let count = u32::try_from(count).map_err(|_| {
-            Failure::new(ErrorKind::OutOfRange, format!("{count} numbers per sample, expected at most 2^32 - 1"))
+            Failure::new(
+                ErrorKind::OutOfRange,
+                format!("{count} numbers per sample, expected at most 2^32 - 1"),
+            )
         })?;
         bytes.extend(count.to_le_bytes());
     }

@@ -53,7 +53,9 @@ fn estimator(number: u32) -> Result<&'static dyn EstimatorFactory, Failure> {
         .and_then(|number| estimators.get(number));
     let found = found.ok_or_else(|| {
         let count = estimators.len();
-        Failure::argument(format!("no estimator has the number {number}, expected less than {count}"))
+        Failure::argument(format!(
+            "no estimator has the number {number}, expected less than {count}"
+        ))
     })?;
     Ok(&**found)
 }
@@ -261,8 +263,7 @@ impl Set {
         let channels =
             Channels::new(list.clone()).map_err(|error| Failure::argument(error.to_string()))?;
         if channels.as_slice() != list {
-            let message =
-                "the channels are in the wrong order, expected `Px Py Pz Fx Fy Fz`, then others by name";
+            let message = "the channels are in the wrong order, expected `Px Py Pz Fx Fy Fz`, then others by name";
             return Err(Failure::argument(message));
         }
         let shape = FeatureShape {

@@ -105,7 +105,11 @@ fn lit(mut camera: Camera, press: &Press, presses: &Presses) -> Result<Term, Box
     });
     let mut take = |stimulus| -> Result<Term, Box<dyn Error>> {
         let info = camera.frame_info();
-        let mut bytes = vec![0; info.byte_len().ok_or("the frame exceeds the address space")?];
+        let mut bytes = vec![
+            0;
+            info.byte_len()
+                .ok_or("the frame exceeds the address space")?
+        ];
         let view = View {
             stimulus,
             ..View::default()

@@ -30,7 +30,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let data = std::env::var_os("TACEVA_DATA");
     let of_data = data.map(|folder| PathBuf::from(folder).join("gelsight-ball-depth"));
     let Some(folder) = named.or(of_data) else {
-        println!("skipped: no folder of ball presses; give FOLDER, or set TACEVA_DATA to its parent folder");
+        println!(
+            "skipped: no folder of ball presses; give FOLDER, or set TACEVA_DATA to its parent folder"
+        );
         return Ok(());
     };
     let presses = Presses::read(&folder)?;

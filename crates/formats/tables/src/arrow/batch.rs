@@ -33,7 +33,8 @@ impl Message {
     ) -> Result<Option<Message>, TableError> {
         let begin = *at;
         if begin >= source.length() {
-            let problem = "the Arrow stream has no end marker: it is cut short, or its writer was not closed";
+            let problem =
+                "the Arrow stream has no end marker: it is cut short, or its writer was not closed";
             return Err(source.damaged(Place::byte(begin), problem));
         }
         let mut word = |at: u64| {

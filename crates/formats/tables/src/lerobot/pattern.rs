@@ -80,7 +80,9 @@ impl Pattern {
                 Part::Value { name, digits } => {
                     let value = values.iter().find(|(known, _)| known == name);
                     match value
-                        .ok_or_else(|| format!("unknown field `{}` in a path pattern", shown(name)))?
+                        .ok_or_else(|| {
+                            format!("unknown field `{}` in a path pattern", shown(name))
+                        })?
                         .1
                     {
                         Value::Number(number) => path.push_str(&format!("{number:0digits$}")),

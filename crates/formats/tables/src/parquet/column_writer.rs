@@ -260,9 +260,9 @@ fn write<T: DataType, W: Write + Send>(
     definitions: Vec<i16>,
     repetitions: Option<Vec<i16>>,
 ) -> Result<(), ParquetError> {
-    let mut column = group
-        .next_column()?
-        .ok_or_else(|| ParquetError::General("the table has fewer columns than fields".to_owned()))?;
+    let mut column = group.next_column()?.ok_or_else(|| {
+        ParquetError::General("the table has fewer columns than fields".to_owned())
+    })?;
     column
         .typed::<T>()
         .write_batch(&values, Some(&definitions), repetitions.as_deref())?;

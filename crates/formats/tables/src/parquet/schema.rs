@@ -111,7 +111,11 @@ fn node(field: &Type, above: Levels, leaves: &mut usize, depth: usize) -> Result
 /// The levels below an optional or a repeated field.
 fn deeper(above: Levels, is_repeated: bool) -> Result<Levels, String> {
     let step = i16::from(is_repeated);
-    let more = |level: i16| level.checked_add(step).ok_or("the schema has too many levels");
+    let more = |level: i16| {
+        level
+            .checked_add(step)
+            .ok_or("the schema has too many levels")
+    };
     Ok(Levels {
         definition: more(above.definition)?,
         repetition: more(above.repetition)?,

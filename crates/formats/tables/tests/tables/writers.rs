@@ -125,7 +125,10 @@ fn a_folder_of_lerobot_is_read_with_its_tasks_episodes_and_stats() {
     ];
     let mut writer = LeRobotWriter::create(folder.path(), "bench", 2.0, features).expect("new");
     let early = writer.push(Vec::new()).expect_err("no episode").to_string();
-    assert!(early.contains("a row was added before the first episode"), "{early}");
+    assert!(
+        early.contains("a row was added before the first episode"),
+        "{early}"
+    );
     // Incompressible pictures of 1 MiB: the first data file is full after two episodes.
     let mut state = 1_u32;
     let mut noise = || {

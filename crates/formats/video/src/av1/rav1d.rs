@@ -80,7 +80,9 @@ impl Decoder {
                 picture = Some(next);
             }
             if packet.0.sz == before && picture.is_some() == had {
-                return Err(Refused::Kind("the decoder accepts no more data of the packet"));
+                return Err(Refused::Kind(
+                    "the decoder accepts no more data of the packet",
+                ));
             }
         }
         while let Some(next) = self.next()? {

@@ -110,9 +110,10 @@ impl Settings {
                 )));
             };
             if let Some(inner) = unit.windows(3).position(|three| three == [0, 0, 1]) {
-                return Err(
-                    source.damaged(offset + (from + inner) as u64, "a unit contains a start code")
-                );
+                return Err(source.damaged(
+                    offset + (from + inner) as u64,
+                    "a unit contains a start code",
+                ));
             }
             if !unit.is_empty() {
                 units.push((offset + from as u64, unit));

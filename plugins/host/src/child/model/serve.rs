@@ -76,7 +76,8 @@ fn make(
             length,
         } => {
             let mut memory = next()?;
-            let length = usize::try_from(length).map_err(|_| broken("the saved model exceeds the address space"))?;
+            let length = usize::try_from(length)
+                .map_err(|_| broken("the saved model exceeds the address space"))?;
             let bytes = memory.bytes_mut().get(..length);
             let saved = Saved::new(
                 bytes.ok_or_else(|| broken("the saved model is shorter than its stated length"))?,

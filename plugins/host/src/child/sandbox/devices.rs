@@ -72,9 +72,7 @@ pub(crate) fn no_port(needs: &[Need]) -> Option<String> {
     needs.iter().find_map(|need| match need {
         Need::Serial { path } if !need.has_star() => {
             let is_other = fs::metadata(path).is_ok_and(|metadata| !is_serial(&metadata));
-            is_other.then(|| {
-                format!("`{need}`: not a serial port; use `device:` for other files")
-            })
+            is_other.then(|| format!("`{need}`: not a serial port; use `device:` for other files"))
         }
         _ => None,
     })

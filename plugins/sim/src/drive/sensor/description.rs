@@ -77,9 +77,9 @@ pub(super) fn describe(
             .optional()
             .help("full text of a parameter table that replaces the built-in one")
             .changes_facts(),
-        ArgSpec::flag("quiet")
-            .default(ArgValue::Flag(false))
-            .help("disables noise, drift and relaxation, so output depends only on the pose of the tip"),
+        ArgSpec::flag("quiet").default(ArgValue::Flag(false)).help(
+            "disables noise, drift and relaxation, so output depends only on the pose of the tip",
+        ),
     ])
 }
 
