@@ -125,7 +125,7 @@ def test_a_new_project_of_every_kind_says_what_its_manifest_says_and_keeps_every
 def test_a_manifest_of_another_wire_is_refused_with_both_numbers_and_the_remedy(tmp_path: Path, program: Program) -> None:
     made = package(tmp_path, manifest=MANIFEST.replace("wire = 1", "wire = 2"))
     listed = program.run("plugin", "list", "--all", "--plugin-dir", str(made)).stdout
-    assert "written for version 2 of the wire, this TacEva speaks 1" in listed
+    assert "written for wire version 2, but this TacEva has 1" in listed
     assert "python -m taceva.plugin manifest MODULE --write" in listed
 
 

@@ -16,10 +16,10 @@ use crate::error::{Place, TableError};
 use crate::message::{Channel, Entry, Message, MessageReader, MessageStore};
 use crate::source::Source;
 
-/// The first and the last eight bytes of a file.
+/// First and last eight bytes of a file.
 pub(crate) use self::record::MAGIC;
 
-/// An MCAP file, described by its summary, or by a walk over its records if it has none.
+/// An MCAP file, described by its summary, or by reading all records if it has none.
 #[derive(Debug)]
 pub(crate) struct McapFile {
     source: Source,
@@ -30,7 +30,7 @@ pub(crate) struct McapFile {
 }
 
 impl McapFile {
-    /// The recording in `source`.
+    /// Opens the recording of `source`.
     ///
     /// # Errors
     /// [`TableError::Damaged`] if it is no MCAP file or has a wrong checksum, [`TableError::Cut`] if it is truncated or was not closed,
@@ -99,7 +99,7 @@ impl MessageStore for McapFile {
     }
 }
 
-/// Reader of the messages of a file through one cursor.
+/// Reader of the messages of a file, with one cursor.
 struct Records<'a> {
     source: &'a Source,
     chunks: Chunks<'a>,
@@ -121,11 +121,11 @@ impl MessageReader for Records<'_> {
                 let at = usize::try_from(entry.at)
                     .ok()
                     .filter(|at| *at <= held.len());
-                let at = at.ok_or_else(|| damaged("its index leads to no message"))?;
+                let at = at.ok_or_else(|| damaged("its index does not point to a message"))?;
                 let mut bytes = Bytes::new(held.get(at..).unwrap_or_default());
                 let found = record::next(&mut bytes);
                 let Some((code::MESSAGE, fields)) = found else {
-                    return Err(damaged("its index leads to no message"));
+                    return Err(damaged("its index does not point to a message"));
                 };
                 let end = at + bytes.at();
                 let fields = end - fields.len()..end;

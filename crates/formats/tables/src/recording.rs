@@ -1,4 +1,4 @@
-//! Recordings of messages by topic: MCAP, rosbag2 databases, ROS 1 bags.
+//! Recordings of messages by topic: MCAP files, rosbag2 databases, ROS 1 bags.
 
 mod embedded_array;
 mod json;
@@ -19,11 +19,11 @@ use crate::sqlite;
 
 pub use self::table::TopicTable;
 
-/// A recording of messages: topics, each a table of its messages.
+/// Recording of messages. Each topic is a table of its messages.
 ///
-/// The format is detected from the first bytes: an MCAP file, a rosbag2 database (`.db3`) or a ROS 1 bag (`.bag`). Opening reads the
-/// summary, or walks over the records of a file without one. Checksums are verified if present; attachments are ignored. Chunks may be
-/// compressed by LZ4 or Zstandard, messages of rosbag2 by Zstandard.
+/// The first bytes determine the format: an MCAP file, a rosbag2 database (`.db3`) or a ROS 1 bag (`.bag`). Opening reads the summary.
+/// If there is no summary, it reads the records. Checksums are verified if present; attachments are ignored. Chunks may be compressed
+/// by LZ4 or Zstandard, messages of rosbag2 by Zstandard.
 ///
 /// ```
 /// use taceva_tables::Recording;
@@ -39,22 +39,22 @@ pub struct Recording {
     topics: Vec<Topic>,
 }
 
-/// A topic of a recording.
+/// Topic of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Topic {
-    /// Name, as `/ft/wrench`.
+    /// Name, such as `/ft/wrench`.
     pub name: String,
-    /// The name of the schema of its messages, as `geometry_msgs/msg/WrenchStamped`; empty if there is none.
+    /// Name of the message schema, such as `geometry_msgs/msg/WrenchStamped`; empty if there is none.
     pub schema: String,
-    /// Encoding of its messages, as `cdr`.
+    /// Encoding of the messages, such as `cdr`.
     pub encoding: String,
     /// Number of messages.
     pub count: u64,
 }
 
 impl Recording {
-    /// The recording at `path`.
+    /// Recording at `path`.
     ///
     /// # Errors
     /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no recording or has a wrong checksum.
@@ -120,11 +120,11 @@ impl Recording {
         &self.topics
     }
 
-    /// The messages of the topic called `name`.
+    /// Messages of the topic `name`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such topic; [`TableError::Unsupported`] for an unsupported encoding (not ROS 1 or 2, JSON or
-    /// Foxglove pictures) or an incomplete schema; [`TableError::Damaged`] if the messages in the file differ from its index.
+    /// [`TableError::Missing`] if there is no such topic. [`TableError::Unsupported`] for an incomplete schema or an unsupported encoding
+    /// (not ROS 1 or 2, JSON or Foxglove pictures). [`TableError::Damaged`] if the messages in the file differ from its index.
     pub fn table(&self, name: &str) -> Result<TopicTable, TableError> {
         match self.topics.iter().find(|topic| topic.name == name) {
             Some(topic) => TopicTable::new(&self.store, topic.clone()),
@@ -135,7 +135,7 @@ impl Recording {
         }
     }
 
-    /// Reason why the messages of the topic called `name` cannot be read; `None` if they can. Reads no message.
+    /// Reason why the messages of the topic `name` cannot be read; `None` if they can. Reads no message.
     pub fn why_unread(&self, name: &str) -> Option<String> {
         let topic = self.topics.iter().find(|topic| topic.name == name)?;
         language::of_topic(&*self.store, topic).err()

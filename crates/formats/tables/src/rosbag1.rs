@@ -17,10 +17,10 @@ use crate::source::Source;
 use cut::{Walk, refusal};
 use record::{Head, connection, op};
 
-/// The first line of a bag.
+/// First line of a bag.
 pub(crate) const MAGIC: [u8; 13] = *b"#ROSBAG V2.0\n";
 
-/// A ROS 1 bag.
+/// ROS 1 bag.
 #[derive(Debug)]
 pub(crate) struct Rosbag1 {
     source: Source,
@@ -32,7 +32,7 @@ pub(crate) struct Rosbag1 {
 }
 
 impl Rosbag1 {
-    /// The recording in `source`: reads the heads of all its records, and no chunk.
+    /// Recording in `source`. Reads the heads of all its records, but no chunk.
     ///
     /// # Errors
     /// [`TableError::Cut`] if it is truncated or was not closed, [`TableError::Damaged`] if it has other records than it announces.
@@ -54,7 +54,7 @@ impl Rosbag1 {
         else {
             return Err(source.damaged(
                 Place::byte(begin),
-                "not a bag: its first record is not a bag header",
+                "not a bag: the first record is not a bag header",
             ));
         };
         if index == 0 {
@@ -102,7 +102,7 @@ impl Rosbag1 {
                     })?;
                     bag.channels.insert(number, channel);
                 }
-                // Chunk information is not needed, and bags of version 2.0 have no messages outside chunks.
+                // Chunk information is not needed. Bags of version 2.0 have no messages outside chunks.
                 Some(op::CHUNK_INFO) => {}
                 other => {
                     let other =
@@ -225,7 +225,7 @@ impl MessageStore for Rosbag1 {
     }
 }
 
-/// Reader of the records of a bag through one cursor; caches the last chunk.
+/// Reader of the records of a bag with one cursor. Caches the last chunk.
 struct Records<'a> {
     source: &'a Source,
     file: File,
@@ -243,7 +243,7 @@ impl<'a> Records<'a> {
         })
     }
 
-    /// The head of the record at `at`; its data must end within the file.
+    /// Head of the record at `at`. Its data must end within the file.
     fn head(&mut self, at: u64) -> Result<Head, TableError> {
         match self.head_within(at)? {
             Ok(head) => Ok(head),
@@ -254,7 +254,7 @@ impl<'a> Records<'a> {
         }
     }
 
-    /// The head of the record at `at`, or a message if the file ends before the record does.
+    /// Head of the record at `at`, or a message if the file ends before the record does.
     fn head_within(&mut self, at: u64) -> Result<Result<Head, String>, TableError> {
         let mut four = |at: u64| {
             let bytes = self.source.bytes(&mut self.file, at, 4, 4).ok()?;
@@ -285,7 +285,7 @@ impl<'a> Records<'a> {
         })
     }
 
-    /// The data of the record with this head.
+    /// Data of the record with this head.
     fn data(&mut self, head: &Head) -> Result<Vec<u8>, TableError> {
         let length = head.end - head.data_at;
         self.source

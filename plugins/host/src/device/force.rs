@@ -166,7 +166,7 @@ impl ForceTransducer for PluginForce {
     }
 }
 
-/// Sets the components of axes that are not measured to 0.
+/// Sets the components of unmeasured axes to 0.
 fn measured(mut wrench: Wrench, axes: Axes) -> Wrench {
     for (place, axis) in [Axis::Fx, Axis::Fy, Axis::Fz].into_iter().enumerate() {
         if !axes.contains(axis) {

@@ -9,7 +9,7 @@ use crate::message::{Channel, Schema};
 /// Nanoseconds of a second.
 pub(super) const NANO: u64 = 1_000_000_000;
 
-/// The codes of records.
+/// Codes of records.
 pub(super) mod op {
     pub(in crate::rosbag1) const MESSAGE: u8 = 0x02;
     pub(in crate::rosbag1) const BAG: u8 = 0x03;
@@ -19,18 +19,18 @@ pub(super) mod op {
     pub(in crate::rosbag1) const CONNECTION: u8 = 0x07;
 }
 
-/// The head of a record.
+/// Head of a record.
 #[derive(Debug)]
 pub(super) struct Head {
     fields: Vec<u8>,
-    /// Begin of the data.
+    /// Offset of the data.
     pub(super) data_at: u64,
     /// End of the record.
     pub(super) end: u64,
 }
 
 impl Head {
-    /// Parses the head from `fields`, each with its length, its name, `=` and its value; `None` if they do not fill it.
+    /// Parses the head from `fields`. Each field is its length, its name, `=` and its value. `None` if they do not fill `fields`.
     pub(super) fn new(fields: Vec<u8>, data_at: u64, end: u64) -> Option<Head> {
         let mut bytes = Bytes::new(&fields);
         while !bytes.rest().is_empty() {
@@ -43,7 +43,7 @@ impl Head {
         })
     }
 
-    /// The value of the field called `name`.
+    /// Value of the field `name`.
     pub(super) fn bytes(&self, name: &str) -> Option<&[u8]> {
         let mut bytes = Bytes::new(&self.fields);
         while !bytes.rest().is_empty() {
@@ -55,17 +55,17 @@ impl Head {
         None
     }
 
-    /// The little-endian bytes of a number in the field called `name`.
+    /// Little-endian bytes of a number in the field `name`.
     pub(super) fn number<const N: usize>(&self, name: &str) -> Option<[u8; N]> {
         self.bytes(name)?.try_into().ok()
     }
 
-    /// The text in the field called `name`.
+    /// Text in the field `name`.
     pub(super) fn text(&self, name: &str) -> Option<String> {
         String::from_utf8(self.bytes(name)?.to_vec()).ok()
     }
 
-    /// The code of the record.
+    /// Code of the record.
     pub(super) fn op(&self) -> Option<u8> {
         self.number::<1>("op").map(|[code]| code)
     }
@@ -78,7 +78,7 @@ impl Head {
     }
 }
 
-/// The name and the value of the next field.
+/// Name and value of the next field.
 fn next<'b>(bytes: &mut Bytes<'b>) -> Option<(&'b [u8], &'b [u8])> {
     let length = usize::try_from(bytes.u32()?).ok()?;
     let field = bytes.take(length)?;
@@ -86,7 +86,7 @@ fn next<'b>(bytes: &mut Bytes<'b>) -> Option<(&'b [u8], &'b [u8])> {
     Some((&field[..end], &field[end + 1..]))
 }
 
-/// The head of the record at `at` of an unpacked chunk, and the range of its data.
+/// Head of the record at `at` of an unpacked chunk, and the range of its data.
 pub(super) fn within(held: &[u8], at: usize) -> Option<(Head, Range<usize>)> {
     let mut bytes = Bytes::new(held.get(at..)?);
     let length = usize::try_from(bytes.u32()?).ok()?;

@@ -1,4 +1,4 @@
-//! Pages of a database through one cursor.
+//! Pages of a database, read with one cursor.
 
 use std::fs::File;
 use std::sync::Arc;
@@ -28,7 +28,7 @@ impl<'a> Pages<'a> {
         })
     }
 
-    /// The page with this number, from 1.
+    /// Page with this number, from 1.
     pub(super) fn page(&mut self, number: u32) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some((kept, page)) = &self.kept
             && *kept == number
@@ -40,7 +40,7 @@ impl<'a> Pages<'a> {
         Ok(page)
     }
 
-    /// The page with this number, read again and not cached.
+    /// Page with this number, read again and not cached.
     pub(super) fn read(&mut self, number: u32) -> Result<Vec<u8>, TableError> {
         let database = self.database;
         if number == 0 || number > database.pages {
