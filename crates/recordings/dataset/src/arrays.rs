@@ -154,12 +154,12 @@ impl Dataset {
 
 /// Height, width and channels.
 fn shape(info: FrameInfo) -> [usize; 3] {
-    // A frame of that size is in memory.
+    // Cannot overflow: a frame of that size is in memory.
     let [height, width] = [info.height, info.width].map(|side| side as usize);
     [height, width, info.format.samples()]
 }
 
-/// `values` in their order.
+/// Array of this shape with `values` in order.
 fn of_len<T: Clone + Default>(shape: [usize; 3], values: Vec<T>) -> Array3<T> {
     Array3::from_shape_vec(shape, values).unwrap_or_default()
 }

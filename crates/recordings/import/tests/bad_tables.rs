@@ -1,4 +1,4 @@
-//! Tables, maps and folders that do not say what they must are refused in words, and nothing is written.
+//! Incomplete or contradictory tables, maps and folders are refused with a message, and nothing is written.
 
 use std::fs;
 

@@ -34,7 +34,7 @@ pub struct MappedJoin {
     /// Maximum distance in time, ms.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance_ms: Option<f64>,
-    /// Lag of the clock of this table, ms: it shows the same instant that much later.
+    /// Delay of the clock of this table, ms; positive if it shows a later time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_ms: Option<f64>,
     /// Source of a lag that differs by row: the column with it, or `file = ms` for each file.

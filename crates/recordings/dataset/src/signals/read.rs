@@ -74,7 +74,7 @@ impl SignalsReader {
         signals.map_err(|error| DatasetError::damaged(&self.path, format!("row {row}: {error}")))
     }
 
-    /// Reads every row, and compares them with the recorded digest, whatever their storage.
+    /// Reads every row, and compares the content with the recorded digest.
     pub fn verify(&self) -> Result<(), DatasetError> {
         let mut digest = self.info.spec.digest();
         for number in 0..self.starts.len() - 1 {

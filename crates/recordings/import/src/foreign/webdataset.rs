@@ -1,4 +1,4 @@
-//! WebDataset shards: tar members with one name before the first dot are a sample. Pictures are read in place.
+//! WebDataset shards: tar members whose names agree up to the first dot are one sample. Pictures are read in place.
 
 mod samples;
 

@@ -16,7 +16,7 @@ use taceva_import::{ExportForm, ExportPlan, ImportError};
 
 use super::drawn::{exported, skin};
 
-/// Asks to stop at once.
+/// Progress that cancels at once.
 #[derive(Debug)]
 struct Stopped;
 

@@ -1,4 +1,4 @@
-//! Rows with several pictures each: of the fingers of a gripper, of the eyes of a sensor.
+//! Rows with several pictures: fingers of a gripper, eyes of a sensor.
 
 mod added;
 mod drafts;
@@ -86,7 +86,7 @@ pub(super) fn refusal(folder: &Path, map: &str) -> String {
     }
 }
 
-/// The draft of a folder with what it leaves open written in.
+/// Draft of a folder with its open places filled in.
 pub(super) fn drafted(folder: &Path) -> String {
     let draft = MapDraft::of(folder).expect("a draft");
     draft.text().replace("model = \"?\"", "model = \"gripper\"")
