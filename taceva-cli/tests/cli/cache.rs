@@ -218,7 +218,7 @@ fn a_damaged_entry_is_removed_and_made_again() {
             // A cache entry, or a file of the only remaining run.
             let file = &bench.path(&last).join(file);
             let bytes = fs::read(file).expect("kept");
-            // Removing one name of a linked file leaves the other unchanged.
+            // The file is removed first, because it may be linked to another one.
             fs::remove_file(file).expect("removed");
             if way == "cut" {
                 fs::write(file, &bytes[..bytes.len() / 2]).expect("cut");

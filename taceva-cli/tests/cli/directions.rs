@@ -1,4 +1,4 @@
-//! The direction of a metric stands beside its name in every kind of table, and in a field of output for programs.
+//! The direction of a metric is shown beside its name in every kind of table, and in a field of output for programs.
 
 use std::fs;
 
@@ -126,7 +126,7 @@ fn csv(text: &str, whence: &str) -> usize {
     found
 }
 
-/// Kind of table: the function that counts its signs, and the expected count.
+/// Kind of table: its format, and the function that checks and counts its signs.
 type Kind = (&'static str, fn(&str, &str) -> usize);
 const KINDS: [Kind; 4] = [
     ("text", lines),

@@ -207,7 +207,7 @@ fn settings_with_a_mistake_name_their_line() {
     let why =
         "runs in this process, unconfined: trusted by `trust_in_process` in the user's settings";
     assert!(ran.out.contains(why), "{}", ran.out);
-    // Plugins beside a scene are not trusted, but reach what is allowed.
+    // Without that setting the plugin is confined, and reaches what is allowed.
     bench.write(
         "user-config/taceva/config.toml",
         "[plugins.allow]\n\"org.example.a\" = [\"usb\"]\n",

@@ -126,7 +126,7 @@ fn another_build_is_told_of_and_refused_where_the_manifest_demands_one() {
     let quiet = bench.run(&format!("evaluate set --with near.model {with}"));
     assert!(!quiet.err.contains("sha256"), "{}", quiet.err);
 
-    // Another build: bytes after the last section do not affect the code.
+    // Bytes after the last section make another build with the same code.
     let library = bench.path("nearest/target/release/libnearest.so");
     let mut file = fs::OpenOptions::new()
         .append(true)

@@ -3,7 +3,7 @@
 //! The process may be killed at any moment; the next run continues the recording.
 #![expect(
     clippy::print_stdout,
-    reason = "whoever kills it reads what was acknowledged"
+    reason = "the parent process reads the acknowledgements"
 )]
 
 use std::error::Error;

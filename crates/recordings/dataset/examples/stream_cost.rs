@@ -99,9 +99,9 @@ fn print(least: &Least, frames: usize, bytes: usize) {
         ("written and hashed, durable every 8 frames", least.durable),
         ("written and hashed, durable at the end", least.buffered),
         ("recorded and closed", recorded.sum()),
-        ("of it, looking whether files are whole", recorded.checked),
-        ("of it, appending", recorded.appended),
-        ("of it, beginning and closing", recorded.around),
+        ("of which checking files", recorded.checked),
+        ("of which appending", recorded.appended),
+        ("of which creating and closing", recorded.around),
     ] {
         println!(
             "| {what} | {:.3} | {:.2} |",

@@ -252,7 +252,7 @@ impl CsvTable {
             let mut sorted: Vec<&String> = self.names.iter().collect();
             sorted.sort_unstable();
             match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-                Some(pair) => format!("the column `{}` comes twice", shown(pair[0])),
+                Some(pair) => format!("the column `{}` occurs twice", shown(pair[0])),
                 None => return Ok(()),
             }
         };

@@ -1,4 +1,4 @@
-//! A damaged dataset is never read as a whole one, and no foreign bytes make the readers panic or hang.
+//! A damaged dataset is never read as an intact one, and no input makes the readers panic or hang.
 
 use std::fs;
 

@@ -236,7 +236,7 @@ impl Scan {
                     (15, 0) => {}
                     _ => {
                         return Err(
-                            "a coefficient of more than one bit in a scan of one".to_owned()
+                            "a coefficient of more than one bit in a one-bit scan".to_owned()
                         );
                     }
                 }

@@ -137,7 +137,7 @@ fn starts(
         .clone()
         .all(|column| column.max_def_level() == 0 && column.max_rep_level() == 0);
     if !is_flat || !names.eq(info.spec.column_names()) {
-        return Err("its columns are not those that the header says".to_owned());
+        return Err("its columns differ from those in the header".to_owned());
     }
     let length = info.spec.info.len();
     let mut starts = vec![0];

@@ -178,7 +178,7 @@ fn fill(
         .iter()
         .fold(0, |any, byte| any | u8::from(*byte == b'"'));
     if quotes != 0 {
-        let problem = "a quoted cell, which is read with the whole table alone".to_owned();
+        let problem = "a quoted cell, which only a read of the whole table accepts".to_owned();
         return Err(wrong(path, 1, problem));
     }
     digest.fixed(new);
@@ -265,7 +265,7 @@ mod tests {
             (format!("a,b\n{good}1,2,3"), "line 50002: 3 cells"),
             (format!("a,b\n{good}\"1\",2"), "a quoted cell"),
             ("\"a\",b\n".to_owned(), "a quoted cell"),
-            ("a,b,a\n1,2,3\n".to_owned(), "the column `a` comes twice"),
+            ("a,b,a\n1,2,3\n".to_owned(), "the column `a` occurs twice"),
             ("a,b\n1,\0\n".to_owned(), "line 2: a byte of value 0"),
             (String::new(), "expected a header"),
         ] {

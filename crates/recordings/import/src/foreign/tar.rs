@@ -36,7 +36,7 @@ pub(crate) enum TarError {
     Link { name: String },
     #[error("`{name}` has holes, which are not supported: write the archive without `--sparse`")]
     Sparse { name: String },
-    #[error("`{name}` is no file and no folder (type `{kind}`)")]
+    #[error("`{name}` is neither a file nor a folder (type `{kind}`)")]
     Kind { name: String, kind: char },
     #[error("`{name}`: {problem}")]
     Name { name: String, problem: &'static str },
@@ -48,7 +48,7 @@ pub(crate) enum TarError {
         "more than the {EMPTY_MEMBERS} empty files and folders that are accepted: leave them out, or unpack the archive and import its folder"
     )]
     EmptyMembers,
-    #[error("`{0}` is in it twice")]
+    #[error("the archive holds `{0}` twice")]
     Twice(String),
 }
 

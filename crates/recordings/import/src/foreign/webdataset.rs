@@ -72,7 +72,10 @@ impl Shard {
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         serde_json::from_str(text).map(Some).map_err(|error| {
             let (line, problem) = (error.line(), json_problem(text, &error));
-            format!("`{}.{field}`, line {line}: no JSON: {problem}", sample.key)
+            format!(
+                "`{}.{field}`, line {line}: invalid JSON: {problem}",
+                sample.key
+            )
         })
     }
 

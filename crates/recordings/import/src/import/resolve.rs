@@ -219,7 +219,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Warns of recordings of which only the messages before a cut are read.
+    /// Warns if only the messages before a cut of a recording are read.
     fn warn_of_cuts(&mut self, folder: &SourceFolder) {
         let joined = self.joined.iter().flat_map(Joined::tables);
         for table in std::iter::once(&self.main).chain(joined) {

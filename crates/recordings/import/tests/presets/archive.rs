@@ -185,7 +185,7 @@ fn hostile_archives_are_refused_by_member_and_leave_nothing_behind() {
         (
             "device",
             file(b"a", 0, EntryType::Char),
-            "no file and no folder",
+            "neither a file nor a folder",
         ),
         ("sparse", file(b"a", 0, EntryType::GNUSparse), "has holes"),
         (
@@ -204,7 +204,7 @@ fn hostile_archives_are_refused_by_member_and_leave_nothing_behind() {
             binary_sum,
             "header at byte 0 has a wrong checksum",
         ),
-        ("twice", twice, "is in it twice"),
+        ("twice", twice, "the archive holds"),
         (
             "no text",
             file(b"\xff\xfe", 0, regular),

@@ -49,7 +49,7 @@ fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
     folder
 }
 
-/// The plan of an import by a whole map.
+/// The plan of an import by a complete map.
 fn planned(folder: &Path, map: &str) -> Result<ImportPlan, String> {
     let map = ImportMap::parse("map.toml".as_ref(), map).map_err(|error| error.to_string())?;
     ImportPlan::new(folder, &map).map_err(|error| error.to_string())

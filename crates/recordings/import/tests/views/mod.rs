@@ -31,7 +31,7 @@ pub(super) fn two() -> String {
     format!("{TWO}{FACTS}")
 }
 
-/// A folder of two fingers: gray pictures of 48 × 36 on the left and of 60 × 36 on the right, of which no two are alike.
+/// A folder of two fingers: gray pictures of 48 × 36 on the left and of 60 × 36 on the right, all different.
 pub(super) fn gripper() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     fill(folder.path(), 0, ROWS);

@@ -100,7 +100,7 @@ fn a_transducer_that_says_nothing_ends_it_too() {
     whole(&bench, "out");
 }
 
-/// A camera that sends a frame every `period`, as wide as its number says.
+/// A camera that sends a frame every `period`; `width` gives the width of each frame by its number, in pixels.
 pub(crate) fn camera(
     period: Duration,
     width: impl Fn(usize) -> u32 + Send + 'static,
