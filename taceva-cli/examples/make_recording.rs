@@ -5,8 +5,8 @@
 //! cargo run --release -- evaluate demo --model ridge --split by-point --metrics accuracy
 //! ```
 //!
-//! Optional arguments after the folder are the number of contact points and the seed: `make_recording -- demo 5000`
-//! draws 20,000 pictures, and `make_recording -- tuesday 40 2` draws other presses than `make_recording -- monday 40 1`.
+//! Optional arguments after the folder are the number of contact points and the seed: `make_recording -- demo 5000` draws 20,000 pictures, and
+//! `make_recording -- tuesday 40 2` draws other presses than `make_recording -- monday 40 1`.
 //!
 //! Nothing here was measured. The labels follow closed forms (below), the pictures are drawn from the labels, and the dataset says
 //! `source = "synthetic"`, which every report repeats.
@@ -42,8 +42,7 @@ impl Default for Drawing {
 }
 
 impl Drawing {
-    /// Parses the number of points and the seed, with defaults for missing words; `None` if a word is no number, or for
-    /// 0 points.
+    /// Parses the number of points and the seed, with defaults for missing words; `None` if a word is no number, or for 0 points.
     fn of(mut words: impl Iterator<Item = String>) -> Option<Drawing> {
         let mut drawing = Drawing::default();
         if let Some(points) = words.next() {

@@ -2,8 +2,7 @@
 
 use clap::Command;
 
-/// Examples of each command that takes arguments: the words of the command after `#`, then a command line and its
-/// outcome.
+/// Examples of each command that takes arguments: the words of the command after `#`, then a command line and its outcome.
 const EXAMPLES: &str = include_str!("examples.txt");
 
 /// Adds examples to `command` and its subcommands, before the rest of the closing help.

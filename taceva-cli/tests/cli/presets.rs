@@ -144,8 +144,7 @@ const fn closer(format: PixelFormat) -> FrameInfo {
     }
 }
 
-/// Values of a gray pixel. The labelled half has stripes one pixel wide, so that every cell of 4×3 pixels has the same
-/// mean in both halves.
+/// Values of a gray pixel. The labelled half has stripes one pixel wide, so that every cell of 4×3 pixels has the same mean in both halves.
 fn striped(is_labelled: bool, x: u32) -> Vec<u32> {
     vec![match (is_labelled, x % 2) {
         (false, _) => 130,
@@ -191,8 +190,7 @@ fn record_halves(path: &Path, info: FrameInfo, pixel: fn(bool, u32) -> Vec<u32>)
     recorder.close().expect("closed");
 }
 
-/// Fits `auto` and `default`, and checks that `auto` chose the network of `default`, the only model that sees the
-/// difference.
+/// Fits `auto` and `default`, and checks that `auto` chose the network of `default`, the only model that sees the difference.
 fn assert_auto_takes_the_default(info: FrameInfo, pixel: fn(bool, u32) -> Vec<u32>, seen: &str) {
     let bench = Bench::new();
     record_halves(&bench.path("data"), info, pixel);

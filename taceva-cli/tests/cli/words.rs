@@ -1,5 +1,4 @@
-//! Printed text: names do not control a terminal, nothing is lost without a message, and errors name the command to
-//! type.
+//! Printed text: names do not control a terminal, nothing is lost without a message, and errors name the command to type.
 
 use std::fs;
 use std::process::{Command, Stdio};

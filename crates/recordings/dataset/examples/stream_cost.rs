@@ -1,11 +1,9 @@
-//! Compares the cost of recording a stream with writing and hashing the same bytes: `stream_cost RECORDING FOLDER
-//! [ROUNDS]`.
+//! Compares the cost of recording a stream with writing and hashing the same bytes: `stream_cost RECORDING FOLDER [ROUNDS]`.
 //!
-//! RECORDING was made by `taceva capture` from a camera that sends files; FOLDER is a new folder on the measured disk.
-//! The frames are recorded again as by a capture, 8 at a time and without pauses. For comparison the same bytes are
-//! written to one file and hashed frame by frame: synced after every 8 frames, and synced only at the end. Decoding is
-//! not timed, because a capture decodes while the camera exposes the next frame. The shortest time of ROUNDS rounds is
-//! printed, by default of 3.
+//! RECORDING was made by `taceva capture` from a camera that sends files; FOLDER is a new folder on the measured disk. The frames are recorded
+//! again as by a capture, 8 at a time and without pauses. For comparison the same bytes are written to one file and hashed frame by frame: synced
+//! after every 8 frames, and synced only at the end. Decoding is not timed, because a capture decodes while the camera exposes the next frame.
+//! The shortest time of ROUNDS rounds is printed, by default of 3.
 #![expect(clippy::print_stdout, reason = "an example talks to a person")]
 
 use std::error::Error;

@@ -1,5 +1,4 @@
-//! A stream is recorded some frames at a time: files of a camera are stored unchanged, and lost frames are counted in
-//! the header.
+//! A stream is recorded some frames at a time: files of a camera are stored unchanged, and lost frames are counted in the header.
 
 use std::fs;
 use std::path::Path;

@@ -26,8 +26,8 @@ use crate::error::{ImportError, table_error};
 
 /// A CSV file with a header, in memory.
 ///
-/// The separator (comma, semicolon or tab) is detected in the header. A byte order mark, CRLF, blank lines and quoted
-/// cells are accepted. A decimal text becomes the nearest binary64; an empty cell is an absent value.
+/// The separator (comma, semicolon or tab) is detected in the header. A byte order mark, CRLF, blank lines and quoted cells are accepted. A
+/// decimal text becomes the nearest binary64; an empty cell is an absent value.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;

@@ -174,8 +174,8 @@ impl ForeignTable {
         }
     }
 
-    /// Names that may contain the unit of `name`, a number in the column `base`: the element's own name, then the column
-    /// name. For the column `value` the name of the file is used.
+    /// Names that may contain the unit of `name`, a number in the column `base`: the element's own name, then the column name. For the column
+    /// `value` the name of the file is used.
     pub(crate) fn names_with_units(&self, name: &str, base: &str) -> Vec<String> {
         let at = name.strip_prefix(base).unwrap_or_default();
         let at: Option<usize> = at.trim_matches(['[', ']']).parse().ok();

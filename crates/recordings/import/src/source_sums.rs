@@ -168,8 +168,7 @@ impl SourceSums {
         Ok(of_each.min_by_key(Vec::len).unwrap_or_default())
     }
 
-    /// As [`differences`](SourceSums::differences), with every unlisted file below `folder`, except the list itself and
-    /// datasets made there.
+    /// As [`differences`](SourceSums::differences), with every unlisted file below `folder`, except the list itself and datasets made there.
     ///
     /// # Errors
     /// As [`differences`](SourceSums::differences).
@@ -195,8 +194,7 @@ impl SourceSums {
     /// Checks that the files in `folder` equal the list.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] naming the files that differ; otherwise as
-    /// [`differences_of_all`](SourceSums::differences_of_all).
+    /// [`ImportError::Dataset`] naming the files that differ; otherwise as [`differences_of_all`](SourceSums::differences_of_all).
     pub fn verify(
         &self,
         folder: &Path,

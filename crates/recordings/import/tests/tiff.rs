@@ -1,5 +1,5 @@
-//! TIFF frames written by other programs (`tests/fixtures/tiff/make.py`): stored unchanged and decoded to the drawn
-//! numbers, or refused by the name of the unsupported feature.
+//! TIFF frames written by other programs (`tests/fixtures/tiff/make.py`): stored unchanged and decoded to the drawn numbers, or refused by the
+//! name of the unsupported feature.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

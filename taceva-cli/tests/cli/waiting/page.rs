@@ -189,8 +189,7 @@ fn print(words: &str) {
     eprintln!("{words}");
 }
 
-/// Waits until the arm has moved for a while, because short motions end by themselves. Returns true if the run lasts
-/// that long.
+/// Waits until the arm has moved for a while, because short motions end by themselves. Returns true if the run lasts that long.
 fn in_a_long_motion(emulated: &Emulated, running: &mut Running) -> bool {
     const LONG: Duration = Duration::from_millis(80);
     let began = Instant::now();

@@ -1,5 +1,5 @@
-//! The changer in `examples/plugins/carousel`, which is a plugin: refused, allowed, checked, and used in a run on an
-//! emulated bench. In the same run it is also stuck, wrong, unresponsive and gone.
+//! The changer in `examples/plugins/carousel`, which is a plugin: refused, allowed, checked, and used in a run on an emulated bench. In the same
+//! run it is also stuck, wrong, unresponsive and gone.
 
 #![cfg(target_os = "linux")]
 

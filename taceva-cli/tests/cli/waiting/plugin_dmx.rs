@@ -1,5 +1,4 @@
-//! The light in `examples/plugins/dmx-light`, a changer that is a plugin: refused, allowed, and set through a port that
-//! the test reads.
+//! The light in `examples/plugins/dmx-light`, a changer that is a plugin: refused, allowed, and set through a port that the test reads.
 
 #![cfg(target_os = "linux")]
 

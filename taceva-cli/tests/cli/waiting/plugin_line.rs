@@ -1,5 +1,4 @@
-//! The driver in `examples/plugins/line-transducer`, written by the guide alone: built, refused, allowed, checked and
-//! planned with.
+//! The driver in `examples/plugins/line-transducer`, written by the guide alone: built, refused, allowed, checked and planned with.
 
 #![cfg(target_os = "linux")]
 
@@ -14,8 +13,7 @@ use crate::support::Bench;
 
 const KEY: &str = "org.example.line-transducer/line-transducer";
 
-/// A device on loopback that sends the text of `line` for each number, 200 times a second, to every client. Returns its
-/// port.
+/// A device on loopback that sends the text of `line` for each number, 200 times a second, to every client. Returns its port.
 fn device(line: fn(u64) -> String) -> u16 {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("bound").port();

@@ -21,8 +21,7 @@ const GAP: std::ops::Range<f64> = 1.5..10.5;
 /// A regular stream: maximum deviation of a step from the usual one, and minimum share of such steps.
 const NEAR: f64 = 0.25;
 const REGULAR: f64 = 0.75;
-/// For streams with more missing frames, the period is searched near the step that one in this many steps is shorter
-/// than.
+/// For streams with more missing frames, the period is searched near the step that one in this many steps is shorter than.
 const SHORT: usize = 10;
 /// Minimum share of steps of one period.
 const SINGLE: f64 = 0.3;

@@ -19,8 +19,7 @@ pub(super) const PICTURES: &str =
 const WIDTH: u32 = 24;
 const HEIGHT: u32 = 16;
 
-/// Gray pictures as a NumPy file, one for each of `presses`: a press darkens the middle, and the noise of all pictures
-/// differs.
+/// Gray pictures as a NumPy file, one for each of `presses`: a press darkens the middle, and the noise of all pictures differs.
 pub(super) fn pictures(presses: &[f64]) -> Vec<u8> {
     let shape = format!("({}, {HEIGHT}, {WIDTH})", presses.len());
     let header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}\n");

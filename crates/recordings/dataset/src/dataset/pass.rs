@@ -118,8 +118,7 @@ impl Dataset {
     /// Memory holds at most a few frames for each thread. The result does not depend on the number of threads.
     ///
     /// # Errors
-    /// As [`frame`](Dataset::frame), for the first failing row in order; [`DatasetError::Request`] if a row has no
-    /// frame;
+    /// As [`frame`](Dataset::frame), for the first failing row in order; [`DatasetError::Request`] if a row has no frame;
     /// [`DatasetError::Sink`] if `take` fails; [`DatasetError::Cancelled`].
     pub fn map_frames<T: Send>(
         &self,

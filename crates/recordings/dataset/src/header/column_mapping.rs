@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Misread, differing, number, quoted};
 
-/// Mapping of a label by an import. It is compared before rows are added with another map: another unit, sign or matrix
-/// for the same column would give wrong numbers without an error.
+/// Mapping of a label by an import. It is compared before rows are added with another map: another unit, sign or matrix for the same column would
+/// give wrong numbers without an error.
 ///
 /// ```
 /// let text = "label = \"Fz\"\nfrom = [\"force_z\"]\nunit = \"mN\"\nsign = -1\n";
@@ -86,8 +86,7 @@ impl MappedColumn {
         other.from.iter().any(|column| self.from.contains(column))
     }
 
-    /// First setting that differs between `self`, from a new map, and `known`. Both read the same column for the same
-    /// label.
+    /// First setting that differs between `self`, from a new map, and `known`. Both read the same column for the same label.
     fn differs_from(&self, known: &MappedColumn) -> Option<Misread> {
         let facts = |column: &MappedColumn| {
             let order = column.order.clone();

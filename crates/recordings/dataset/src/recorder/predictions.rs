@@ -17,11 +17,10 @@ pub(super) struct PredictedTable {
 }
 
 impl Recorder {
-    /// Stores the predictions `table`, CSV with one line for each sample, of the model called `by`, until the recording
-    /// is closed.
+    /// Stores the predictions `table`, CSV with one line for each sample, of the model called `by`, until the recording is closed.
     ///
-    /// Only the last table is kept. An interruption before the close loses the table, but not frames and labels; `taceva
-    /// predict` can make it again.
+    /// Only the last table is kept. An interruption before the close loses the table, but not frames and labels; `taceva predict` can make it
+    /// again.
     pub fn keep_predictions(&mut self, by: &str, model: Digest, table: Vec<u8>) {
         self.predictions = Some(PredictedTable {
             facts: LivePredictions::new(by, model, &table),

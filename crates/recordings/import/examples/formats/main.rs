@@ -4,10 +4,9 @@
 //! cargo run -p taceva-import --example formats -- FOLDER [DATASETS]
 //! ```
 //!
-//! With DATASETS, each dataset is kept there with its map, so that `tests/formats/compare.py` can read the files again
-//! with their packages. `packages.json` names the package that wrote each file or folder of FOLDER. Each is imported by
-//! its map beside this file, or else by a fresh draft with the units N, Nm and mm filled in. Clips need ffmpeg on the
-//! PATH.
+//! With DATASETS, each dataset is kept there with its map, so that `tests/formats/compare.py` can read the files again with their packages.
+//! `packages.json` names the package that wrote each file or folder of FOLDER. Each is imported by its map beside this file, or else by a fresh
+//! draft with the units N, Nm and mm filled in. Clips need ffmpeg on the PATH.
 
 #![expect(clippy::print_stdout, reason = "a program says what it found")]
 

@@ -26,8 +26,7 @@ impl CsvTable {
         self.whole(name, Invalid::Refuse)
     }
 
-    /// Numbers of the column called `name`; empty cells are absent. A cell that is no finite number becomes NaN, so that
-    /// callers can count it.
+    /// Numbers of the column called `name`; empty cells are absent. A cell that is no finite number becomes NaN, so that callers can count it.
     ///
     /// # Errors
     /// [`ImportError::Table`] if there is no such column.
@@ -52,8 +51,7 @@ impl CsvTable {
     /// As [`numbers_in`](CsvTable::numbers_in), with NaN for each cell that is neither empty nor a finite number.
     ///
     /// # Errors
-    /// None. The return type equals that of [`numbers_in`](CsvTable::numbers_in), so that a caller can choose between
-    /// the two.
+    /// None. The return type equals that of [`numbers_in`](CsvTable::numbers_in), so that a caller can choose between the two.
     /// # Panics
     /// If there is no such row or column.
     pub fn numbers_in_with_invalid(

@@ -47,8 +47,7 @@ pub(super) fn parse_shifted(cell: &str, places: i32) -> Option<f64> {
     format!("{mantissa}e{exponent}").parse().ok()
 }
 
-/// Parses digits with at most one point by one division. The result is correctly rounded because both operands are exact
-/// (Clinger 1990).
+/// Parses digits with at most one point by one division. The result is correctly rounded because both operands are exact (Clinger 1990).
 fn parse_plain(cell: &[u8]) -> Option<f64> {
     let (negative, digits) = match cell.split_first()? {
         (b'-', rest) => (true, rest),
@@ -125,8 +124,7 @@ fn zero_bytes(bytes: u64) -> u64 {
     !(((bytes & LOW_BITS) + LOW_BITS) | bytes | LOW_BITS)
 }
 
-/// Number from eight decimal digits, one per byte, the first in the lowest byte. Adjacent digits are combined into
-/// pairs, fours and eight.
+/// Number from eight decimal digits, one per byte, the first in the lowest byte. Adjacent digits are combined into pairs, fours and eight.
 fn eight_digits(digits: u64) -> u64 {
     let pairs = digits.wrapping_mul((10 << 8) + 1) >> 8 & 0x00ff_00ff_00ff_00ff;
     let fours = pairs.wrapping_mul((100 << 16) + 1) >> 16 & 0x0000_ffff_0000_ffff;

@@ -56,8 +56,8 @@ impl CsvStream {
     /// Opens the file at `path` and reads its header.
     ///
     /// # Errors
-    /// [`ImportError::Table`] if there is no header, the header has a quoted cell, or the file does not begin with text;
-    /// [`ImportError::Dataset`] if it is no regular file or cannot be read.
+    /// [`ImportError::Table`] if there is no header, the header has a quoted cell, or the file does not begin with text; [`ImportError::Dataset`]
+    /// if it is no regular file or cannot be read.
     pub fn open(path: &Path) -> Result<CsvStream, ImportError> {
         let (mut file, _) = open_regular(path, u64::MAX)?;
         begin_of(&mut file).map_err(ImportError::io("read", path))?;
@@ -107,8 +107,8 @@ impl CsvStream {
     /// Replaces the rows of `block` with the next `rows` rows: fewer at the end of the file, then none. Its memory is reused.
     ///
     /// # Errors
-    /// As [`CsvTable::read`]; also [`ImportError::Table`] for a quoted cell, whose end needs the whole file. After an
-    /// error the stream cannot be read.
+    /// As [`CsvTable::read`]; also [`ImportError::Table`] for a quoted cell, whose end needs the whole file. After an error the stream cannot be
+    /// read.
     pub fn read(&mut self, rows: usize, block: &mut CsvTable) -> Result<(), ImportError> {
         let CsvTable { path, names, .. } = &self.header;
         let mut text = std::mem::take(&mut block.text).into_bytes();

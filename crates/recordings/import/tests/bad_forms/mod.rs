@@ -1,5 +1,5 @@
-//! Hostile input of every form in an import: refused with a message or read, in at most ten seconds and 512 MiB. Nothing
-//! is executed and nothing is left behind.
+//! Hostile input of every form in an import: refused with a message or read, in at most ten seconds and 512 MiB. Nothing is executed and nothing
+//! is left behind.
 
 mod arrays;
 mod crafted;
@@ -41,8 +41,7 @@ fn most_memory() -> u64 {
     number.unwrap_or(0)
 }
 
-/// Imports the folder by a map of version 2, within the limits of time and memory. The error is the message of a
-/// refusal.
+/// Imports the folder by a map of version 2, within the limits of time and memory. The error is the message of a refusal.
 #[track_caller]
 fn imported(folder: &Path, map: &str) -> Result<Kept, String> {
     let began = Instant::now();

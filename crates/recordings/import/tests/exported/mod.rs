@@ -1,5 +1,5 @@
-//! External libraries read an exported dataset correctly. Imported again by the map beside it, the dataset is the same:
-//! ids, labels to the last bit, signals, origin, pixels.
+//! External libraries read an exported dataset correctly. Imported again by the map beside it, the dataset is the same: ids, labels to the last
+//! bit, signals, origin, pixels.
 
 mod drawn;
 mod libraries;

@@ -81,8 +81,8 @@ fn added(folder: &Path, map: &str, target: &Path) -> Result<(), String> {
     outcome.map(drop).map_err(|error| error.to_string())
 }
 
-/// Checks that adding rows by `map`, with `from` replaced by `to`, is refused. The message names `key`, the value `own`
-/// of the dataset and the value `other` of the map.
+/// Checks that adding rows by `map`, with `from` replaced by `to`, is refused. The message names `key`, the value `own` of the dataset and the
+/// value `other` of the map.
 fn refused(from: &str, to: &str, [key, own, other]: [&str; 3]) {
     let [first, second] = folders();
     let target = first.path().join("dataset");

@@ -259,8 +259,7 @@ fn a_column_called_row_does_not_say_which_picture_a_row_has() {
     }
 }
 
-/// Three recordings of two rows, each with its own array, and one array with all six pictures. Recording 2 has the
-/// pictures 20 and 21.
+/// Three recordings of two rows, each with its own array, and one array with all six pictures. Recording 2 has the pictures 20 and 21.
 fn recordings() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let mut all = Vec::new();

@@ -40,8 +40,7 @@ fn an_import_that_takes_everything_says_nothing_and_its_format_is_as_before() {
 
 #[test]
 fn rows_of_both_sides_of_a_join_are_counted_over_all_main_tables() {
-    // The row at 9 s has no match. Both main tables share the transducer's table, of which two rows are used and one is
-    // skipped.
+    // The row at 9 s has no match. Both main tables share the transducer's table, of which two rows are used and one is skipped.
     let folder = lab(&[
         ("a/run.csv", "t\n0.0\n9.0\n"),
         ("b/run.csv", "t\n1.0\n"),

@@ -1,5 +1,5 @@
-//! Every file in `tests/recordings`, truncated or with flipped bits: an import succeeds, or is refused and leaves
-//! nothing behind. A caught panic of a third-party decoder counts as a refusal.
+//! Every file in `tests/recordings`, truncated or with flipped bits: an import succeeds, or is refused and leaves nothing behind. A caught panic
+//! of a third-party decoder counts as a refusal.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,5 @@
-//! Flips single bits in labels, pictures and indices of every form: a flip under a checksum is refused, and nothing
-//! vanishes without a message. `TACEVA_FLIPS=2000 cargo test --workspace --test import recordings::flips -- --nocapture`
-//! sets the total number and prints the counts by form.
+//! Flips single bits in labels, pictures and indices of every form: a flip under a checksum is refused, and nothing vanishes without a message.
+//! `TACEVA_FLIPS=2000 cargo test --workspace --test import recordings::flips -- --nocapture` sets the total number and prints the counts by form.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;

@@ -1,5 +1,5 @@
-//! Recordings in `tests/recordings`, written by external libraries and imported by their maps: counts, labels, pixels
-//! and packets equal those that the library reads back.
+//! Recordings in `tests/recordings`, written by external libraries and imported by their maps: counts, labels, pixels and packets equal those
+//! that the library reads back.
 
 mod clip_times;
 mod damaged;

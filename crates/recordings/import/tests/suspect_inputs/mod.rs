@@ -1,5 +1,4 @@
-//! Folders that could give wrong numbers, or a wrong refusal: each is imported correctly, refused with the remedy, or
-//! warned of.
+//! Folders that could give wrong numbers, or a wrong refusal: each is imported correctly, refused with the remedy, or warned of.
 
 mod angles;
 mod clips;

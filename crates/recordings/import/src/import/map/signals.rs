@@ -204,8 +204,7 @@ impl Check<'_> {
     }
 }
 
-/// Columns that `text` names: for `1..15` the columns with these numbers after any prefix, inclusive; otherwise one
-/// column.
+/// Columns that `text` names: for `1..15` the columns with these numbers after any prefix, inclusive; otherwise one column.
 fn columns_of(text: &str) -> Result<Vec<String>, String> {
     let Some((before, last)) = text.split_once("..") else {
         return Ok(vec![text.to_owned()]);

@@ -5,8 +5,7 @@ use crate::csv_table::number;
 use crate::error::{ImportError, table_error};
 use crate::import::map::SignalsMap;
 
-/// Values of every row, grouped by taxel, in the stored unit. A cell without a number gives NaN, which is an error if
-/// the row is kept.
+/// Values of every row, grouped by taxel, in the stored unit. A cell without a number gives NaN, which is an error if the row is kept.
 pub(super) fn numbers(
     sources: &Sources<'_>,
     map: &SignalsMap,
