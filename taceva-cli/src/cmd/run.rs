@@ -130,7 +130,7 @@ fn resumption(args: &Run, path: &Path, context: &Context) -> String {
     context.invocation.with(&options, "--force")
 }
 
-/// `taceva run --air`.
+/// Executes `taceva run --air`.
 fn rehearse(
     planned: &PlannedScene,
     drivers: &Drivers,

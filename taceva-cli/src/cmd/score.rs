@@ -77,7 +77,7 @@ fn say_units(args: &Score, scored: &Scored, context: &Context) {
     }
 }
 
-/// True if only the scores, and the state, of all rows are requested, without a plan, which needs the number of rows first.
+/// True if only scores and state of all rows are requested. A plan would need the number of rows first.
 fn scores_alone(args: &Score, context: &Context) -> bool {
     args.shard.is_none() && !args.scoring.explain.is_wanted && !context.verbose
 }

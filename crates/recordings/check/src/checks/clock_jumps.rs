@@ -87,7 +87,7 @@ fn of_two_kinds(last: &[f64]) -> Option<Found> {
         .then(|| Found::overall(Severity::Warning, message))
 }
 
-/// Finds stamps that jump ahead within one contact, or between rows without any, by less than two clocks differ.
+/// Finds stamps that jump ahead within one contact, or between rows without contact points, by less than `TWO_CLOCKS_S`.
 fn set_within(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(stream) = Stream::of(evidence) else {
         return Vec::new();

@@ -160,7 +160,7 @@ impl Lag {
             .iter()
             .filter_map(|stream| Some(stream.last()?.0 - stream.first()?.0));
         let longest = OF_RECORDING * spans.sum::<f64>();
-        // Lags at which three quarters of the samples have a partner.
+        // Limit of the lag: three quarters of the samples must have a partner.
         let furthest = (1..=FURTHEST).take_while(|shift| {
             #[expect(clippy::cast_precision_loss, reason = "at most 60 steps")]
             let is_near = *shift as f64 * step <= longest;

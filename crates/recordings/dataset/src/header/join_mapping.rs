@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Fact, number, or_none, quoted};
 
-/// Join of a table by an import: with another lag or pick the same columns give readings of other instants.
+/// Join of a table by an import. Another lag or pick would give readings of other instants.
 ///
 /// ```
 /// let text = "name = \"ft\"\nby = \"time\"\ncolumn = \"t\"\nunit = \"s\"\npick = \"nearest\"\ntolerance_ms = 5.0\nlag_ms = 12.5\nunmatched = \"drop\"\n";

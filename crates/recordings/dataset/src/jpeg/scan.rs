@@ -67,7 +67,7 @@ impl Scan {
         Ok(scan)
     }
 
-    /// Records the bits that it codes, which must be the next ones.
+    /// Records the bits that the scan codes. They must follow those of the earlier scans.
     fn note_bits(&self, frame: &mut Frame) -> Result<(), String> {
         let wrong = || Err("a scan that codes bits out of order".to_owned());
         let [first, last] = self.band;

@@ -132,7 +132,7 @@ pub(crate) enum PictureKind {
     },
 }
 
-/// Table of columns.
+/// Table whose columns are read on first use.
 #[derive(Debug)]
 pub(crate) struct ColumnTable {
     path: PathBuf,
