@@ -10,14 +10,14 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Contact points.
+/// Number of contact points.
 const POINTS: u32 = 60;
-/// The depth of each press at a point; at 0 nothing is touched.
+/// Depths of the presses at a point, mm; at 0 nothing is touched.
 const DEPTHS_MM: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25];
-/// Where five magnetometers lie, mm: one in the middle and four around it.
+/// Positions of five magnetometers, mm: one in the middle and four around it.
 const CHIPS_MM: [[f64; 2]; 5] = [[0.0, 0.0], [6.0, 0.0], [-6.0, 0.0], [0.0, 6.0], [0.0, -6.0]];
 
-/// A press: its point, where it is, how deep, and the forces along x and into the gel in N.
+/// A press: its point, position and depth in mm, and the forces along x and into the gel in N.
 struct Press {
     point: u32,
     x_mm: f64,
@@ -28,7 +28,7 @@ struct Press {
 }
 
 impl Press {
-    /// How much of it a taxel at a place feels: 1 below the middle, less further away.
+    /// Response of a taxel at a position: 1 at the centre of the press, less further away.
     fn near(&self, [x_mm, y_mm]: [f64; 2], reach_mm2: f64) -> f64 {
         let (away_x, away_y) = (self.x_mm - x_mm, self.y_mm - y_mm);
         (-(away_x * away_x + away_y * away_y) / reach_mm2).exp()

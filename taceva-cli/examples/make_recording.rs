@@ -5,8 +5,8 @@
 //! cargo run --release -- evaluate demo --model ridge --split by-point --metrics accuracy
 //! ```
 //!
-//! After the folder may come the number of contact points and the seed: `make_recording -- demo 5000` draws 20,000 pictures, `make_recording --
-//! tuesday 40 2` others than `make_recording -- monday 40 1`.
+//! Optional arguments after the folder are the number of contact points and the seed: `make_recording -- demo 5000` draws 20,000 pictures, and
+//! `make_recording -- tuesday 40 2` draws other presses than `make_recording -- monday 40 1`.
 //!
 //! Nothing here was measured. The labels follow closed forms (below), the pictures are drawn from the labels, and the dataset says
 //! `source = "synthetic"`, which every report repeats.
@@ -25,7 +25,7 @@ const DEPTHS: u32 = 4;
 const RADIUS_MM: f64 = 5.0;
 const PIXELS_A_MM: f64 = 6.4;
 
-/// How much is drawn, and from which random numbers.
+/// Size and seed of a recording.
 #[derive(Clone, Copy)]
 struct Drawing {
     points: u32,
@@ -42,7 +42,7 @@ impl Default for Drawing {
 }
 
 impl Drawing {
-    /// Points and seed as `words` say, as far as they do; `None` for what is no number, or no point.
+    /// Parses the number of points and the seed, with defaults for missing words; `None` if a word is no number, or for 0 points.
     fn of(mut words: impl Iterator<Item = String>) -> Option<Drawing> {
         let mut drawing = Drawing::default();
         if let Some(points) = words.next() {
@@ -91,7 +91,7 @@ impl Press {
         ]
     }
 
-    /// Where a marker at rest in `(x, y)` is seen: dragged along by the shear, pushed outward by the indentation.
+    /// Displaced position of a marker at rest in `(x, y)`, mm: the shear drags it, the indentation pushes it outward.
     fn displaced(&self, x: f64, y: f64) -> (f64, f64) {
         let (from_x, from_y) = (x - self.x_mm, y - self.y_mm);
         let near = (-(from_x * from_x + from_y * from_y) / (2.0 * 1.6 * 1.6)).exp();
@@ -155,7 +155,7 @@ fn add_marker(light: &mut [f64], side: usize, x_mm: f64, y_mm: f64) {
     }
 }
 
-/// A number in [0, 1) that depends on its place alone.
+/// Random number in [0, 1) that depends on its arguments alone.
 fn unit_draw(seed: u64, point: u32, step: u32, purpose: u32) -> f64 {
     let place = [point, step, purpose]
         .into_iter()

@@ -83,7 +83,7 @@ pub(crate) fn check_isa() -> anyhow::Result<()> {
     }
 }
 
-/// `taceva` without a command: the ways in.
+/// `taceva` without a command: prints the first commands of a new user.
 pub(crate) fn start() -> anyhow::Result<u8> {
     output::write(None, |out| {
         writeln!(

@@ -18,7 +18,7 @@ impl Invocation {
         }
     }
 
-    /// The line to type, quoted for a shell, to carry the same command out with `options` besides and without the flag `without`.
+    /// Shell-quoted command line that repeats this command with additional `options` and without the flag `without`.
     pub(crate) fn with(&self, options: &[&OsStr], without: &str) -> String {
         let kept = self.words.iter().filter(|word| *word != without);
         let mut words: Vec<String> = kept.map(|word| shell_word(word)).collect();

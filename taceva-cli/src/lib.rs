@@ -52,7 +52,7 @@ pub fn main_if_child() {
     av1_child::main_if_child();
 }
 
-/// Runs the command in `arguments`, of which the first is the name of the program, and returns the exit code. SIGINT and SIGTERM of the
+/// Runs the command in `arguments`, which begin with the name of the program, and returns the exit code. SIGINT and SIGTERM of the
 /// process are handled from then on, so a program calls it once and exits with its result.
 ///
 /// ```

@@ -131,7 +131,7 @@ fn size(text: &str) -> Result<u64, String> {
         _ => return Err(expected()),
     };
     let bytes = (number * bytes).round();
-    // Below 2⁵³ every whole number is one.
+    // Every whole number below 2⁵³ is exact.
     if !(0.0..9e15).contains(&bytes) {
         return Err(expected());
     }

@@ -2,15 +2,15 @@
 
 use clap::Command;
 
-/// Examples of each command that takes arguments: its words behind `#`, then a command line and below it the outcome.
+/// Examples of each command that takes arguments: the words of the command after `#`, then a command line and its outcome.
 const EXAMPLES: &str = include_str!("examples.txt");
 
-/// `command` with examples before everything else that its help ends with.
+/// Adds examples to `command` and its subcommands, before the rest of the closing help.
 pub(crate) fn add_examples(command: Command) -> Command {
     below(command, &mut Vec::new())
 }
 
-/// The same, for the command below the words of `path`.
+/// Adds examples to `command`, whose words are `path`, and to its subcommands.
 fn below(mut command: Command, path: &mut Vec<String>) -> Command {
     let names: Vec<String> = command
         .get_subcommands()
@@ -35,7 +35,7 @@ fn below(mut command: Command, path: &mut Vec<String>) -> Command {
     command.after_help(text)
 }
 
-/// The words of each command that has examples, with their lines.
+/// Blocks of examples: the words of a command, and its lines.
 fn blocks() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
     let blocks = EXAMPLES.split("# ").filter(|block| !block.is_empty());
     blocks.filter_map(|block| {
@@ -47,7 +47,7 @@ fn blocks() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
     })
 }
 
-/// Lines of the examples of the command with these words; of a command that has others below it, of one of each.
+/// Example lines of the command with these words; for a command with subcommands, one example of each.
 fn of(words: &str) -> Vec<&'static str> {
     if let Some((_, own)) = blocks().find(|(of, _)| *of == words) {
         return own;

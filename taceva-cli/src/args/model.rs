@@ -84,7 +84,8 @@ pub(crate) struct Predict {
     pub(crate) cache: CacheArgs,
     #[command(flatten)]
     pub(crate) part: PartArgs,
-    /// The table of predictions to write; `score --pred` reads it. Its column `distance` is that of each picture from the training pictures
+    /// The table of predictions to write; `score --pred` reads it. Its column `distance` holds the distance of each picture from the training
+    /// pictures
     #[arg(long, value_name = "PRED.csv")]
     pub(crate) out: PathBuf,
     /// Write unclamped predictions, beyond the bounds of the model; robustness is computed from these

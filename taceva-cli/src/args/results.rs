@@ -6,11 +6,10 @@ use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 
 use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 
-/// Text and Markdown show the values side by side, then what can be compared. Results are JSON files of `evaluate` and `score`, folders of
-/// runs (or their results.json), or names of the catalogue. If two of them
-/// predict the same samples, mean absolute errors are compared sample by sample. The samples are read from `<name>.samples.csv` beside
-/// `<name>.json` (`--samples-out` writes it) and from `reports/` of a run. Other scores are compared by the intervals of both, with Holm's
-/// adjustment.
+/// Text and Markdown show the values side by side, then the comparable results. Results are JSON files of `evaluate` and `score`, folders of runs
+/// (or their results.json), or names of the catalogue. If two of them predict the same samples, mean absolute errors are compared sample by
+/// sample. The samples are read from `<name>.samples.csv` beside `<name>.json` (`--samples-out` writes it) and from `reports/` of a run. Other
+/// scores are compared by the intervals of both, with Holm's adjustment.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
     /// The results to compare

@@ -1,4 +1,4 @@
-//! The cache of a command; `taceva cache`.
+//! Cache of the commands, and `taceva cache`.
 
 mod list;
 mod prune;

@@ -94,7 +94,7 @@ impl Context {
     }
 }
 
-/// The folder of a scene that is a file.
+/// Folder of the scene file at `scene`; `None` for a built-in scene.
 fn folder_of(scene: &Path) -> Option<PathBuf> {
     let file = scene.canonicalize().ok().filter(|path| path.is_file())?;
     file.parent().map(Path::to_owned)

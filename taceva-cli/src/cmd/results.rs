@@ -127,7 +127,7 @@ pub(super) fn reports(path: &Path) -> anyhow::Result<Reports> {
     })
 }
 
-/// The file of results that `path` names: of the folder of a run, or itself.
+/// File of results at `path`: in the folder of a run, or the path itself.
 fn file_of(path: &Path) -> anyhow::Result<PathBuf> {
     let is_page = path
         .extension()

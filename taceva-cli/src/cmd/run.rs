@@ -116,7 +116,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// The command line that goes on with the run in `path`.
+/// Command line that resumes the run in `path`.
 fn resumption(args: &Run, path: &Path, context: &Context) -> String {
     let resume = (!args.resume).then_some(OsStr::new("--resume"));
     let out = args
@@ -130,7 +130,7 @@ fn resumption(args: &Run, path: &Path, context: &Context) -> String {
     context.invocation.with(&options, "--force")
 }
 
-/// `taceva run --air`.
+/// Executes `taceva run --air`.
 fn rehearse(
     planned: &PlannedScene,
     drivers: &Drivers,

@@ -14,7 +14,7 @@ use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
 use crate::disk_space::{self, Need};
 
-/// The contact points of which the test part, a tenth, is enough for an interval.
+/// Number of contact points whose test part, a tenth, is enough for an interval.
 const ENOUGH_POINTS: usize = 10 * LEAST_CLUSTERS;
 
 /// The scene of `args`, planned with `drivers`.

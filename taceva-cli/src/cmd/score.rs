@@ -10,7 +10,7 @@ use super::{Context, Usage};
 use crate::args::{Format, Score};
 use crate::{exit, output, report};
 
-/// Words of a note on a column whose unit nobody states.
+/// Note on a column without a stated unit.
 const UNIT_OF_ONE: &str = "taken as a channel of unit 1";
 
 pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Prints notes on units that nobody states, unless the scores themselves are printed as text, with all notes.
+/// Prints notes on unstated units, unless the scores are printed as text, which contains all notes.
 fn say_units(args: &Score, scored: &Scored, context: &Context) {
     let output = &args.output;
     if matches!(output.format, Format::Text) && output.path.is_none() {
@@ -77,7 +77,7 @@ fn say_units(args: &Score, scored: &Scored, context: &Context) {
     }
 }
 
-/// True if only the scores, and the state, of all rows are requested, without a plan, which needs the number of rows first.
+/// True if only scores and state of all rows are requested. A plan would need the number of rows first.
 fn scores_alone(args: &Score, context: &Context) -> bool {
     args.shard.is_none() && !args.scoring.explain.is_wanted && !context.verbose
 }

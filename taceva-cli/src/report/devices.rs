@@ -169,7 +169,7 @@ fn facts(driver: &ListedDriver) -> Vec<String> {
     .collect()
 }
 
-/// One argument; its key stands in a column of `width` letters.
+/// One argument, with its key in a column of `width` characters.
 fn describe(argument: &ListedArgument, width: usize, out: &mut dyn Write) -> io::Result<()> {
     let presence = match (&argument.default, argument.required) {
         (Some(default), _) => format!(" [{default}]"),

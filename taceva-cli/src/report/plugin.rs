@@ -147,7 +147,7 @@ struct Listed {
     abi: String,
     place: Place,
     folder: String,
-    /// Empty for a module.
+    /// Path of the library; empty for a Python module.
     library: String,
     /// The digest of the library that the manifest requires, if any.
     sha256: String,

@@ -1,4 +1,4 @@
-//! Models are compared on a recording that the simulated bench makes for it.
+//! Models compared on a recording made by the simulated bench.
 
 use crate::support::Bench;
 
@@ -21,7 +21,7 @@ fn models_are_raced_on_one_split_of_the_simulated_bench() {
         let own = errors.iter().find(|error| error["channel"] == channel);
         own.expect("there")["mae"].as_f64().expect("a number")
     };
-    // Six contact points are left to be scored: enough to tell where the gel is touched, not how deep.
+    // Six contact points remain for scoring: enough for the position, not for the depth.
     for channel in ["Px", "Py"] {
         assert!(error(1, channel) < error(0, channel), "{channel}");
         assert!(error(2, channel) < error(0, channel), "{channel}");
@@ -30,7 +30,7 @@ fn models_are_raced_on_one_split_of_the_simulated_bench() {
         assert!(row["fit_s"].as_f64().is_some_and(|time| time > 0.0));
         assert!(row["latency_s"].as_f64().is_some_and(|time| time > 0.0));
     }
-    // A batch beyond the samples: that model says why, the others are there.
+    // A batch larger than the training part: that model reports the reason, the others are present.
     let failed = rows[3]["failed"].as_str().expect("said");
     assert!(failed.ends_with("fewer than a batch of 4096"), "{failed}");
     assert_eq!(rows[1]["settings"], "size=16x16");

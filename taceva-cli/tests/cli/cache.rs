@@ -1,4 +1,4 @@
-//! Runs that find what others have kept: the same reports, and nothing done twice.
+//! Runs that reuse cached stages: the same reports, and no repeated work.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::process::Stdio;
 use crate::support::Bench;
 use serde_json::Value;
 
-/// One sensor with a model that is fitted and boards whose spacings are predicted, a few presses each.
+/// One sensor with a fitted model and gratings with predicted spacings, a few presses each.
 const SMALL: &str = r#"scene_version = 1
 name = "small"
 seed = 7
@@ -28,7 +28,7 @@ fn with_small() -> Bench {
     bench
 }
 
-/// Every file of reports and of recordings in a folder of a run, with its bytes.
+/// Every file of reports and of recordings in the folder of a run, with its bytes.
 fn written(bench: &Bench, run: &str) -> Vec<(PathBuf, Vec<u8>)> {
     let root = bench.path(run);
     let mut files = files(&root.join("reports"));
@@ -58,7 +58,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// The stages of a run that it found.
+/// Stages that a run took from the cache.
 fn reused(bench: &Bench, run: &str) -> Vec<String> {
     let text = fs::read_to_string(bench.path(run).join("stages.json")).expect("there");
     let written: Value = serde_json::from_str(&text).expect("JSON");
@@ -72,7 +72,7 @@ fn reused(bench: &Bench, run: &str) -> Vec<String> {
         .collect()
 }
 
-/// The only entry of a stage in the cache in `cache`.
+/// The only entry of a stage in the cache `cache`.
 fn entry(cache: &Path, stage: &str) -> PathBuf {
     let entries = fs::read_dir(cache.join("2").join(stage)).expect("a folder");
     let mut entries: Vec<PathBuf> = entries
@@ -98,11 +98,11 @@ fn an_unchanged_run_finds_every_stage_and_gives_the_bytes_of_one_without_a_cache
         assert!(second.err.contains(&line), "{}", second.err);
     }
     let bare = written(&bench, "bare");
-    // Of reports three files, of the recording header, table, pack and reference.
+    // Three files of reports; header, table, pack and reference of the recording.
     assert_eq!(bare.len(), 7);
     assert_eq!(written(&bench, "first"), bare);
     assert_eq!(written(&bench, "second"), bare);
-    // Not even where others have kept everything.
+    // Even if other runs have cached everything.
     bench.ok("run small.toml --out again --no-cache -q");
     assert!(!bench.path("again/stages.json").exists());
 }
@@ -139,7 +139,7 @@ fn another_setting_of_the_model_alone_takes_its_features_from_the_cache_and_deco
     let bench = with_small();
     bench.ok("run small.toml --out first -q");
     let kept = files(&bench.path("user-cache/taceva/2/features"));
-    // Of the presses that are learnt from, and of those that are predicted.
+    // One entry for the training presses, one for the predicted ones.
     assert_eq!(kept.len(), 2);
     let with_strength = |name: &str, strength: &str| {
         let size = "size = \"8x8\"";
@@ -156,10 +156,10 @@ fn another_setting_of_the_model_alone_takes_its_features_from_the_cache_and_deco
     };
     let (found, bare) = with_strength("weak", "0.001");
     assert_eq!(found, bare);
-    // Others in their place are taken for those of the frames: nobody looks at a frame.
+    // Replaced features are used as they are, because no frame is read.
     for path in &kept {
         let bytes = fs::read(path).expect("kept");
-        // After the digest, height, width and depth; then the features.
+        // The digest is followed by height, width and depth, then the features.
         let mut others = bytes[72..84].to_vec();
         others.resize(bytes.len() - 72, 0);
         let digest = taceva_dataset::Digest::of(&others);
@@ -215,10 +215,10 @@ fn a_damaged_entry_is_removed_and_made_again() {
     for (number, (stage, file)) in damages.iter().enumerate() {
         for way in ["cut", "gone"] {
             let name = format!("{way}-{number}");
-            // An entry of the cache, or a file of the only run that is left.
+            // A cache entry, or a file of the only remaining run.
             let file = &bench.path(&last).join(file);
             let bytes = fs::read(file).expect("kept");
-            // A file that is linked is left as it is by those who remove it first.
+            // The file is removed first, because it may be linked to another one.
             fs::remove_file(file).expect("removed");
             if way == "cut" {
                 fs::write(file, &bytes[..bytes.len() / 2]).expect("cut");
@@ -247,13 +247,13 @@ fn a_recording_that_its_run_took_along_or_exchanged_is_pressed_again() {
     assert!(!gone.err.contains("made again"), "{}", gone.err);
     assert_eq!(reused(&bench, "second"), ["fit", "predict", "classify"]);
     assert_eq!(written(&bench, "second"), whole);
-    // Another recording, whole in itself, where the one that was noted lay.
+    // Another complete recording at the noted place.
     bench.ok("run small.toml --out second --force --seed 8 --cache kept -q");
     let exchanged = bench.run("run small.toml --out third --cache kept");
     assert!(exchanged.err.contains("made again"), "{}", exchanged.err);
     assert_eq!(reused(&bench, "third"), ["fit", "predict", "classify"]);
     assert_eq!(written(&bench, "third"), whole);
-    // The same file, not a second one.
+    // The same file, not a copy.
     #[cfg(unix)]
     {
         use std::os::unix::fs::MetadataExt;
@@ -273,7 +273,7 @@ fn an_entry_of_another_layout_and_a_half_written_one_are_never_read() {
     fs::rename(bench.path("kept/2"), bench.path("kept/1")).expect("moved");
     bench.ok("run small.toml --out second --cache kept -q");
     assert_eq!(reused(&bench, "second"), [""; 0]);
-    // What a run leaves that is stopped while it notes a recording.
+    // State left by a run that was stopped while it noted a recording.
     let recording = entry(&bench.path("kept"), "acquire");
     fs::rename(
         recording,

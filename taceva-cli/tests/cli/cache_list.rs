@@ -1,4 +1,4 @@
-//! `taceva cache list` and `prune`, on a cache that was laid out by hand.
+//! `taceva cache list` and `prune`, on a cache made by hand.
 
 use std::fs;
 use std::path::Path;
@@ -19,7 +19,7 @@ fn said(output: &Output) -> String {
     String::from_utf8_lossy(&all).into_owned()
 }
 
-/// Three entries of two kinds, one that a run names, and a file that is none of ours.
+/// Three entries of two kinds, one of them used by a run, and a foreign file.
 fn laid_out(cache: &Path) {
     for (layout, kind, number, bytes) in [
         ("2", "fit", 1, 1000),

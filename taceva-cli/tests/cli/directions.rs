@@ -1,4 +1,4 @@
-//! The direction of a metric stands beside its name in every kind of table, and in a field of what programs read.
+//! The direction of a metric is shown beside its name in every kind of table, and in a field of output for programs.
 
 use std::fs;
 
@@ -25,13 +25,13 @@ name = "grid"
 sensor = { driver = "sim/magictac:reduction=16" }
 "#;
 
-/// The sign that a name must be followed by; none of what is no metric, or only describes.
+/// Sign that must follow a name; `None` for descriptive metrics and for other names.
 fn sign(name: &str) -> Option<String> {
     let sign = Better::of(name)?.beside("");
     (!sign.is_empty()).then_some(sign)
 }
 
-/// Holds every line of `text` that begins with a metric to its sign, and counts them.
+/// Checks the sign in every line of `text` that begins with a metric. Returns the number of lines.
 fn lines(text: &str, whence: &str) -> usize {
     let mut found = 0;
     for line in text.lines() {
@@ -44,16 +44,16 @@ fn lines(text: &str, whence: &str) -> usize {
     found
 }
 
-/// The same of a table in Markdown, whose names are escaped.
+/// The same for a Markdown table, whose names are escaped.
 fn markdown(text: &str, whence: &str) -> usize {
     let plain = text.replace(['\\', '|'], " ");
     let plain: String = plain.replace(" _", "_");
     lines(&plain, whence)
 }
 
-/// The same of a table in LaTeX: each row that names something, but what only describes, has a sign.
+/// The same for a LaTeX table: each row with a name has a sign, unless it is descriptive.
 fn latex(text: &str, whence: &str) -> usize {
-    // Where metrics are columns, their heads have the signs.
+    // If metrics are columns, their heads have the signs.
     let heads = text.lines().take_while(|line| !line.contains("midrule"));
     let heads: String = heads.filter(|line| line.contains(" & ")).collect();
     let in_heads = heads.matches("arrow$").count();
@@ -61,7 +61,7 @@ fn latex(text: &str, whence: &str) -> usize {
         return in_heads;
     }
     let rows = text.lines().skip_while(|line| !line.contains("midrule"));
-    // Where a metric stands on a line of its own, the rows below it name channels.
+    // If a metric has its own line, the rows below it name channels.
     let headings = rows.clone().filter(|line| line.contains("\\multicolumn"));
     let headings: Vec<&str> = headings.collect();
     let names = rows.filter_map(|line| line.split_once(" & "));
@@ -74,8 +74,7 @@ fn latex(text: &str, whence: &str) -> usize {
     let mut found = 0;
     let describes = |name: &str| {
         let id = name.replace("\\_", "_");
-        // What a sensor stands at most is a property of it, and no metric.
-        // The symbol of the sensitivity, which only describes.
+        // The maximum load is a property of the sensor, and the symbol of the sensitivity is descriptive.
         let is_descriptive =
             id.starts_with("$S$") || sign(&id).is_none() && Better::of(&id).is_some();
         ["greatest", "size", "price", "availability"].contains(&id.as_str()) || is_descriptive
@@ -108,7 +107,7 @@ fn links(text: &str, whence: &str) -> usize {
     found
 }
 
-/// The column `better` of a table for programs says what the column `metric` is.
+/// The column `better` of a table for programs agrees with the column `metric`.
 fn csv(text: &str, whence: &str) -> usize {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let head = reader.headers().expect("a head").clone();
@@ -127,7 +126,7 @@ fn csv(text: &str, whence: &str) -> usize {
     found
 }
 
-/// A kind of table: how its signs are looked for, and how many there are.
+/// Kind of table: its format, and the function that checks and counts its signs.
 type Kind = (&'static str, fn(&str, &str) -> usize);
 const KINDS: [Kind; 4] = [
     ("text", lines),

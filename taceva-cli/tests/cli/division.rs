@@ -1,11 +1,11 @@
-//! Division of recordings whose neighbouring samples resemble each other, cross-validation, and pairing of tables, as a person meets them.
+//! Division of recordings with similar neighbouring samples, cross-validation, and pairing of tables, by the program.
 
 use std::fs;
 use std::path::Path;
 
 use crate::support::{Bench, SAMPLES};
 
-/// A stream of sixteen taxels at 50 Hz that know nothing of the force beside them.
+/// A stream of sixteen taxels at 50 Hz, unrelated to the force beside them.
 const STREAM: &str = "../crates/studies/evaluate/tests/data/division/tax.csv";
 
 const MAP: &str = r#"map_version = 2

@@ -1,4 +1,4 @@
-//! A dataset goes out in every form and comes in again, by the program alone.
+//! A dataset is exported in every form and imported again, by the program alone.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Rows are added to a dataset that was imported: what stays, what is refused, and what a model fitted before is scored on.
+//! Rows added to an imported dataset: unchanged rows, refusals, and the scores of an earlier model.
 
 use std::fs;
 
@@ -11,7 +11,7 @@ const IMPORT: &str = "import lab --map map.toml";
 fn halves() -> Bench {
     let bench = Bench::new();
     bench.lab();
-    // Rows do not keep the place that they came from, which differs between folders.
+    // Rows do not store their origin, which differs between folders.
     let map = fs::read_to_string(bench.path("map.toml")).expect("a map");
     bench.write("map.toml", &format!("{map}\n[origin]\n"));
     let labels = fs::read_to_string(bench.path("lab/labels.csv")).expect("drawn");
@@ -46,7 +46,7 @@ fn rows_join_a_dataset_whose_table_is_then_that_of_one_import() {
     let read = |name: &str| taceva_dataset::Dataset::open(&bench.path(name)).expect("a dataset");
     let (extended, whole) = (read("data"), read("whole"));
     assert_eq!(extended.table().digest(), whole.table().digest());
-    // Its parts are others: what a model was fitted on there is not what it would be here.
+    // The parts differ: a model would be fitted on other samples.
     assert_ne!(extended.digest(), whole.digest());
     extended.verify_frames().expect("whole");
     for row in [0, 41, 42, 59] {
@@ -112,7 +112,7 @@ fn no_row_changes_its_part_and_a_model_of_before_is_scored_on_what_it_has_not_se
             added += after.len() - before.len();
         }
         assert_eq!(added, 18);
-        // The model of before is scored on the test part of now: it holds nothing that was learnt from.
+        // The earlier model is scored on the new test part, which holds none of its training samples.
         let scored = bench.json(&format!("evaluate data --with {was}.model --metrics mae"));
         assert_eq!(scored["provenance"]["part"], "test");
         let notes = scored["provenance"]["notes"].to_string();
@@ -152,7 +152,7 @@ fn the_same_rows_and_rows_of_something_else_are_refused_and_change_nothing() {
         3,
         "42 of 42 rows are already in it",
     );
-    // And under other labels, as a second look at the same recording gives them.
+    // And under other labels, as in a second import of the same recording.
     let relabelled = format!(
         "{head}\n{}",
         rows.replace(",p", "e1,p").replace(",s", ",again")
@@ -253,7 +253,7 @@ fn a_column_that_another_map_reads_otherwise_is_refused_by_its_key() {
     }
     let after = fs::read(bench.path("data/dataset.toml")).expect("a header");
     assert_eq!(after, before);
-    // A table whose column has another name may well be in another unit.
+    // A column of another name may have another unit.
     let labels = fs::read_to_string(bench.path("second/labels.csv")).expect("drawn");
     let column = line.split('"').nth(1).expect("a column");
     bench.write(
@@ -289,7 +289,7 @@ fn what_is_exported_of_it_and_read_again_is_other_data_to_a_model_and_that_is_sa
     let read = |name: &str| taceva_dataset::Dataset::open(&bench.path(name)).expect("a dataset");
     let (extended, again) = (read("data"), read("again"));
     assert_eq!(again.table().digest(), extended.table().digest());
-    // Which rows were there first is not in an export, and decides the parts.
+    // An export does not store which rows came first, and that order decides the parts.
     assert_ne!(again.digest(), extended.digest());
     let scored = |name: &str| {
         bench.json(&format!("evaluate {name} --with m.model --metrics mae"))["provenance"].clone()

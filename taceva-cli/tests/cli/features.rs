@@ -1,11 +1,11 @@
-//! What a model sees is chosen by settings.
+//! Settings choose the input of a model.
 
 use std::fs;
 use std::path::PathBuf;
 
 use crate::support::Bench;
 
-/// A gel without markers, on which light moves little.
+/// A gel without markers, with little change of light.
 const PRESSED: &str = r#"
 scene_version = 1
 name = "press"
@@ -48,7 +48,7 @@ fn kinds_of_features_are_chosen_by_a_setting() {
         2,
         "expected pixels, markers, gradients, statistics, or several joined by +",
     );
-    // The recording is of a gel in gray, and nobody kept an untouched frame of it.
+    // The recording is gray and has no untouched frame.
     for kind in ["markers", "gradients"] {
         bench.refused(
             &format!("evaluate data --model ridge --set features={kind}"),
@@ -58,7 +58,7 @@ fn kinds_of_features_are_chosen_by_a_setting() {
     }
 }
 
-/// Features that were kept, in the order of their names.
+/// Cached features, sorted by name.
 fn kept(bench: &Bench) -> Vec<PathBuf> {
     let folder = bench.path("user-cache/taceva/2/features");
     let entries = fs::read_dir(folder).into_iter().flatten();
@@ -82,7 +82,7 @@ fn features_are_made_once_for_every_model_and_found_by_what_they_are_made_of() {
     assert!(kept(&bench).is_empty());
     evaluate("--model ridge");
     let of_ridge = kept(&bench);
-    // What is learnt from, and what is scored.
+    // Features of the training part and of the test part.
     assert_eq!(of_ridge.len(), 2);
     assert_eq!(evaluate("--model knn"), bare);
     assert_eq!(
@@ -93,10 +93,10 @@ fn features_are_made_once_for_every_model_and_found_by_what_they_are_made_of() {
     bench.ok("fit data --model pls --out pls.model");
     bench.ok("predict data --with pls.model --out predicted.csv");
     assert_eq!(kept(&bench), of_ridge);
-    // Others are others.
+    // Other settings give other features.
     evaluate("--model knn --set size=8");
     assert_eq!(kept(&bench).len(), 4);
-    // Altered ones are made again.
+    // Altered features are computed again.
     for path in of_ridge {
         let mut bytes = fs::read(&path).expect("kept");
         let last = bytes.len() - 1;
@@ -124,7 +124,7 @@ fn the_size_of_features_is_chosen_by_what_it_costs_and_the_model_says_how() {
     let chosen = note.trim_start_matches("features ").split(':').next();
     assert_eq!(chosen, settings["features"].as_str());
     assert!(note.contains("8×8 ") && note.contains("32×32 "), "{note}");
-    // Nothing to choose for a model that looks at nothing.
+    // A model that reads no frame has nothing to choose.
     bench.ok("evaluate data --model baseline --split by-point --set size=auto --metrics mae");
     bench.refused(
         "evaluate data --model ridge --set size=fine",
@@ -142,7 +142,7 @@ fn a_difference_is_tried_beside_the_picture_itself_and_taken_only_if_it_shows_mo
         let command = format!("evaluate run/recordings/1-wm --model ridge --metrics r2 {words}");
         bench.json(&command)
     };
-    // To a linear model what is constant is nothing.
+    // A linear model ignores constant features.
     let found = evaluate("--set difference=auto");
     let features = &found["provenance"]["model"]["settings"]["features"];
     assert_eq!(features, "32×32 gray");
@@ -156,7 +156,7 @@ fn a_difference_is_tried_beside_the_picture_itself_and_taken_only_if_it_shows_mo
         error("32×32 gray, difference from the reference"),
         "{notes}"
     );
-    // What was pressed here keeps its untouched gel, so slopes are seen too.
+    // A recording of the bench has an untouched frame, so gradients are available too.
     let found = evaluate("--set features=gradients");
     let features = &found["provenance"]["model"]["settings"]["features"];
     assert_eq!(features, "32×32 gray gradients");
@@ -180,7 +180,7 @@ fn features_that_no_model_can_be_fitted_to_are_told_beside_those_that_were_tried
     let bench = Bench::new();
     bench.record("data", 64);
     let mut command = bench.command("evaluate data --model ridge --set size=auto --metrics mae -q");
-    // A grid of 2×2 has 28 statistics, and thirty components are asked for.
+    // A grid of 2×2 has 28 statistics, fewer than the thirty requested components.
     let command = command.args(["--set", "features=statistics", "--set", "pca=30"]);
     let ran = command.args(["--split", "random 80/10/10"]).output();
     let ran = ran.expect("the program starts");

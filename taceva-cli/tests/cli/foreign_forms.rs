@@ -1,4 +1,4 @@
-//! Recordings of other people's libraries through the program: drafts of maps, clips, and what nothing at hand decodes.
+//! Recordings of external libraries through the program: drafts of maps, clips, and missing decoders.
 
 use std::path::{Path, PathBuf};
 
@@ -51,7 +51,7 @@ fn a_draft_is_refused_by_the_line_of_its_first_open_unit_and_imports_once_they_a
     bench.write("filled.toml", &filled.join("\n"));
     let done = bench.ok("import lab --map filled.toml --out data");
     assert!(done.contains("rows     24 read, 24 kept"), "{done}");
-    // Without `--out` it goes to standard output; what is there is not written over.
+    // Without `--out` the draft goes to standard output. An existing file is not overwritten.
     assert_eq!(bench.ok("import --draft lab"), text);
     bench.refused("import --draft lab --out draft.toml", 3, "exists already");
 }

@@ -1,4 +1,4 @@
-//! How the spacing of gratings is classified, as a scene says.
+//! Classification of the spacing of gratings, as a scene states it.
 
 use crate::support::Bench;
 use serde_json::Value;
@@ -42,7 +42,7 @@ fn gratings_are_classified_by_a_network_where_a_scene_says_so() {
         let notes = report["provenance"]["notes"].to_string();
         assert!(notes.contains(by), "{notes}");
     }
-    // The presses are the same, whatever classifies them.
+    // All classifiers have the same presses.
     let dataset = |report: &Value| report["provenance"]["dataset"].clone();
     assert_eq!(dataset(&reports[0]), dataset(&reports[1]));
 

@@ -1,4 +1,4 @@
-//! The guide to plugins, followed to the letter: every block of code in order, in an empty folder.
+//! The guide to plugins, followed literally: every block of code in order, in an empty folder.
 
 #![cfg(target_os = "linux")]
 
@@ -11,7 +11,7 @@ use taceva_needs::{Need, skip};
 
 const GUIDE: &str = include_str!("../../../plugins/README.md");
 
-/// A fenced block: what stands behind its fence, and its lines.
+/// A fenced block: its info string and its lines.
 struct Block<'a> {
     info: &'a str,
     text: String,
@@ -37,7 +37,7 @@ fn section(heading: &str) -> &'static str {
         .map_or(rest, |(section, _)| section)
 }
 
-/// Does what each block says; a `cd` lasts, as it does for whoever types along.
+/// Executes each block; a `cd` lasts for the following blocks.
 fn follow(heading: &str, folder: &Path) -> PathBuf {
     let mut here = folder.to_owned();
     let program = Path::new(env!("CARGO_BIN_EXE_taceva"));
@@ -74,13 +74,13 @@ fn follow(heading: &str, folder: &Path) -> PathBuf {
     here
 }
 
-/// Where the toolchain lies, for a user whose home is elsewhere.
+/// Folder of the toolchain, for a user with another home.
 fn rustup() -> PathBuf {
     let home = || PathBuf::from(env::var_os("HOME").unwrap_or_default()).join(".rustup");
     env::var_os("RUSTUP_HOME").map_or_else(home, PathBuf::from)
 }
 
-/// Whether the plugin `id` in `folder` opens in this process and in its child, as far as the program tells.
+/// True if the program lists the plugin `id` in `folder` as one that opens, in this process and in its child.
 fn is_listed(folder: &Path, id: &str) -> bool {
     let listed = Command::new(env!("CARGO_BIN_EXE_taceva"))
         .args(["plugin", "list", "--plugin-dir"])
@@ -97,7 +97,7 @@ fn a_plugin_in_rust_is_made_as_the_guide_says() {
     assert!(is_listed(&project, "org.example.my-scale"));
 }
 
-/// Whether there is such a compiler, which is what the test `need`s.
+/// True if the compiler that the test `need`s is installed.
 fn has(compiler: &str, need: Need) -> bool {
     let found = Command::new(compiler).arg("--version").output();
     if let Err(error) = &found {

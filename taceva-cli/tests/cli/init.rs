@@ -1,4 +1,4 @@
-//! Files that people write, begun by questions.
+//! Files to edit, started by questions.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ fn read(bench: &Bench, name: &str) -> String {
     fs::read_to_string(bench.path(name)).expect(name)
 }
 
-/// A lab's folder whose table says neither unit nor sensor.
+/// A lab's folder whose table states neither unit nor sensor.
 fn lab() -> Bench {
     let bench = Bench::new();
     bench.lab();
@@ -21,7 +21,7 @@ fn lab() -> Bench {
 #[test]
 fn a_recording_gets_a_map_by_questions_that_imports_and_evaluates() {
     let bench = lab();
-    // A unit that is none is asked for again.
+    // An invalid unit is asked for again.
     let ran = bench.answered(
         "init recording lab --out lab.toml",
         "mm\nnewton\nN\nmy gel\n",
@@ -134,7 +134,7 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
     bench.ok("init scene --yes --out scene.toml");
     let planned = bench.run("plan scene.toml --rig lab.toml");
     assert!(!planned.err.contains("lab.toml, line"), "{}", planned.err);
-    // No driver of a camera knows the gel before it: the plan says which line is missing.
+    // No driver of a camera knows the gel, so the plan names the missing line.
     assert_eq!(planned.code, 2, "{}", planned.err);
     let line = "write `footprint = { shape = \"disc\", radius_mm = … }`";
     assert!(planned.err.contains(line), "{}", planned.err);

@@ -43,11 +43,11 @@ fn predictions_that_are_scored_as_tables_give_what_evaluate_gives() {
     bench.ok("predict data --with model --out pred.csv --truth-out truth.csv");
     let mut evaluated = bench.json("evaluate data --with model");
     let mut scored = bench.json("score --truth truth.csv --pred pred.csv");
-    // Tables say neither what the model was taught nor where its bounds are.
+    // Tables contain neither the training labels nor the bounds of the model.
     for report in [&mut evaluated, &mut scored] {
         without_skill(report);
     }
-    // A recording also tells of its pictures and times; tables of positions and forces do not.
+    // A recording also has pictures and times; tables of positions and forces do not.
     scored["metrics"]["intrinsic"] = evaluated["metrics"]["intrinsic"].clone();
     assert_eq!(evaluated["metrics"], scored["metrics"]);
     assert!(evaluated["metrics"]["mae"]["Px"]["value"].is_number());
@@ -60,7 +60,7 @@ fn predictions_that_are_scored_as_tables_give_what_evaluate_gives() {
     assert_eq!(split["test"].as_array().map(Vec::len), Some(6));
 }
 
-/// Takes away what depends on the training part of a model.
+/// Removes values that depend on the training part of a model.
 fn without_skill(report: &mut Value) {
     let metrics = report["metrics"].as_object_mut().expect("an object");
     assert!(
@@ -104,7 +104,7 @@ fn an_evaluation_that_reads_no_frame_decodes_none() {
         plan.contains("decode   6 frames of the part `test`"),
         "{plan}"
     );
-    // Pictures that cannot be decoded do not matter to who does not look.
+    // Damaged pictures do not affect a model that reads none.
     std::fs::remove_dir_all(bench.path("data/frames")).expect("there");
     bench.ok("evaluate data --model baseline --split by-point");
     bench.refused("evaluate data --model ridge --split by-point", 3, "frames/");

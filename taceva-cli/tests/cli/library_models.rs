@@ -1,4 +1,4 @@
-//! A run fits models of libraries as it does ours.
+//! A run fits models of libraries like built-in ones.
 #![cfg(all(feature = "linfa", feature = "smartcore"))]
 
 use crate::support::Bench;

@@ -1,6 +1,6 @@
-//! The program `taceva`, run as a person would.
+//! The program `taceva`, run as by a user.
 //!
-//! Modules whose tests mostly wait, for emulated devices in real time or a cluster, stand below [`waiting`].
+//! Modules whose tests mostly wait, for emulated devices in real time or a cluster, are below [`waiting`].
 
 mod bench_models;
 mod cache;

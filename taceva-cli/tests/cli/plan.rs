@@ -1,4 +1,4 @@
-//! What a scene would do is said before anything is done, and what it cannot do is refused with its line.
+//! A plan describes a scene before anything is done, and refuses an impossible scene with its line.
 
 use crate::support::Bench;
 

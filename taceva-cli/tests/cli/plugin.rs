@@ -1,10 +1,10 @@
-//! Plugins as a person meets them: listed, looked at and planned with, while none of their code runs.
+//! Plugins listed, inspected and planned with; none of their code runs.
 
 use std::fs;
 
 use crate::support::Bench;
 
-/// A folder `plugins` with a lamp of one id a name; its library is no library, which nobody finds out.
+/// A folder `plugins` with a lamp for each name; its invalid library is never loaded.
 fn with_plugins(names: &[&str]) -> Bench {
     let bench = Bench::new();
     for name in names {
@@ -63,7 +63,7 @@ fn plugins_are_listed_with_what_they_provide_and_how_they_would_run() {
         .split_whitespace()
         .collect();
     assert_eq!(columns, ["id", "version", "runs-in", "found-by", "name"]);
-    // What is enforced was tried, by a child that loads nothing.
+    // The isolation was tested by a child that loads nothing.
     let isolation = plugins[0]["isolation"].as_str().expect("words");
     assert!(
         isolation.starts_with("in a process of its own, files and ports closed by Landlock"),
@@ -165,7 +165,7 @@ units = ["0"]
 fn a_scene_may_name_a_driver_of_a_plugin_beside_it() {
     let bench = with_plugins(&["a"]);
     bench.write("lamp.toml", SCENE);
-    // What it needs is not allowed, and the plan says how to allow it.
+    // The need of the plugin is not allowed, and the plan names the remedy.
     let planned = bench.run("plan lamp.toml");
     assert_eq!(planned.code, 1, "{}", planned.err);
     let line = "allow it: taceva plugin allow org.example.a usb --plugin-dir ";
@@ -207,7 +207,7 @@ fn settings_with_a_mistake_name_their_line() {
     let why =
         "runs in this process, unconfined: trusted by `trust_in_process` in the user's settings";
     assert!(ran.out.contains(why), "{}", ran.out);
-    // Beside a scene the settings trust nothing, and what is allowed is reached.
+    // Without that setting the plugin is confined, and reaches what is allowed.
     bench.write(
         "user-config/taceva/config.toml",
         "[plugins.allow]\n\"org.example.a\" = [\"usb\"]\n",

@@ -1,4 +1,4 @@
-//! `taceva plugin check` on a plugin in C: a good one passes, a wrong one fails the check that is about it.
+//! `taceva plugin check` on a plugin in C: a correct one passes, a faulty one fails the check of its fault.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::support::Bench;
 use taceva_needs::{Need, skip};
 
-/// A bench with the plugin in `plugins/fixture`, built with `macros`; `None`, with a word about it, where there is no compiler of C.
+/// A bench with the plugin in `plugins/fixture`, built with `macros`; `None`, with a message, without a C compiler.
 fn with_plugin(macros: &[&str]) -> Option<Bench> {
     let bench = Bench::new();
     let plugins = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plugins");

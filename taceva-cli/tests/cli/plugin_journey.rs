@@ -1,4 +1,4 @@
-//! A plugin from an empty folder to a report: begun, built without a network, checked, listed, and used.
+//! A plugin from an empty folder to a report: created, built without a network, checked, listed, and used.
 
 #![cfg(target_os = "linux")]
 
@@ -7,7 +7,7 @@ use std::fs;
 use crate::support::Bench;
 use serde_json::Value;
 
-/// The sensor over a simulated gel: it sees none of the presses, the forces are those of the gel.
+/// The sensor over a simulated gel: its pictures show no press, the forces are those of the gel.
 const EYE: &str = r#"scene_version = 1
 name = "eye"
 seed = 7
@@ -50,7 +50,7 @@ fn a_sensor_is_begun_built_checked_listed_and_measured() {
         "{gel}"
     );
     let metrics = &report["metrics"];
-    // Its pictures come a hundred times a second by its own clock, so they do on the bench.
+    // The camera sends 100 pictures a second by its own clock, on the bench too.
     let rate_hz = metrics["intrinsic"]["frame_rate"]["value"].as_f64();
     assert!((rate_hz.expect("a rate") - 100.0).abs() < 0.1, "{metrics}");
     for metric in ["mae", "sensitivity", "hysteresis"] {
@@ -62,7 +62,7 @@ fn a_sensor_is_begun_built_checked_listed_and_measured() {
     }
     assert!(bench.path("first/report.html").exists());
 
-    // Every byte again, as of any simulated rig; and another brightness is another picture.
+    // The same bytes again, as for any simulated rig. Another brightness gives another picture.
     let again = bench.json("run eye.toml --plugin-dir my-eye --out again");
     let dataset = |run: &Value| run["studies"][0]["provenance"]["dataset"].clone();
     assert_eq!(dataset(&run), dataset(&again));

@@ -1,4 +1,4 @@
-//! The estimator of a plugin: fitted, kept, asked and named in a scene, in its child process.
+//! The estimator of a plugin in its child process: fitted, stored, used, and named in a scene.
 
 #![cfg(target_os = "linux")]
 
@@ -10,7 +10,7 @@ use crate::support::Bench;
 
 const MODEL: &str = "org.example.nearest/nearest";
 
-/// A recording, and the template's estimator, built without a network.
+/// A recording, and the estimator of the template, built without a network.
 fn with_estimator() -> Bench {
     let bench = Bench::new();
     bench.record("set", 16);
@@ -18,7 +18,7 @@ fn with_estimator() -> Bench {
     bench
 }
 
-/// A study of the simulated bench whose model a plugin fits.
+/// A study of the simulated bench whose model is an estimator of a plugin.
 const SCENE: &str = r#"scene_version = 1
 name = "near"
 seed = 7
@@ -43,7 +43,7 @@ fn the_estimator_of_a_plugin_is_fitted_kept_asked_and_named_in_a_scene() {
     ));
     assert!(fitted.contains(MODEL), "{fitted}");
 
-    // Kept and loaded, it says what it said when it was fitted.
+    // A stored and loaded model gives the same predictions.
     let kept = bench.json(&format!("evaluate set --with near.model {with}"));
     let at_once = bench.json(&format!(
         "evaluate set --model {MODEL} --split by-point {set} {with}"
@@ -65,7 +65,7 @@ fn the_estimator_of_a_plugin_is_fitted_kept_asked_and_named_in_a_scene() {
         report["metrics"]["mae"]["Fz"]["value"].as_f64().is_some(),
         "{report}"
     );
-    // The finished model in the place of its name.
+    // The model file in place of the model name.
     let finished = SCENE.split("[model]").next().expect("text");
     bench.write(
         "finished.toml",
@@ -126,7 +126,7 @@ fn another_build_is_told_of_and_refused_where_the_manifest_demands_one() {
     let quiet = bench.run(&format!("evaluate set --with near.model {with}"));
     assert!(!quiet.err.contains("sha256"), "{}", quiet.err);
 
-    // Another build: what follows the last section is no part of what runs.
+    // Bytes after the last section make another build with the same code.
     let library = bench.path("nearest/target/release/libnearest.so");
     let mut file = fs::OpenOptions::new()
         .append(true)

@@ -1,4 +1,4 @@
-//! A plugin handed on: its manifest written from its library, packed into one file, and installed from that.
+//! Distribution of a plugin: its manifest from its library, packed into one file, and installed from it.
 
 #![cfg(target_os = "linux")]
 
@@ -12,7 +12,7 @@ const ID: &str = "org.example.my-scale";
 fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() {
     let bench = Bench::new();
     bench.ok("plugin new force my-scale");
-    // The driver changes and says what it needs; the manifest knows nothing of either yet.
+    // The driver changes and declares a need; the manifest lacks both.
     let source = bench.path("my-scale/src/force.rs");
     let text = fs::read_to_string(&source).expect("there");
     let faster = text.replace("Hertz(200.0)", "Hertz(250.0)");
@@ -28,12 +28,12 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     fs::write(&manifest, &noted).expect("written");
     bench.build_plugin("my-scale");
 
-    // It is not what its manifest says: neither packed nor installed.
+    // The library differs from its manifest, so it is neither packed nor installed.
     let refused = bench.run("plugin pack my-scale");
     assert_eq!(refused.code, 3, "{}", refused.err);
     assert!(refused.err.contains("rate_hz"), "{}", refused.err);
     assert!(!bench.path("org.example.my-scale-0.1.0.tar").exists());
-    // Printed, it says so by its exit code, and the file stays.
+    // Without `--write` the exit code reports the difference, and the file stays.
     let printed = bench.run("plugin manifest my-scale");
     assert_eq!(printed.code, 1, "{}", printed.err);
     assert!(
@@ -64,7 +64,7 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     );
     assert!(left.is_empty(), "{left:?}");
 
-    // A manifest that is not there is begun.
+    // A missing manifest is created.
     fs::rename(&manifest, bench.path("kept.toml")).expect("moved");
     bench.refused(
         "plugin manifest my-scale",
@@ -88,7 +88,7 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     bench.ok("plugin check org.example.my-scale --plugin-dir my-scale --only library/");
     fs::rename(bench.path("kept.toml"), &manifest).expect("moved back");
 
-    // Packed, and installed from the one file.
+    // Packed, and installed from the file.
     fs::write(bench.path("my-scale/LICENSE"), "as is").expect("written");
     let said = bench.ok("plugin pack my-scale");
     assert_eq!(
@@ -113,7 +113,7 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     let file = installed.join(ID).join("LICENSE");
     assert_eq!(fs::read_to_string(file).expect("there"), "as is");
 
-    // What was changed on the way is not installed, and what is there stays.
+    // A changed file is not installed, and the installed plugin stays.
     bench.refused("plugin install other.tar", 3, "`--force` replaces it");
     let mut damaged = bytes("other.tar");
     let place = damaged.len() - 4096;
@@ -130,14 +130,14 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     bench.ok("plugin check org.example.my-scale --only library/");
     bench.ok("plugin install other.tar --force");
 
-    // An installation that was cut off by a power cut is none: the plugin is there once.
+    // The remains of an interrupted installation are ignored: the plugin is listed once.
     let cut_off = installed.join(".taceva-staged-a1b2c3");
     fs::create_dir(&cut_off).expect("made");
     fs::copy(&manifest, cut_off.join("plugin.toml")).expect("copied");
     let listed = bench.ok("plugin list");
     assert!(listed.ends_with("1 plugin, 0 not used\n"), "{listed}");
 
-    // Removed, it is gone whole; what it may reach stays and is said.
+    // Removal deletes the whole plugin. Its granted access stays and is reported.
     bench.ok("plugin allow org.example.my-scale hid");
     let said = bench.ok("plugin uninstall org.example.my-scale");
     assert!(

@@ -1,4 +1,4 @@
-//! Names for a model with settings, and the model that is left open.
+//! Names for models with settings, and the model `auto`.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +27,7 @@ fn a_preset_is_fitted_and_reported_as_its_model_with_its_settings() {
     ] {
         assert_eq!(model["settings"][key], value, "{model}");
     }
-    // By its model and its settings the same comes out.
+    // The model with these settings gives the same result.
     let spelt = "--set size=up-to-80x60 --set color=auto --set difference=in-color --set appearance=auto --set jitter=0";
     let same = bench.json(&format!(
         "evaluate data --model cnn --split by-point {spelt} {short}"
@@ -63,7 +63,7 @@ fn a_preset_sees_no_more_cells_than_frames_have_pixels_where_its_model_would_ref
     bench.refused(&format!("evaluate data --model cnn {short}"), 3, "128×96");
 }
 
-/// Few presses of a gel whose lamps are coloured.
+/// A few presses of a gel with coloured lamps.
 const COLORED: &str = r#"
 scene_version = 1
 name = "colored"
@@ -102,7 +102,7 @@ fn a_preset_keeps_the_colours_of_frames_less_those_without_contact_and_their_lig
         said.ends_with(" rgb, difference from the reference\""),
         "{said}"
     );
-    // As a person would spell it, to the same scores.
+    // The same settings, written out, give the same scores.
     let size = said.trim_matches('"').split(' ').next().expect("a size");
     let spelt = format!(
         "--set size={} --set color=rgb --set difference=true --set appearance=light",
@@ -135,7 +135,7 @@ fn a_model_left_open_says_what_was_tried_and_what_a_network_would_have_taken() {
     );
 }
 
-/// What the small network sees by itself, in gray or in colour. All other models see 32×32 cells of it, of 4×3 pixels each, in gray.
+/// Input of the small network, in gray or in colour. All other models see 32×32 gray cells of it, of 4×3 pixels each.
 const fn closer(format: PixelFormat) -> FrameInfo {
     FrameInfo {
         width: 128,
@@ -144,8 +144,7 @@ const fn closer(format: PixelFormat) -> FrameInfo {
     }
 }
 
-/// The numbers of a pixel of gray, by whether its half is that of the label: striped, a pixel wide, so that the mean of every cell of four by three is the
-/// same with and without.
+/// Values of a gray pixel. The labelled half has stripes one pixel wide, so that every cell of 4×3 pixels has the same mean in both halves.
 fn striped(is_labelled: bool, x: u32) -> Vec<u32> {
     vec![match (is_labelled, x % 2) {
         (false, _) => 130,
@@ -154,7 +153,7 @@ fn striped(is_labelled: bool, x: u32) -> Vec<u32> {
     }]
 }
 
-/// The same in colour: more red and blue and less green, or less and more, of one and the same brightness.
+/// The same in colour: more red and blue and less green, or the reverse, at equal brightness.
 fn colored(is_labelled: bool, _: u32) -> Vec<u32> {
     match is_labelled {
         true => vec![130 + 34, 130 - 28, 130 + 55],
@@ -162,7 +161,7 @@ fn colored(is_labelled: bool, _: u32) -> Vec<u32> {
     }
 }
 
-/// A recording of pictures of which one half, that of the label, differs as `pixel` says.
+/// A recording of pictures whose labelled half differs as `pixel` states.
 fn record_halves(path: &Path, info: FrameInfo, pixel: fn(bool, u32) -> Vec<u32>) {
     let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
@@ -170,7 +169,7 @@ fn record_halves(path: &Path, info: FrameInfo, pixel: fn(bool, u32) -> Vec<u32>)
     let mut recorder =
         Recorder::create(path, &RecordingSpec::new(facts, channels)).expect("a new recording");
     for number in 0..60_u32 {
-        // Neither half follows the other in turn.
+        // The halves do not alternate.
         let is_right = number * 7 % 10 < 5;
         let mut bytes = Vec::new();
         for y in 0..info.height {
@@ -191,11 +190,12 @@ fn record_halves(path: &Path, info: FrameInfo, pixel: fn(bool, u32) -> Vec<u32>)
     recorder.close().expect("closed");
 }
 
-/// Fits `auto` and `default`, and checks that the one took the network of the other, which alone sees what differs.
+/// Fits `auto` and `default`, and checks that `auto` chose the network of `default`, the only model that sees the difference.
 fn assert_auto_takes_the_default(info: FrameInfo, pixel: fn(bool, u32) -> Vec<u32>, seen: &str) {
     let bench = Bench::new();
     record_halves(&bench.path("data"), info, pixel);
-    // 54 are learnt from, so that three folds of five are a batch. Both at once: each trains a network to its end.
+    // 54 training samples, so that three folds of five fill a batch. Both fits run at once, because each trains a
+    // network to its end.
     let fits = ["auto", "default"].map(|model| {
         let words = format!("fit data --model {model} --out {model}.model -q");
         let mut command = bench.command(&words);
@@ -217,12 +217,12 @@ fn assert_auto_takes_the_default(info: FrameInfo, pixel: fn(bool, u32) -> Vec<u3
         .expect("it says how it was chosen");
     assert_eq!(card.taken, "cnn", "{card}");
     assert_eq!(named.card().auto, None);
-    // What was taken is what its name gives, to the last bit.
+    // The chosen model equals the named one, to the last bit.
     assert_eq!(auto.card().model, named.card().model);
     assert_eq!(auto.card().features.to_string(), seen);
     assert_eq!(auto.card().features, named.card().features);
     assert_eq!(auto.regressor(), named.regressor());
-    // The others saw nothing: it was looked at closer while it was chosen too.
+    // The other models saw nothing, so the network had its own input during the choice too.
     let others = card.tried.iter().filter(|trial| trial.model != "cnn");
     let network = card.best().expect("tried");
     for other in others {

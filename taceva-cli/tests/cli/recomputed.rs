@@ -1,4 +1,4 @@
-//! Numbers of a run that its own files give again, and the unit and the models that it names.
+//! Numbers of a run that are recomputed from its files, and the unit and the models that it names.
 
 use std::fs;
 
@@ -60,7 +60,7 @@ fn shares_of_gratings_decoded_frames_and_the_unit_come_again_from_the_files_of_a
         let found = score["value"].as_f64().expect("a number");
         assert!((found - share).abs() < 1e-15, "{kind}: {found} for {share}");
     }
-    // Each picture once: those of gratings too, and none for a channel that no metric reads.
+    // Each picture once, with those of gratings, and none for a channel that no metric reads.
     let frames = &report["provenance"]["frames_decoded"];
     let seen = (0..samples.rows()).filter(|row| {
         let protocol = samples.word("protocol", *row).unwrap_or_default();
@@ -128,6 +128,6 @@ fn shares_of_predictions_beyond_the_bounds_come_again_from_the_table_of_samples(
         );
         greatest = greatest.max(again);
     }
-    // A share of none would come again from anything.
+    // A share of zero would prove nothing.
     assert!(greatest > 0.0, "{}", report["metrics"]);
 }

@@ -1,4 +1,4 @@
-//! What cannot be meant or read: an exit code, one line that says where, and nothing written.
+//! Invalid arguments and files: an exit code, one line with the place, and nothing written.
 
 use crate::support::{Bench, MAP, leftovers, of_format};
 
@@ -324,7 +324,7 @@ fn a_signal_ends_an_import_with_its_own_code_and_leaves_nothing() {
             .status();
         assert!(kill.is_ok(), "kill is there");
         let status = child.wait().expect("ended");
-        // Before the handler stands a signal ends the program as it always did; after the last frame it comes too late.
+        // Before the handler is set, a signal ends the program as by default. After the last frame it comes too late.
         assert!(
             matches!(status.code(), Some(0 | 5)) || status.signal() == Some(2),
             "{status}"

@@ -1,4 +1,4 @@
-//! Names in a wrong place are led to the right one.
+//! Hints for names in a wrong place.
 
 use crate::support::Bench;
 

@@ -1,4 +1,4 @@
-//! Pages, figures, tables, comparisons, choices and data sheets, as a person asks for them.
+//! Pages, figures, tables, comparisons, choices and data sheets, requested as by a user.
 
 mod accepted;
 mod compared;
@@ -26,7 +26,7 @@ fn names_that_begin_like_a_formula_are_words_in_tables_and_the_same_names_when_r
         .copied()
         .collect();
     names.sort_unstable();
-    // A number is one key with `.0` and without.
+    // A number is one key with and without `.0`.
     names.retain(|name| !name.ends_with(".0"));
     names.dedup();
     names.extend(["=1+1", "=cmd|' /C calc'!A0", "'=quoted", "plain"]);

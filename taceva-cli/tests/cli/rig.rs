@@ -1,4 +1,4 @@
-//! What there is to measure with, before anything is measured.
+//! Devices and rigs, before any measurement.
 
 use crate::support::Bench;
 

@@ -1,4 +1,4 @@
-//! A scene, end to end on the simulated bench: scores, and a folder that survives whatever ends the program.
+//! A scene, end to end on the simulated bench: scores, and a folder that survives any interruption.
 
 mod limits;
 mod overrides;
@@ -83,12 +83,12 @@ fn a_scene_gives_scores_of_every_part_and_says_that_nothing_was_measured() {
         let value = value.unwrap_or_else(|| panic!("{metric}: {}", metrics[metric]));
         assert!(value > 0.0 && value < greatest, "{metric}: {value}");
     }
-    // Pictures at rest come as fast as the camera gives them, so that their times say how fast that is.
+    // Pictures at rest come at the rate of the camera, so that their times show it.
     let rate = &metrics["intrinsic"]["frame_rate"];
     let rate_hz = rate["value"].as_f64().expect("a rate");
     assert!((rate_hz - 30.0).abs() < 0.1, "{rate}");
     assert_eq!(rate["n"], 6, "times count at rest alone: {rate}");
-    // Presses reach over the round field of view of 1257 mm² and not beyond.
+    // Presses cover the round field of view of 1257 mm² and no more.
     let view = &metrics["intrinsic"]["field_of_view"];
     let area_mm2 = view["value"].as_f64().expect("an area");
     assert!(area_mm2 > 100.0 && area_mm2 < 1257.0, "{view}");
@@ -147,7 +147,7 @@ sensor = { driver = "sim/magictac:reduction=16", units = ["0", "1"] }
     bench.ok("run two.toml --out a --jobs 1 -q");
     bench.ok("run two.toml --out b --jobs 3 -q");
     let alone = reports(&bench.path("a"));
-    // JSON, text and samples of each.
+    // JSON, text and samples of each study.
     assert_eq!(alone.len(), 6);
     assert_eq!(alone, reports(&bench.path("b")));
     let page = |run: &str| fs::read_to_string(bench.path(run).join("report.html")).expect("a page");

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-/// Fails unless `found` is what docs/schema/<name>.json says.
+/// Fails unless `found` matches `docs/schema/<name>.json`.
 pub(crate) fn check(name: &str, found: &Value) {
     let path = format!("{}/../docs/schema/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("the schema is there");
@@ -12,7 +12,7 @@ pub(crate) fn check(name: &str, found: &Value) {
     }
 }
 
-/// Keywords that are looked at, or that only describe.
+/// Keywords that are checked, or that only describe.
 const KNOWN: [&str; 15] = [
     "$schema",
     "$id",

@@ -1,4 +1,4 @@
-//! Files that were changed are refused by name and key until the edit is accepted, and reports show what was.
+//! Changed files are refused by name and key until the edit is accepted, and reports show the edit.
 
 use crate::support::{Bench, of_format};
 

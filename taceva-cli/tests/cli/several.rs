@@ -1,4 +1,4 @@
-//! Several recordings as one: what is refused, how they are divided, what intervals are by, and the scores of each beside those of all.
+//! Several recordings as one: refusals, division, clusters of intervals, and scores of each recording and of all.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 const FIVE: [&str; 5] = ["monday", "tuesday", "wednesday", "thursday", "friday"];
 
-/// Five recordings of one sensor, ten points each, called alike in all of them.
+/// Five recordings of one sensor, each with ten points of the same names.
 fn week() -> (Bench, String) {
     let bench = Bench::new();
     for (name, noise) in FIVE.into_iter().zip(0..) {
@@ -54,7 +54,7 @@ fn points_of_one_name_stay_apart_and_each_recording_is_divided_as_it_would_be_al
             .collect();
         assert_eq!(serde_json::json!(of_tuesday), one[part], "{part}");
     }
-    // Ten points called p0 to p9 in each: twenty, of which two are tested on.
+    // Ten points called p0 to p9 in each: twenty in all, two of them in the test part.
     let notes = notes(&both);
     assert!(
         notes.contains("2 contact points of 2 recordings"),
@@ -140,7 +140,7 @@ fn leaving_one_recording_out_tests_every_sample_by_a_model_that_has_not_seen_its
     crate::schema::check("evaluation", &report);
     assert_eq!(report["metrics"]["mae"]["Fz"]["n"], 300);
     assert_eq!(report["provenance"]["samples"]["test"], 300);
-    // The fold of friday alone, named by hand.
+    // The fold that tests friday, named by hand.
     let by_hand = bench.json(&format!(
         "evaluate {all} --model ridge --set size=8 --set strength=1 --metrics mae --split by-recording=train:monday,tuesday,wednesday,thursday;test:friday"
     ));
@@ -199,7 +199,7 @@ fn recordings_that_are_the_same_or_differ_in_what_they_are_of_are_refused_with_t
         assert!(text.contains(from), "{text}");
         fs::write(&header, text.replace(from, to)).expect("written");
         let resealed = bench.run(&format!("reseal {name} --reason other"));
-        // Units enter the digest of the table: such a header is refused before it is compared.
+        // Units are part of the digest of the table, so such a header is refused before the comparison.
         if resealed.code == 0 {
             bench.refused(
                 &evaluate(&format!("monday {name}")),

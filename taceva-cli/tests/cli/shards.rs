@@ -1,4 +1,4 @@
-//! What shards keep is joined to the scores of one run; tables with more columns give more scores.
+//! States of shards are merged to the scores of one run; tables with more columns give more scores.
 
 use crate::support::Bench;
 use serde_json::Value;

@@ -1,4 +1,4 @@
-//! What several metrics need is done once, and what none needs is not done.
+//! Work that several metrics need is done once, and unneeded work is skipped.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use crate::support::Bench;
 use serde_json::Value;
 use taceva_dataset::Dataset;
 
-/// Presses whose predictions are scored in many ways, and pictures of an idle gel that no metric asks for.
+/// Presses whose predictions are scored in many ways, and pictures of an idle gel that no metric reads.
 const SCENE: &str = r#"scene_version = 1
 name = "shared"
 seed = 7
@@ -36,7 +36,7 @@ fn one_training_serves_every_metric_and_only_what_a_metric_reads_is_predicted() 
     let provenance = &report["provenance"];
     let parts = provenance["samples"].as_object().expect("parts");
     let calibration: u64 = parts.values().filter_map(Value::as_u64).sum();
-    // Each picture of calibration once: to learn from, or to be predicted.
+    // Each picture of the calibration once: for training or for prediction.
     assert_eq!(provenance["frames_decoded"], calibration);
     let recording = Dataset::open(&bench.path("run/recordings/1-shared")).expect("recorded");
     let pictures = recording.table().frames().iter().flatten().count() as u64;

@@ -1,11 +1,11 @@
-//! A model without skill gets no verdict in its favour, anywhere; and robustness is of the sensor, not of the bounds of a model.
+//! A model without skill gets no verdict in its favour. Robustness is that of the sensor, not of the bounds of a model.
 
 use std::fs;
 
 use crate::support::Bench;
 use serde_json::Value;
 
-/// Evaluates `data` with `model`, on enough contact points for intervals, into `NAME.json`, and gives what it says.
+/// Evaluates `data` with `model`, on enough contact points for intervals, into `NAME.json`, and returns the result.
 fn evaluated(bench: &Bench, model: &str, seed: u32, name: &str) -> Value {
     let words = format!(
         "evaluate data --model {model} --seed {seed} --metrics all --format json --out {name}.json --samples-out {name}.samples.csv -q"
@@ -223,7 +223,7 @@ fn tables_without_a_training_part_are_measured_by_the_mean_of_truth_and_say_so()
     );
 }
 
-/// One sensor that lets light in, under several lights.
+/// One translucent sensor, under several lights.
 const LIGHT: &str = r#"scene_version = 1
 name = "light"
 seed = 7
@@ -247,7 +247,7 @@ fn robustness_to_light_is_of_predictions_beyond_the_bounds_and_says_how_many_tho
     let results: Value = serde_json::from_str(&text).expect("JSON");
     crate::schema::check("run", &results);
     let metrics = &results["studies"][0]["metrics"];
-    // Nobody asked for skill, and it is there: on the presses of the calibration.
+    // Skill is computed without a request, on the presses of the calibration.
     assert!(metrics["skill"]["Fz"]["value"].is_number(), "{metrics:#}");
     let light = &metrics["r_light"]["Fz"];
     let share = light["bounded_share"].as_f64().expect("a share");

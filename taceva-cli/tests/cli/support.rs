@@ -1,4 +1,4 @@
-//! A lab's folder, drawn; and the program, run as a person would.
+//! A drawn lab's folder, and the program, run as by a user.
 
 pub(crate) mod emulated;
 pub(crate) mod list;
@@ -19,11 +19,11 @@ pub(crate) const SAMPLES: u32 = 60;
 /// A temporary folder to work in.
 pub(crate) struct Bench {
     folder: TempDir,
-    /// Whether runs find what others have kept.
+    /// True if runs use a cache.
     has_cache: bool,
 }
 
-/// What the program did.
+/// Outcome of the program.
 pub(crate) struct Ran {
     pub(crate) code: i32,
     pub(crate) out: String,
@@ -38,7 +38,7 @@ impl Bench {
         }
     }
 
-    /// The same, in which runs find what others have kept. Elsewhere every run carries out all it says it does.
+    /// The same with a cache. Without one, every run executes all of its stages.
     pub(crate) fn with_cache() -> Bench {
         Bench {
             has_cache: true,
@@ -56,7 +56,7 @@ impl Bench {
         fs::write(path, text).expect("written");
     }
 
-    /// The program, to be started in this folder.
+    /// The program, ready to start in this folder.
     pub(crate) fn command(&self, words: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_taceva"));
         command
@@ -129,13 +129,13 @@ impl Bench {
         assert_eq!(ran.out, "", "taceva {words}");
     }
 
-    /// The line that `text` says allows what was refused, carried out by a shell as a person would paste it.
+    /// Runs the line in `text` that allows what was refused, in a shell, as if pasted by a user.
     pub(crate) fn paste(&self, text: &str) -> Ran {
         let (_, line) = text.rsplit_once("allow it: ").expect(text);
         self.shell(line.lines().next().expect("a line").trim())
     }
 
-    /// A command line, carried out by a shell in this folder as a person would type it.
+    /// Runs a command line in a shell in this folder.
     pub(crate) fn shell(&self, line: &str) -> Ran {
         let program = Path::new(env!("CARGO_BIN_EXE_taceva"));
         let mut path = program.parent().expect("a folder").as_os_str().to_owned();
@@ -158,7 +158,7 @@ impl Bench {
         }
     }
 
-    /// Begins a plugin called `name` that provides one `kind`, and builds it.
+    /// Creates a plugin called `name` with one `kind`, and builds it.
     pub(crate) fn make_plugin(&self, kind: &str, name: &str) {
         self.ok(&format!("plugin new {kind} {name}"));
         self.build_plugin(name);
@@ -189,7 +189,7 @@ impl Bench {
         assert!(built.status.success(), "{said}");
     }
 
-    /// A recording at `name` that was closed before its first sample.
+    /// A recording at `name` that was closed without a sample.
     pub(crate) fn record_nothing(&self, name: &str) {
         let recorder = Recorder::create(&self.path(name), &spec()).expect("a new recording");
         recorder.close().expect("closed");
@@ -200,7 +200,7 @@ impl Bench {
         self.record_with_noise(name, side, 0)
     }
 
-    /// The same with noise of its own, so that it shares no frame with those of another `noise` below 7.
+    /// The same with its own noise, so that it shares no frame with those of another `noise` below 7.
     pub(crate) fn record_with_noise(&self, name: &str, side: u32, noise: u32) -> PathBuf {
         let path = self.path(name);
         let mut recorder = Recorder::create(&path, &spec()).expect("a new recording");
@@ -243,7 +243,7 @@ impl Bench {
     }
 }
 
-/// What a drawn recording is of.
+/// Facts and channels of a drawn recording.
 fn spec() -> RecordingSpec {
     let sensor = SensorFacts::new("drawn")
         .with_serial("1")
@@ -282,13 +282,13 @@ gel = "unknown"
 opaque = true
 "#;
 
-/// Where the blob is, and how bright.
+/// Position and brightness of the blob.
 fn label(number: u32) -> (f64, f64) {
     let mixed = f64::from(number * 37 % SAMPLES) / f64::from(SAMPLES);
     (8.0 * (mixed - 0.5), 0.2 + f64::from(number % 6) * 0.3)
 }
 
-/// A blob at the place, as bright as the force.
+/// A blob at its position, as bright as the force.
 fn draw((number, noise): (u32, u32), side: u32) -> Frame {
     let (place, force) = label(number);
     let middle = f64::from(side) / 2.0 + place * f64::from(side) / 12.0;
@@ -318,7 +318,7 @@ fn draw((number, noise): (u32, u32), side: u32) -> Frame {
     .expect("whole")
 }
 
-/// Whether anything but what is named lies in the folder, such as a half-written file.
+/// Names in the folder other than `known`, such as those of partial files.
 pub(crate) fn leftovers(folder: &Path, known: &[&str]) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a folder");
     let names = entries.map(|entry| {
@@ -333,7 +333,7 @@ pub(crate) fn leftovers(folder: &Path, known: &[&str]) -> Vec<String> {
         .collect()
 }
 
-/// The header of a dataset as one of the format `version`; its seal is left as it was.
+/// The header of a dataset changed to the format `version`, with its old seal.
 pub(crate) fn of_format(header: &str, version: &str) -> String {
     let line = header.lines().find(|line| line.starts_with("format = "));
     let line = line.expect("a header states its format");

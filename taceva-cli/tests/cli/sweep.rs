@@ -1,4 +1,4 @@
-//! Sweeps: the same table however it is made, and what is refused.
+//! Sweeps: the same table by every way of running, and refusals.
 
 mod again;
 mod changed;
@@ -27,7 +27,7 @@ fn week() -> Bench {
     bench
 }
 
-/// Writes the file of a sweep of eight tasks, with what is `changed`.
+/// Writes the file of a sweep of eight tasks, with the replacements `changed`.
 fn small(bench: &Bench, changed: &[(&str, &str)]) {
     let mut text = SWEEP
         .replace("\"1-3\"", "[1]")
@@ -43,7 +43,7 @@ fn text(bench: &Bench, name: &str) -> String {
     fs::read_to_string(bench.path(name)).expect(name)
 }
 
-/// Files in `folder`, but for those that are being written.
+/// Number of files in `folder`, without partial ones.
 fn count(folder: &Path) -> usize {
     fs::read_dir(folder).map_or(0, |entries| {
         let names = entries.map(|entry| entry.expect("readable").file_name());

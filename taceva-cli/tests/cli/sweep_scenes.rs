@@ -11,7 +11,7 @@ use crate::support::Bench;
 use crate::support::snapshot::Snapshot;
 use crate::support::sweeps::{TINY, TINY_SWEEP as SWEEP};
 
-/// Where it is recorded.
+/// Folder of the recording of the scene.
 const RECORDING: &str = "which.sweep/scenes/tiny/recordings/1-tiny";
 
 /// The folder of the sweep, scored.
@@ -21,7 +21,7 @@ static SCORED: LazyLock<Snapshot> = LazyLock::new(|| {
     Snapshot::of(&bench.path("which.sweep"))
 });
 
-/// The scene and its sweep, not begun.
+/// The scene and its sweep, not started.
 fn tiny() -> Bench {
     let bench = Bench::new();
     bench.write("tiny.toml", TINY);
@@ -36,17 +36,17 @@ fn scored() -> Bench {
     bench
 }
 
-/// What the sweep in `folder` has ended in.
+/// Final bytes of the sweep in `folder`.
 fn bytes(bench: &Bench, folder: &str) -> Vec<Vec<u8>> {
     crate::support::sweeps::bytes(bench, folder)
 }
 
-/// What the sweep ends in, whatever happens to it.
+/// Final bytes of an uninterrupted sweep.
 fn reference() -> Vec<Vec<u8>> {
     bytes(&scored(), "which.sweep")
 }
 
-/// The claims that are held, or were.
+/// Number of claim files, held or left behind.
 fn claims(bench: &Bench) -> usize {
     let entries = fs::read_dir(bench.path("which.sweep/claims")).expect("claims");
     let names = entries.map(|entry| entry.expect("readable").file_name());
@@ -55,7 +55,7 @@ fn claims(bench: &Bench) -> usize {
         .count()
 }
 
-/// The header of the recording at `path`, which has the digest of all that was recorded.
+/// Header of the recording at `path`, with the digest of the whole recording.
 fn header(bench: &Bench, path: &str) -> String {
     fs::read_to_string(bench.path(path).join("dataset.toml")).expect("a recording")
 }

@@ -1,4 +1,4 @@
-//! Shards of tables: of any number, here and by a list, they end in the scores of one pass, byte for byte.
+//! Shards of tables, in any number, here and by a list, give the scores of one pass, byte for byte.
 
 mod drawn;
 mod joined;
@@ -23,7 +23,7 @@ fn one_pass(bench: &Bench, tables: &str) -> [String; 2] {
     ]
 }
 
-/// The same of so many shards, joined in the reverse of their order.
+/// The same from this many shards, merged in reverse order.
 fn joined(bench: &Bench, tables: &str, shards: u32) -> [String; 2] {
     let mut states = Vec::new();
     for number in 1..=shards {

@@ -26,7 +26,7 @@ gel = "unknown"
 opaque = true
 "#;
 
-/// Presses on four taxels: a force, and voltages in mV that follow it with a little noise; at first nothing is touched.
+/// Presses on four taxels: a force, and voltages in mV that follow it with a little noise. The first rows are untouched.
 fn table() -> String {
     let mut state = 7_u32;
     let mut draw = || {
@@ -99,10 +99,10 @@ fn taxels_are_imported_checked_fitted_and_evaluated() {
 #[path = "../../examples/draw_taxels.rs"]
 mod draw_taxels;
 
-/// The examples of sensors of taxels, as their README says.
+/// The examples of taxel sensors, as their README describes.
 #[test]
 fn the_drawn_examples_are_what_their_program_draws_and_are_evaluated() {
-    // A program of its own, of which the tables alone are needed here.
+    // A separate program; only its tables are needed here.
     let _: fn() -> std::process::ExitCode = draw_taxels::main;
     let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/taxels");
     for (name, drawn, least) in [

@@ -1,4 +1,4 @@
-//! Systems that start few threads or none, as the limits of containers do.
+//! Systems that start few threads or none, such as limited containers.
 
 use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt as _;
@@ -8,10 +8,10 @@ use std::process::{Command, Output};
 
 use crate::support::Bench;
 
-/// A user without processes: limits do not hold root.
+/// A user without processes, because limits do not apply to root.
 const NOBODY: u32 = 65_534;
 
-/// The program where everybody may start it.
+/// The program at a path from which every user may start it.
 fn program(bench: &Bench) -> PathBuf {
     let path = bench.path("taceva");
     fs::copy(env!("CARGO_BIN_EXE_taceva"), &path).expect("copied");
@@ -19,7 +19,7 @@ fn program(bench: &Bench) -> PathBuf {
     path
 }
 
-/// Runs `taceva WORDS` for a user who may have `processes`, threads included.
+/// Runs `taceva WORDS` as a user limited to `processes`, threads included.
 fn limited(bench: &Bench, words: &str, processes: u32) -> Output {
     let mut shell = Command::new("bash");
     shell

@@ -1,4 +1,4 @@
-//! A model that knows how sure it is says so, and evaluation says whether it is right.
+//! A model states its uncertainty, and the evaluation tests it.
 
 use std::fs;
 
@@ -25,7 +25,7 @@ fn a_gaussian_process_writes_its_deviations_and_evaluation_counts_what_lies_with
     let mut inside = 0;
     for ((found, truth), sure) in found.iter().zip(&truth).zip(&sure) {
         assert!(sure[0] > 0.0 && sure[1] > 0.0, "{sure:?}");
-        // Px and Fz come last.
+        // Px and Fz are last.
         let truth = truth[truth.len() - 2];
         inside += u8::from((found[0] - truth).abs() <= 1.959_964 * sure[0]);
     }

@@ -1,10 +1,10 @@
-//! A gripper from its folder to its scores: two pictures a row, of which a model takes one or both.
+//! A gripper from its folder to its scores: two pictures a row, of which a model uses one or both.
 
 use std::fs;
 
 use crate::support::{Bench, MAP, SAMPLES};
 
-/// The drawn lab, whose second finger sees every picture mirrored.
+/// The drawn lab with a second finger that sees every picture mirrored.
 fn gripper() -> Bench {
     let bench = Bench::new();
     bench.lab();
@@ -49,7 +49,7 @@ fn a_gripper_is_imported_checked_fitted_and_predicted_by_one_view_or_both() {
     bench.ok(&format!(
         "fit gripper {words} --view right --out right.model -q"
     ));
-    // The model says which finger it is of, and a prediction follows it.
+    // The model stores its finger, and a prediction uses it.
     bench.ok("predict gripper --with right.model --out followed.csv -q");
     bench.ok("predict gripper --with right.model --view right --out named.csv -q");
     let read = |name: &str| fs::read(bench.path(name)).expect("written");

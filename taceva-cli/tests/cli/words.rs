@@ -1,4 +1,4 @@
-//! What is printed: no name is obeyed by a terminal, nothing is lost without a word, and whoever errs reads what to type.
+//! Printed text: names do not control a terminal, nothing is lost without a message, and errors name the command to type.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -7,7 +7,7 @@ use crate::support::{Bench, MAP, leftovers};
 use taceva_core::is_obeyed;
 use taceva_needs::{Need, skip};
 
-/// Clears the screen, turns the direction of writing, and hides.
+/// Clears the screen, reverses the direction of text, and hides.
 const HOSTILE: &str = "gel\u{1b}[2J\u{9b}3m\u{202e}\u{2066}\u{200b}\u{61c}7";
 /// The same in TOML, where controls must be escaped.
 const HOSTILE_TOML: &str = "gel\\u001b[2J\\u009b3m\u{202e}\u{2066}\u{200b}\u{61c}7";
@@ -328,7 +328,7 @@ fn a_column_that_judges_rows_and_is_not_mentioned_is_said_at_import() {
         said.contains("warning  unmentioned-quality: `quality_flags`"),
         "{said}"
     );
-    // The dataset remembers it, for whoever has not seen the import.
+    // The dataset stores the warning for those who did not see the import.
     let said = bench.ok("check data --only TAC014 -q");
     let line = r#"`[drop] column = "quality_flags", quality_flags = ["…"]`"#;
     assert!(
@@ -338,7 +338,7 @@ fn a_column_that_judges_rows_and_is_not_mentioned_is_said_at_import() {
     );
     let note = "note     TAC014 unmentioned-columns: columns of the table that no key of the map names: note\n";
     assert!(said.contains(note), "{said}");
-    // Named where the hint says, the rows that are bad are left out and nothing is left to say of them.
+    // With the map entry of the hint, bad rows are left out and the note disappears.
     let map = fs::read_to_string(bench.path("map.toml")).expect("there");
     assert!(!map.contains("[drop]"), "{map}");
     bench.write(

@@ -34,7 +34,7 @@ pub struct SignalFacts {
 /// Statistics of one taxel.
 ///
 /// # Units
-/// That of the signals.
+/// The unit of the signals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TaxelFacts {
     /// The least value, and its count.

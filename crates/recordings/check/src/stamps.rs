@@ -36,7 +36,7 @@ impl Stream {
         }
         let table = evidence.table;
         let times = table.t_s();
-        // Every row of a board is a press of its own, whatever the name of its point.
+        // Every row of a grating is its own press, whatever the name of its point.
         let is_press = |row: usize| table.kind()[row].is_some();
         let steps: Vec<Step> = by_clock(table, 0..table.rows())
             .into_iter()

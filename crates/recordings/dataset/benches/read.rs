@@ -1,4 +1,4 @@
-//! How fast frames are decoded: `cargo bench -p taceva-dataset`.
+//! Benchmark of frame decoding: `cargo bench -p taceva-dataset`.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! Decodes every frame of a dataset and says how long that took: `decode DATASET [JOBS]`.
+//! Decodes every frame of a dataset and prints the time taken: `decode DATASET [JOBS]`.
 #![expect(clippy::print_stdout, reason = "an example talks to a person")]
 
 use std::error::Error;

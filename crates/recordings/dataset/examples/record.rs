@@ -1,9 +1,9 @@
-//! Records made-up samples: `record FOLDER COUNT`. Prints `ACK n` once sample `n` is durable.
+//! Records synthetic samples: `record FOLDER COUNT`. Prints `ACK n` once sample `n` is durable.
 //!
-//! Killed or cut off at any moment, it goes on where it stopped when run again.
+//! The process may be killed at any moment; the next run continues the recording.
 #![expect(
     clippy::print_stdout,
-    reason = "whoever kills it reads what was acknowledged"
+    reason = "the parent process reads the acknowledgements"
 )]
 
 use std::error::Error;

@@ -1,9 +1,9 @@
-//! What recording a stream costs beside writing and hashing the same bytes: `stream_cost RECORDING FOLDER [ROUNDS]`.
+//! Compares the cost of recording a stream with writing and hashing the same bytes: `stream_cost RECORDING FOLDER [ROUNDS]`.
 //!
-//! RECORDING is what `taceva capture` made of a camera that sends files; FOLDER is a new one on the disk that is measured. The frames are
-//! recorded anew, 8 at once as a capture does and as fast as it goes, and closed. Beside that the same bytes are written to one file and hashed
-//! frame by frame, once made durable after every 8 frames and once at the end alone. Decoding is not counted: a capture does it while the
-//! camera exposes the next frame. The shortest time of ROUNDS rounds counts, 3 by default.
+//! RECORDING was made by `taceva capture` from a camera that sends files; FOLDER is a new folder on the measured disk. The frames are recorded
+//! again as by a capture, 8 at a time and without pauses. For comparison the same bytes are written to one file and hashed frame by frame: synced
+//! after every 8 frames, and synced only at the end. Decoding is not timed, because a capture decodes while the camera exposes the next frame.
+//! The shortest time of ROUNDS rounds is printed, by default of 3.
 #![expect(clippy::print_stdout, reason = "an example talks to a person")]
 
 use std::error::Error;
@@ -18,17 +18,17 @@ use taceva_dataset::{
     Streamed,
 };
 
-/// Frames that are made durable at once, as in a capture.
+/// Number of frames synced at once, as in a capture.
 const TOGETHER: usize = 8;
 
-/// How long a recording takes.
+/// Time taken by a recording.
 #[derive(Debug)]
 struct Recorded {
-    /// To look whether each file is whole to its last code.
+    /// Time to check that each file is complete.
     checked: Duration,
-    /// To append all of them.
+    /// Time to append all frames.
     appended: Duration,
-    /// To begin and to close.
+    /// Time to create and close the recording.
     around: Duration,
 }
 
@@ -38,7 +38,7 @@ impl Recorded {
     }
 }
 
-/// The least time of each way.
+/// Shortest time of each method.
 #[derive(Debug)]
 struct Least {
     recorded: Recorded,
@@ -97,9 +97,9 @@ fn print(least: &Least, frames: usize, bytes: usize) {
         ("written and hashed, durable every 8 frames", least.durable),
         ("written and hashed, durable at the end", least.buffered),
         ("recorded and closed", recorded.sum()),
-        ("of it, looking whether files are whole", recorded.checked),
-        ("of it, appending", recorded.appended),
-        ("of it, beginning and closing", recorded.around),
+        ("of which checking files", recorded.checked),
+        ("of which appending", recorded.appended),
+        ("of which creating and closing", recorded.around),
     ] {
         println!(
             "| {what} | {:.3} | {:.2} |",
@@ -109,13 +109,13 @@ fn print(least: &Least, frames: usize, bytes: usize) {
     }
 }
 
-/// The file that row `row` was sent as.
+/// Original file of the frame of a row.
 fn sent(dataset: &Dataset, row: usize) -> Result<Vec<u8>, Box<dyn Error>> {
     let entry = dataset.table().frames()[row].as_ref();
     Ok(dataset.frame_bytes(entry.ok_or("a sample without a frame")?)?)
 }
 
-/// Records the frames of `dataset` anew, as a capture does, and closes that.
+/// Records the frames of `dataset` again, as a capture does, and closes the recording.
 fn recorded(dataset: &Dataset, place: &Path) -> Result<Recorded, Box<dyn Error>> {
     let sensor = SensorFacts::new("a camera")
         .with_serial("1")
@@ -156,7 +156,7 @@ fn recorded(dataset: &Dataset, place: &Path) -> Result<Recorded, Box<dyn Error>>
     })
 }
 
-/// How long it takes to write and hash the same bytes, made durable after so many frames each time, and how many bytes they are.
+/// Writes and hashes the same bytes, synced after every `together` frames. Returns the time and the number of bytes.
 fn written(
     dataset: &Dataset,
     place: &Path,

@@ -7,7 +7,7 @@ use crate::layout;
 use crate::shell::shell_word;
 use crate::text::{first_names, shown_path};
 
-/// The file of the plans of a run, by which its folder is recognised, and the folder of its recordings.
+/// Names in the folder of a run: the file of its plans, which identifies it, and the folder of its recordings.
 const RUN: [&str; 2] = ["plans.json", "recordings"];
 /// Maximum names listed; the others are counted.
 const LISTED: usize = 8;

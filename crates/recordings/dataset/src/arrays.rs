@@ -144,7 +144,7 @@ impl Dataset {
             |_, frame| frame,
             |_, frame| match pixels.push(&frame) {
                 true => Ok(()),
-                // The reader has compared both already.
+                // Unreachable: the reader already compared size and format.
                 false => Err(format!("a frame of {}", frame.info()).into()),
             },
         )?;
@@ -154,12 +154,12 @@ impl Dataset {
 
 /// Height, width and channels.
 fn shape(info: FrameInfo) -> [usize; 3] {
-    // A frame of that size is in memory.
+    // Cannot overflow: a frame of that size is in memory.
     let [height, width] = [info.height, info.width].map(|side| side as usize);
     [height, width, info.format.samples()]
 }
 
-/// `values` in their order.
+/// Array of this shape with `values` in order; empty if their number does not fit.
 fn of_len<T: Clone + Default>(shape: [usize; 3], values: Vec<T>) -> Array3<T> {
     Array3::from_shape_vec(shape, values).unwrap_or_default()
 }
@@ -198,7 +198,7 @@ impl Pixels {
     fn finish(self) -> FrameArrays {
         let [height, width, channels] = shape(self.info);
         let shape = [self.frames, height, width, channels];
-        // As many numbers as frames of that size have.
+        // The length fits the shape, because every added frame has this size.
         match self.info.format.bytes_per_sample() {
             1 => FrameArrays::U8(Array4::from_shape_vec(shape, self.bytes).unwrap_or_default()),
             _ => FrameArrays::U16(Array4::from_shape_vec(shape, self.words).unwrap_or_default()),

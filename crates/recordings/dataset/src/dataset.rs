@@ -63,7 +63,7 @@ pub struct Dataset {
     signals: Mutex<Option<Arc<SignalsReader>>>,
     /// The joined recordings, in the order of their rows; empty for a single recording.
     joined: Vec<JoinedRecording>,
-    /// Indices of the views that its frames are from; empty if a row has one picture, or no view was chosen.
+    /// Indices of the chosen views; empty if a row has one picture or no view was chosen.
     seen: Vec<usize>,
 }
 

@@ -89,7 +89,7 @@ impl ImageKind {
         }
     }
 
-    /// True if `extension` is one of files of this kind.
+    /// True if `extension` is usual for files of this kind.
     pub fn has_extension(self, extension: &str) -> bool {
         let known: &[&str] = match self {
             ImageKind::Png => &["png"],

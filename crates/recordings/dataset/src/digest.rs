@@ -35,7 +35,7 @@ impl Digest {
     /// The digest of the rest of `reader`.
     ///
     /// # Errors
-    /// Those of reading.
+    /// Errors of `reader`.
     pub fn of_reader(reader: &mut impl Read) -> io::Result<Digest> {
         let mut hasher = Sha256::new();
         let mut buffer = vec![0; 1 << 16];

@@ -91,7 +91,7 @@ pub(crate) fn refuse_link(path: &Path) -> Result<(), DatasetError> {
         false => Ok(()),
         true => Err(DatasetError::damaged(
             path,
-            "a symbolic link, expected what the recorder made: put that in place of the link, or remove a link that is not yours".to_owned(),
+            "a symbolic link, expected a file or folder of the recorder: replace the link by its target, or remove a foreign link".to_owned(),
         )),
     }
 }

@@ -82,7 +82,7 @@ impl HeldFolder {
         })
     }
 
-    /// The path that it was opened by.
+    /// Path under which the folder was opened.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Adds `count` to the count beside the recording at `path`.
 ///
 /// # Errors
-/// Those of the file system.
+/// Errors of the file system.
 pub fn add_frame_retries(path: &Path, count: u64) -> io::Result<()> {
     if count == 0 {
         return Ok(());

@@ -147,11 +147,11 @@ pub struct Header {
     pub predictions: Option<LivePredictions>,
     /// Properties of the taxels, and the digests of their file; `None` if there are no taxels.
     pub signals: Option<SignalsInfo>,
-    /// The states of the recording before each addition of rows, the first first; empty if none were added.
+    /// The states of the recording before each addition of rows, oldest first; empty if none were added.
     pub extended: Vec<Extension>,
     /// The list of files that an import read; `None` of a recording.
     pub sources: Option<SourcesInfo>,
-    /// What `samples.parquet` must be: its number of rows and its digests.
+    /// Number of rows and digests of `samples.parquet`.
     pub table: TableInfo,
     /// The digest of the dataset: of its table, its frames and its signals.
     pub digest: Digest,

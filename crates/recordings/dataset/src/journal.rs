@@ -256,7 +256,7 @@ fn header_at(bytes: &[u8], at: usize) -> Option<([u8; HEADER], usize)> {
     holds.then_some((found, length as usize))
 }
 
-/// True if there is the header of a record anywhere from `from` on: then the bytes before it are no torn tail.
+/// True if a record header exists anywhere from `from`: the bytes before it are then no torn tail.
 fn has_record_behind(bytes: &[u8], from: usize) -> bool {
     (from..bytes.len()).any(|at| {
         // Cheap tests first: the check is a SHA-256.

@@ -10,7 +10,7 @@ pub const SOURCES: &str = "sources.sha256";
 pub const FRAMES: &str = "frames";
 pub const JOURNAL: &str = "journal";
 
-/// Every name that stands in the folder of a dataset or of a recording.
+/// All names in the folder of a dataset or a recording.
 pub const ALL: [&str; 7] = [
     HEADER,
     SAMPLES,

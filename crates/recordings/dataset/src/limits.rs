@@ -2,9 +2,9 @@
 
 /// Maximum map, header or other TOML file, bytes.
 pub const TOML_BYTES: u64 = 1 << 20;
-/// The list of files that an import read.
+/// Maximum list of the files that an import read, bytes.
 pub const SOURCES_BYTES: u64 = 256 << 20;
-/// A table as text; cells are found by 32-bit offsets.
+/// Maximum table as text, bytes; cells are found by 32-bit offsets.
 pub const TABLE_BYTES: u64 = u32::MAX as u64 - 1;
 /// Maximum columns of a table.
 pub const TABLE_COLUMNS: usize = 4_096;

@@ -205,7 +205,7 @@ impl Recorder {
         {
             return Err(DatasetError::request(
                 path,
-                "the recording that was begun there has another sensor, clock, set of channels or taxels, or reduction of frames",
+                "the existing recording has another sensor, clock, set of channels or taxels, or reduction of frames",
             ));
         }
         Ok(recorder)

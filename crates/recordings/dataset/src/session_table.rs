@@ -91,7 +91,7 @@ impl SessionTable {
     /// Adds a session; durable on return.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn add(&mut self, session: Session) -> io::Result<()> {
         self.rows.push(session);
         taceva_files::replace(&self.path, |staged| {

@@ -44,7 +44,7 @@ pub struct Beside {
     pub sources: Option<SourcesInfo>,
     /// The states of the recording before each addition of rows.
     pub extended: Vec<Extension>,
-    /// Edits of its header that were accepted before that.
+    /// Edits of the header that were accepted before rows were added.
     pub history: Vec<Edit>,
 }
 

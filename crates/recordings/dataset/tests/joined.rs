@@ -1,4 +1,4 @@
-//! Several recordings read as one: which row is of which, and that frames and signals are those of the recordings.
+//! Several recordings read as one: assignment of rows, frames and signals.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ fn record(folder: &Path, name: &str, first: u8, clock: Clock) -> PathBuf {
     record_with(folder, name, (first, 0.0), clock)
 }
 
-/// The same with labels that are so much larger.
+/// The same with labels larger by `more`.
 fn record_with(folder: &Path, name: &str, (first, more): (u8, f64), clock: Clock) -> PathBuf {
     let path = folder.join(name);
     let facts = RecordingFacts::new(Source::Synthetic, clock, SensorFacts::new("drawn"));
@@ -169,6 +169,6 @@ fn recordings_that_share_pictures_under_other_labels_are_two_imports_of_one_and_
         error.contains("sample `12` of the first is sample `12` of the second, the same picture with other labels"),
         "{error}"
     );
-    // A dark picture or two may be the same anywhere.
+    // One or two dark pictures may be equal by chance.
     joined("beside", 11).expect("two pictures");
 }

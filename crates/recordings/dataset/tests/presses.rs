@@ -1,4 +1,4 @@
-//! A press is recorded as a whole: after any interruption all of its samples are there or none.
+//! A press is recorded as a whole: an interruption keeps all of its samples or none.
 
 use std::fs;
 use std::path::Path;
@@ -116,7 +116,7 @@ fn a_press_that_a_limit_ended_is_counted_by_its_limit_though_it_has_no_sample() 
     recorder
         .append_press("c", ended, &samples)
         .expect("recorded");
-    // What an interruption leaves is the journal alone.
+    // An interruption leaves only the journal.
     drop(recorder);
     let header = Recorder::resume(&path).expect("resumes").close();
     let counts = [

@@ -1,4 +1,4 @@
-//! Signals of taxels beside the table of labels: recorded, resumed, read when asked for, and noticed when damaged.
+//! Signals of taxels beside the table of labels: recorded, resumed, read on request, and verified.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -49,7 +49,7 @@ fn recorded(path: &Path, rows: u16) -> Header {
     recorder.close().expect("closed")
 }
 
-/// Keeps what it is given of the fields it asks for.
+/// Sink that requests these fields and stores the signals.
 struct Keep(FieldSet, Vec<Option<Signals>>);
 
 impl SampleSink for Keep {
@@ -155,7 +155,7 @@ fn a_header_that_says_something_else_of_the_taxels_is_refused() {
         assert_ne!(text, edited, "{from} is not in {text}");
         fs::write(&header, edited).expect("written");
         assert!(Dataset::open(&path).is_err(), "{from} → {to}");
-        // And by whoever accepts the edit, by the digest of what the file says.
+        // Also after the edit is accepted, by the digest of the content.
         let text = fs::read_to_string(&header).expect("there");
         let sealed =
             taceva_files::seal::toml_text::reseal(&text, "2026-01-01", "a test").expect("sealed");

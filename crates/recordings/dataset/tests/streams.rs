@@ -1,4 +1,4 @@
-//! A stream is recorded some frames at a time: what a camera sent stays as it was, and what was lost of it is counted in the header.
+//! A stream is recorded some frames at a time: files of a camera are stored unchanged, and lost frames are counted in the header.
 
 use std::fs;
 use std::path::Path;

@@ -26,8 +26,8 @@ use crate::error::{ImportError, table_error};
 
 /// A CSV file with a header, in memory.
 ///
-/// The separator, a comma, a semicolon or a tab, is that of the header; a byte order mark, CRLF, blank lines and quoted cells are
-/// understood. A decimal text becomes the nearest binary64, an empty cell is an absent value.
+/// The separator (comma, semicolon or tab) is detected in the header. A byte order mark, CRLF, blank lines and quoted cells are accepted. A
+/// decimal text becomes the nearest binary64; an empty cell is an absent value.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -50,9 +50,9 @@ pub struct CsvTable {
     lines: Option<Vec<u64>>,
     /// Cache of the lines counted in the text, filled on the first request.
     counted: OnceLock<Vec<u64>>,
-    /// Lines of the text that are missing in the file: the column names of a headerless file.
+    /// Number of lines in the text but not in the file: the column names of a headerless file.
     added_lines: u64,
-    /// Lines of the file that are missing in the text: the rows before a part.
+    /// Number of lines in the file but not in the text: the rows before a part.
     left_out_lines: u64,
 }
 
@@ -112,7 +112,7 @@ impl CsvTable {
         Ok(table)
     }
 
-    /// The file it was read from.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -252,7 +252,7 @@ impl CsvTable {
             let mut sorted: Vec<&String> = self.names.iter().collect();
             sorted.sort_unstable();
             match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-                Some(pair) => format!("the column `{}` comes twice", shown(pair[0])),
+                Some(pair) => format!("the column `{}` occurs twice", shown(pair[0])),
                 None => return Ok(()),
             }
         };

@@ -42,7 +42,7 @@ impl MapDraft {
     /// Examines the files in `folder`: names, headers, 200 rows of each kind of table, the first picture of each array.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] if the folder cannot be read, or nothing in it is a table or a picture.
+    /// [`ImportError::Dataset`] if the folder cannot be read, or contains neither a table nor a picture.
     pub fn of(folder: &Path) -> Result<MapDraft, ImportError> {
         let source = SourceFolder::open(folder)?;
         let groups = survey::groups(&source)?;
@@ -150,7 +150,7 @@ fn is_empty(map: &str) -> bool {
     })
 }
 
-/// Preset for the layout of the folder, if its map fits: the folder holds the files and columns that it names.
+/// Preset for the layout of the folder, if the folder has the files and columns of its map.
 fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
     let preset = Preset::recognised(folder)?;
     let fits = match preset.is_drafted() {

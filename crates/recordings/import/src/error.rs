@@ -167,7 +167,7 @@ impl ImportError {
     }
 }
 
-/// `error` below the place that names its path or image, with the file of both only once.
+/// Message of `error` after the place that names its path or image. A file that both name appears once.
 fn named(place: &Place, error: &DatasetError) -> String {
     match error {
         DatasetError::Image { path, problem } if *path == place.path => {

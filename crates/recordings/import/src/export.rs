@@ -188,7 +188,7 @@ impl<'a> ExportPlan<'a> {
 /// `frame` is relative to the folder of the dataset.
 ///
 /// # Errors
-/// Those of `writer`.
+/// Errors of `writer`.
 pub fn export_csv(dataset: &Dataset, writer: impl Write) -> io::Result<()> {
     let table = dataset.table();
     let columns = table.columns();

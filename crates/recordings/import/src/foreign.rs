@@ -68,7 +68,7 @@ impl ForeignTable {
         ForeignTable::read_by(path, form, &Decoders::default())
     }
 
-    /// Reads the table at `path`, the times of a clip by `decoders`.
+    /// Reads the table at `path`; `decoders` read the times of a clip.
     pub(crate) fn read_by(
         path: &Path,
         form: &TableForm,
@@ -174,8 +174,8 @@ impl ForeignTable {
         }
     }
 
-    /// Names that may contain the unit of `name`, a number in the column `base`: the element's own name, then that of the column. For the
-    /// column `value` that is the name of the file.
+    /// Names that may contain the unit of `name`, a number in the column `base`: the element's own name, then the column name. For the column
+    /// `value` the name of the file is used.
     pub(crate) fn names_with_units(&self, name: &str, base: &str) -> Vec<String> {
         let at = name.strip_prefix(base).unwrap_or_default();
         let at: Option<usize> = at.trim_matches(['[', ']']).parse().ok();

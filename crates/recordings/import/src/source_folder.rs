@@ -16,7 +16,7 @@ pub(crate) struct SourceFolder {
     given: PathBuf,
     /// Path without links, for comparison.
     canonical: PathBuf,
-    /// Paths requested through any copy.
+    /// Paths requested through any clone of this folder.
     named: Arc<Mutex<BTreeSet<PathBuf>>>,
 }
 

@@ -1,4 +1,4 @@
-//! Digests of the files of a lab's folder, as `sha256sum` writes them, and what differs from them.
+//! Digests of the files of a lab's folder in the form of `sha256sum`, and differences from them.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -12,10 +12,10 @@ use taceva_dataset::{Dataset, DatasetError, Digest};
 use crate::error::{ImportError, table_error};
 use crate::source_folder::{SourceFolder, files_below};
 
-/// Differences that a message names.
+/// Limit of differences named in a message.
 const NAMED: usize = 8;
 
-/// Digests of files by their names within a folder: of one folder, or of each from which rows came.
+/// Digests of files by name: of one folder, or of several from which rows were added.
 ///
 /// ```
 /// use taceva_import::SourceSums;
@@ -32,12 +32,12 @@ const NAMED: usize = 8;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceSums {
-    /// The file that they were read from.
+    /// Path of the list.
     list: PathBuf,
     folders: Vec<BTreeMap<String, Digest>>,
 }
 
-/// A file that is not as its digest says.
+/// Difference between a file and its recorded digest.
 ///
 /// ```
 /// use taceva_import::SourceDifference;
@@ -52,17 +52,17 @@ pub enum SourceDifference {
     Changed {
         /// Name within the folder.
         name: String,
-        /// Digest that the list has.
+        /// Digest in the list.
         expected: Digest,
         /// Digest of its bytes.
         found: Digest,
     },
-    /// The list names it and the folder does not hold it.
+    /// The file is in the list, but not in the folder.
     Absent {
         /// Name within the folder.
         name: String,
     },
-    /// The folder holds it and the list does not name it.
+    /// The file is in the folder, but not in the list.
     Unnamed {
         /// Name within the folder.
         name: String,
@@ -90,17 +90,17 @@ impl fmt::Display for SourceDifference {
 }
 
 impl SourceSums {
-    /// Reads a list as `sha256sum` writes it.
+    /// Reads a list in the form of `sha256sum`.
     ///
     /// # Errors
-    /// [`ImportError::Table`] naming the line that is none; [`ImportError::Dataset`] if it cannot be read.
+    /// [`ImportError::Table`] naming the invalid line; [`ImportError::Dataset`] if the list cannot be read.
     pub fn read(list: &Path) -> Result<SourceSums, ImportError> {
         let bytes = taceva_dataset::internal::read_capped(list, limits::SOURCES_BYTES)?;
         let text = taceva_dataset::internal::utf8(list, bytes)?;
         SourceSums::parse(list, &text)
     }
 
-    /// Digests that the dataset stores of its source files; `None` if it stores none.
+    /// Digests of the source files stored in the dataset; `None` if there are none.
     ///
     /// # Errors
     /// Errors of [`Dataset::source_sums`].
@@ -168,7 +168,7 @@ impl SourceSums {
         Ok(of_each.min_by_key(Vec::len).unwrap_or_default())
     }
 
-    /// As [`differences`](SourceSums::differences), and every file below `folder` that the list does not name: but for the list itself and datasets that were made there.
+    /// As [`differences`](SourceSums::differences), with every unlisted file below `folder`, except the list itself and datasets made there.
     ///
     /// # Errors
     /// As [`differences`](SourceSums::differences).
@@ -191,10 +191,10 @@ impl SourceSums {
         Ok(differences)
     }
 
-    /// Refuses `folder` unless it is as the list says, file by file.
+    /// Checks that the files in `folder` equal the list.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] naming the files that differ; those of [`differences_of_all`](SourceSums::differences_of_all).
+    /// [`ImportError::Dataset`] naming the files that differ; otherwise as [`differences_of_all`](SourceSums::differences_of_all).
     pub fn verify(
         &self,
         folder: &Path,
@@ -223,13 +223,13 @@ impl SourceSums {
         ))
     }
 
-    /// Number of files that are named.
+    /// Number of listed files.
     pub fn files(&self) -> usize {
         self.folders.iter().map(BTreeMap::len).sum()
     }
 }
 
-/// The list of the files that were read in `folder`; what cannot be named in a line is left out.
+/// List of the files read in `folder`. Names that do not fit on a line are left out.
 pub(crate) fn list_of(
     folder: &SourceFolder,
     jobs: NonZeroUsize,

@@ -346,7 +346,7 @@ fn behind_separator(part: &str, is_alone: bool) -> Option<UnitSuffix> {
     for at in (first..tokens.len()).rev() {
         let (begin, token) = tokens[at];
         let end = begin + token.len();
-        // `torque_N_m`, `Tz lbf-in`.
+        // Units with a separator: `torque_N_m`, `Tz lbf-in`.
         if at > first {
             let (before, unit) = tokens[at - 1];
             let is_product = matches!(

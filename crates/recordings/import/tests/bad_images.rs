@@ -1,4 +1,4 @@
-//! Pictures that are damaged, too large, elsewhere or unlike each other are refused in words, and nothing is written.
+//! Damaged, too large, misplaced or unequal pictures are refused with a message, and nothing is written.
 
 use std::fs;
 
@@ -74,7 +74,6 @@ fn a_picture_bomb_is_refused_before_it_is_unpacked() {
     lab.is_refused_with(&["line 2, column `file`"]);
 }
 
-/// K5.
 #[test]
 fn a_small_picture_that_becomes_very_many_pixels_is_refused_and_a_flat_one_of_a_camera_is_not() {
     let lab = Lab::new();
@@ -98,7 +97,7 @@ fn flat(width: u32, height: u32) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// A PNG that promises many pixels in few bytes.
+/// A PNG that declares many pixels in few bytes.
 fn bomb(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = png(8, 6, 0);
     bytes[16..20].copy_from_slice(&width.to_be_bytes());

@@ -1,4 +1,4 @@
-//! Tables, maps and folders that do not say what they must are refused in words, and nothing is written.
+//! Incomplete or contradictory tables, maps and folders are refused with a message, and nothing is written.
 
 use std::fs;
 
@@ -89,7 +89,7 @@ fn tables_in_other_encodings_are_refused_in_words() {
     lab.write("source/labels.csv", b"a,\"b\nc,d\n");
     lab.is_refused_with(&["a quote is opened and never closed"]);
     lab.write("source/labels.csv", b"a,b,a\n1,2,3\n");
-    lab.is_refused_with(&["line 1: the column `a` comes twice"]);
+    lab.is_refused_with(&["line 1: the column `a` occurs twice"]);
 }
 
 #[test]

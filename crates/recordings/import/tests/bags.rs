@@ -14,7 +14,7 @@ fn data(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// A folder with the recording `name`, as `ros2 bag record` lays it out where it is one of rosbag2.
+/// A folder with the recording `name`; a rosbag2 recording has the layout of `ros2 bag record`.
 fn lab(name: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let file = Path::new(name).file_name().expect("a name");
@@ -27,7 +27,7 @@ fn lab(name: &str) -> tempfile::TempDir {
     folder
 }
 
-/// The numbers that an import by the preset of ROS keeps of `columns`, and its summary.
+/// Imports `columns` by the preset of ROS. Returns their numbers and the summary.
 fn by_preset(folder: &Path, columns: &[&str]) -> (Vec<Vec<f64>>, String) {
     let preset = Preset::from_name("rosbag").expect("known");
     let text = preset
@@ -79,7 +79,7 @@ fn databases_of_rosbag2_and_bags_of_ros_1_are_drafted_and_imported_by_preset() {
         assert_eq!(numbers[1], [0.0, 1.5, 3.0, 4.5], "{file}");
         assert_eq!(numbers[2].first(), Some(&1_700_000_000.0), "{file}");
         assert!(summary.contains("4 read, 4 kept"), "{file}: {summary}");
-        // By time, and not by what each publisher counts.
+        // Joined by time, not by the counter of each publisher.
         assert!(!draft.contains("header.seq = "), "{draft}");
         assert!(!draft.contains("on = {"), "{draft}");
         let is_unread = summary.contains("not read topic /press (4 messages): ");
@@ -95,7 +95,7 @@ fn databases_of_rosbag2_and_bags_of_ros_1_are_drafted_and_imported_by_preset() {
 #[test]
 fn pictures_of_foxglove_in_protobuf_are_joined_with_forces_in_json() {
     let folder = lab("mcap/foxglove.mcap");
-    // Its Fz counts up by one, as no counter in a wrench does.
+    // Fz counts up by one, but a wrench holds no counter.
     let (numbers, summary) = by_preset(folder.path(), &["Fx", "Fz"]);
     let expected: Vec<f64> = (0..24).map(|press| 0.1 * f64::from(press)).collect();
     assert_eq!(numbers[0], expected, "{summary}");
@@ -109,7 +109,7 @@ fn a_bag_whose_frames_change_and_one_that_is_cut_are_refused_with_the_remedy() {
     let folder = lab("bags/none.bag");
     let path = folder.path().join("none.bag");
     let mut bytes = fs::read(&path).expect("there");
-    // The name of the frame in the last messages, between its length and what follows.
+    // Frame name in the last messages, between its length and the following bytes.
     let places: Vec<usize> = (0..bytes.len() - 7)
         .filter(|at| bytes[*at..*at + 7] == *b"\x03\0\0\0gel")
         .collect();
@@ -202,7 +202,7 @@ fn messages_before_a_cut_are_imported_by_a_key_of_the_map_with_a_warning() {
     let whole = [0.0, 1.0, 1.5, 2.5, 3.0, 4.0, 4.5, 5.5];
     assert_eq!(forces, whole[..forces.len()]);
     assert_eq!(forces.len() as u64, rows);
-    // A whole recording is read as without the key.
+    // For a complete recording the key makes no difference.
     fs::write(&path, &bytes).expect("written");
     let plan = of_ft(folder.path(), "rows = \"/ft\", cut = \"keep\"").expect("a plan");
     assert_eq!(plan.summary().rows_kept, 8);

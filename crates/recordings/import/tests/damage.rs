@@ -1,4 +1,4 @@
-//! A damaged dataset is never read as a whole one, and no foreign bytes make the readers panic or hang.
+//! A damaged dataset is never read as an intact one, and no input makes the readers panic or hang.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use crate::support::{Random, contents};
 use taceva_dataset::Dataset;
 use taceva_import::{CsvTable, ImportMap};
 
-/// The digest and every frame of the dataset at `set`, or that something was refused.
+/// The digest and every frame of the dataset at `set`; `None` if anything is refused.
 fn whole(lab: &Lab) -> Option<Vec<Vec<u8>>> {
     let dataset = Dataset::open(&lab.path("set")).ok()?;
     let mut all = vec![dataset.digest().as_bytes().to_vec()];

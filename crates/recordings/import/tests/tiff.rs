@@ -1,5 +1,5 @@
-//! TIFF frames as other programs write them (`tests/fixtures/tiff/make.py`): kept in their bytes, decoded to the numbers that were drawn, or refused
-//! by the name of what is not read.
+//! TIFF frames written by other programs (`tests/fixtures/tiff/make.py`): stored unchanged and decoded to the drawn numbers, or refused by the
+//! name of the unsupported feature.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ fn import(bytes: &[u8], order: &str) -> Result<(tempfile::TempDir, Dataset), Imp
     Ok((lab, dataset))
 }
 
-/// The numbers that the script draws.
+/// Numbers drawn by the script.
 fn drawn(format: PixelFormat) -> Vec<u16> {
     let colours = u16::try_from(format.samples()).expect("few");
     let scale = if format.bytes_per_sample() == 2 {
@@ -118,7 +118,7 @@ fn what_is_not_read_is_refused_by_its_name() {
 #[test]
 fn a_packing_that_is_not_read_is_refused_with_those_that_are() {
     let mut bytes = std::fs::read(fixture("gray8")).expect("there");
-    // The tag of the packing: 259, a short, one of them, 1 for none. 50,000 is Zstandard.
+    // Compression tag: 259, a short with one value, 1 for none. 50,000 is Zstandard.
     let plain = [3, 1, 3, 0, 1, 0, 0, 0, 1, 0];
     let at = bytes.windows(plain.len()).position(|part| part == plain);
     let at = at.expect("it is plain") + 8;

@@ -40,7 +40,7 @@ pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
     }
     let known = context.models()?;
     let requests = requests(args, &known)?;
-    // Before any press of the bench.
+    // Checked before the bench makes any press.
     requests.iter().try_for_each(FitRequest::check)?;
     let entered = ModelRace {
         requests: &requests,

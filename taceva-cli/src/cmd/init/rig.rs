@@ -40,11 +40,11 @@ rig_version = 1
 driver = {robot:?}
 carries = {carries:?}
 origin_mm = [0.0, 0.0, 0.0]      # `taceva rig teach` writes this: the tip at the middle of the untouched gel, in the base frame
-axes = [\"x\", \"y\", \"z\"]           # and this: which axis of the base the sensor's x, y and z are
+axes = [\"x\", \"y\", \"z\"]           # and this: the base axis of the sensor's x, y and z
 
 [force]
 driver = {force:?}
-axes = [\"x\", \"y\", \"z\"]           # which axis of the transducer each is; Fz above 0 presses into the gel
+axes = [\"x\", \"y\", \"z\"]           # the transducer axis of x, y and z; Fz above 0 presses into the gel
 
 [sensor]
 driver = {sensor:?}

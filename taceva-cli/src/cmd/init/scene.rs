@@ -85,7 +85,7 @@ pub(super) fn write(
             format!("taceva plan {path_word} --rig rig.toml     the file of taceva init rig");
         return finish(&path, &text, &[plan]);
     }
-    // Whatever `run` would refuse is refused here.
+    // Applies the checks of `run`.
     let scene = SceneText {
         name: path.display().to_string(),
         text: text.clone(),

@@ -17,7 +17,7 @@ use crate::{exit, output, report};
 
 /// The folder in a temporary one that a packed plugin is unpacked to.
 const UNPACKED: &str = "unpacked";
-/// The checks that a library must pass before it is installed: it loads, and is what its manifest says.
+/// Checks that a library must pass before it is installed: it loads, and matches its manifest.
 const CHECKS: &str = "library/";
 
 pub(super) fn run(args: &PluginInstall, context: &Context) -> anyhow::Result<u8> {

@@ -46,7 +46,7 @@ pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Fou
     Ok(Found { studies, missing })
 }
 
-/// The table of one evaluation: `own`, beside it with the name of the result, or another table in that folder with the digest in the result.
+/// Table of samples of one evaluation: `own`, which has the name of the result, or another table in that folder with the digest in the result.
 fn of_evaluation(own: &Path, study: &Study, is_alone: bool) -> anyhow::Result<Option<PathBuf>> {
     if !is_alone || own.is_file() {
         return Ok(Some(own.to_owned()).filter(|_| is_alone));

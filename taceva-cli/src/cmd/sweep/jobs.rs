@@ -46,7 +46,7 @@ pub(super) fn submit(
         writeln!(out, "scripts   {}", shown(&folder.slurm()))
     })?;
     context.say(format_args!(
-        "taceva sweep status {} says how far it is",
+        "taceva sweep status {} shows the progress",
         shown(folder.path())
     ));
     Ok(exit::DONE)

@@ -1,4 +1,4 @@
-//! Documents name the commands and files that there are.
+//! Documents name existing commands and files.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Models, settings and seeds that are given instead of those of the scene.
+//! Models, settings and seeds that override those of the scene.
 
 use std::fs;
 
@@ -15,7 +15,7 @@ fn a_run_takes_another_model_settings_and_seeds_than_its_scene_names() {
     let study = &run["studies"][0];
     let model = &study["provenance"]["model"];
     assert_eq!(model["name"], "cnn");
-    // The report is that of the first.
+    // The report is that of the first seed.
     let settings = &model["settings"];
     assert_eq!(
         (&settings["seed"], &settings["epochs"]),
@@ -62,7 +62,7 @@ fn a_run_takes_another_model_settings_and_seeds_than_its_scene_names() {
         0.0 <= ends[0] && ends[0] < mean && mean < ends[1],
         "{ends:?}"
     );
-    // What is measured without a model does not go up and down with its seed.
+    // Measurements without a model do not depend on its seed.
     assert!(scores.iter().all(|score| score["metric"] != "sensitivity"));
     let text = fs::read_to_string(bench.path("run/reports/1-small.txt")).expect("there");
     assert!(

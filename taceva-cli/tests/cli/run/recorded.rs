@@ -47,7 +47,7 @@ fn a_recording_of_a_run_is_evaluated_with_the_channels_and_the_split_of_its_plan
     bench.ok("fit r/recordings/1-small --model ridge --set size=8x8 --out m.taceva -q");
     let again = bench.json("evaluate r/recordings/1-small --with m.taceva");
     assert_eq!(again["metrics"], report["metrics"]);
-    // A model that looks at no picture, on the same channels and presses.
+    // A model that reads no picture, on the same channels and presses.
     let constant = bench.json("evaluate r/recordings/1-small --model baseline --metrics accuracy");
     assert_eq!(constant["provenance"]["samples"], provenance["samples"]);
     let channels = |report: &Value| {

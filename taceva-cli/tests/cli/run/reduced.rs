@@ -1,4 +1,4 @@
-//! Scenes that say at what size frames are kept.
+//! Scenes that state the size of recorded frames.
 
 use std::fs;
 
@@ -9,10 +9,10 @@ use taceva_models::FrameReduction;
 use super::{SMALL, with_small};
 use crate::support::Bench;
 
-/// Frames of 45 × 45 pixels of 16 bits, kept at another size.
+/// Frames of 45 × 45 pixels of 16 bits, recorded at another size.
 pub(crate) const REDUCED: &str = "recording = { frames = \"40x36\" }\n";
 
-/// Both scenes, carried out in the folders `whole` and `reduced`.
+/// Runs both scenes, in the folders `whole` and `reduced`.
 fn both() -> Bench {
     let bench = with_small();
     bench.write("reduced.toml", &format!("{SMALL}{REDUCED}"));
@@ -52,7 +52,7 @@ fn every_frame_is_the_area_averages_of_the_one_that_came_and_all_else_stays_as_i
     assert!(seen > 50, "{seen}");
     let reference = |dataset: &Dataset| dataset.reference().expect("decodes").expect("one");
     assert_eq!(of(reference(&whole)), reference(&reduced));
-    // Places, forces, times and brightness are those of the recording of whole frames, to the bit.
+    // Positions, forces, times and brightness equal those of the recording of whole frames, to the bit.
     let (whole, reduced) = (whole.table(), reduced.table());
     assert_eq!(whole.samples(), reduced.samples());
     assert_eq!(whole.intensity(), reduced.intensity());
@@ -94,7 +94,7 @@ fn scores_of_forces_are_the_same_and_reports_say_that_frames_were_reduced() {
 #[test]
 fn a_recording_of_reduced_frames_is_checked_exported_and_imported_again() {
     let bench = Bench::new();
-    // Every sample has a picture then, which a map asks of every row.
+    // Every sample then has a picture, as a map requires of every row.
     let want = "metrics = { want = [\"mae\"] }\n";
     bench.write("reduced.toml", &format!("{SMALL}{REDUCED}{want}"));
     bench.ok("run reduced.toml --out reduced -q");

@@ -1,4 +1,4 @@
-//! Runs that are killed or stopped go on to the same bytes.
+//! Killed or stopped runs resume to the same bytes.
 
 use std::fs;
 use std::path::PathBuf;
@@ -8,7 +8,7 @@ use super::reduced::REDUCED;
 use super::{SMALL, dataset_of, reports, with_small};
 use crate::support::Bench;
 
-/// A run that was started and is ended from outside.
+/// A started run that is ended from outside.
 struct Started {
     child: Child,
     journal: PathBuf,
@@ -31,7 +31,7 @@ impl Started {
         }
     }
 
-    /// Waits until so many bytes are recorded.
+    /// Waits until `bytes` bytes are recorded.
     fn reaches(&mut self, bytes: u64) {
         loop {
             let length = fs::metadata(&self.journal).map_or(0, |journal| journal.len());
@@ -45,7 +45,7 @@ impl Started {
     }
 }
 
-/// Kills a run each time so many bytes are recorded, goes on, and compares with a run that was not interrupted.
+/// Kills a run at each of these recorded sizes, resumes it, and compares it with an uninterrupted run.
 fn survives(bench: &Bench, moments: &[u64]) {
     bench.ok("run small.toml --out whole -q");
     let whole = reports(&bench.path("whole"));
@@ -64,7 +64,7 @@ fn survives(bench: &Bench, moments: &[u64]) {
 
 #[test]
 fn whatever_ends_a_run_it_goes_on_to_the_same_bytes() {
-    // Between two presses at one place, in another light, on a board: wherever it happens to be.
+    // Between two presses at one place, in another light, or on a grating.
     survives(&with_small(), &[3_000, 20_000, 45_000]);
 }
 

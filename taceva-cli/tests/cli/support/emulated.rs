@@ -1,4 +1,4 @@
-//! A gel behind emulated devices, and the program while it runs.
+//! Emulated devices over one gel, and the running program.
 
 use std::io::Read;
 use std::net::Ipv4Addr;
@@ -57,7 +57,7 @@ impl Emulated {
         )
     }
 
-    /// That of a bench with its robot.
+    /// The rig file of the bench with its robot.
     pub(crate) fn rig_with_robot(&self) -> String {
         format!(
             "{}\n[robot]\ndriver = {:?}\ncarries = \"indenter\"\norigin_mm = {:?}\naxes = {:?}\n\n[limits]\nspeed_max_mm_s = 20.0\n",
@@ -68,14 +68,14 @@ impl Emulated {
         )
     }
 
-    /// What presses in the place of a hand.
+    /// Robot that presses in place of a hand.
     pub(crate) fn robot(&self) -> Box<dyn Robot> {
         let drivers = Drivers::builtin().expect("drivers");
         let selector = self.arm.selector().parse().expect("a selector");
         open(&drivers.robots, &selector, &mut Rig::new()).expect("an arm")
     }
 
-    /// Presses at `place`, in mm of the sensor, so deep, and does `held` there.
+    /// Presses at `place`, mm in the frame of the sensor, to a depth, and calls `held` there.
     pub(crate) fn press(
         &self,
         robot: &mut Box<dyn Robot>,
@@ -99,7 +99,7 @@ impl Emulated {
     }
 }
 
-/// The program while it runs.
+/// The running program.
 pub(crate) struct Running {
     child: Child,
     said: Arc<Mutex<String>>,
@@ -183,7 +183,7 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // It may have ended by itself.
+        // The program may have ended by itself.
         drop(self.child.kill());
         drop(self.child.wait());
     }

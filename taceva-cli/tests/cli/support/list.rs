@@ -1,4 +1,4 @@
-//! What `--on list` prints, carried out by a shell.
+//! Output of `--on list`, executed by a shell.
 
 use std::path::Path;
 use std::process::Command;

@@ -1,4 +1,4 @@
-//! Folders that several tests begin with, made once and kept in memory: each test has files of its own.
+//! Initial folders of several tests, made once and kept in memory: each test has its own copy.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ impl Snapshot {
         Snapshot(files)
     }
 
-    /// Writes them into `folder`.
+    /// Writes the files into `folder`.
     pub(crate) fn put(&self, folder: &Path) {
         for (path, bytes) in &self.0 {
             let path = folder.join(path);

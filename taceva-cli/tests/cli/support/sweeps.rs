@@ -1,4 +1,4 @@
-//! A sweep over two drawn recordings, and the bytes that it ends in.
+//! A sweep over two drawn recordings, and its final bytes.
 
 use std::fs;
 
@@ -16,9 +16,9 @@ metrics = ["accuracy"]
 [vary]
 size = ["8x8", "12x12"]
 "#;
-/// Its tasks.
+/// Number of tasks.
 pub(crate) const TASKS: usize = 48;
-/// What is compared byte by byte.
+/// Files that are compared byte by byte.
 const FILES: [&str; 3] = ["table.csv", "table.parquet", "page.html"];
 
 /// A scene of one sensor, pressed at a few places.
@@ -32,7 +32,7 @@ model = { name = "ridge", set = { size = "8x8" } }
 metrics = { want = ["accuracy"] }
 protocol = { calibration = { points = 12, indentations = 2 } }
 "#;
-/// A sweep over it: two tasks.
+/// A sweep over that scene: two tasks.
 pub(crate) const TINY_SWEEP: &str = r#"sweep_version = 1
 scenes = ["tiny.toml"]
 models = ["ridge", "baseline"]
@@ -51,13 +51,13 @@ pub(crate) fn week(more: &str) -> Bench {
     bench
 }
 
-/// What the sweep in `folder` has ended in.
+/// Final bytes of the sweep in `folder`.
 pub(crate) fn bytes(bench: &Bench, folder: &str) -> Vec<Vec<u8>> {
     let read = |name: &&str| fs::read(bench.path(folder).join(name)).expect(name);
     FILES.iter().map(read).collect()
 }
 
-/// Both tables of predictions, CSV: `rows` presses on a grid, of which contact points lie far apart in the table.
+/// Both tables of predictions, CSV: `rows` presses on a grid; the rows of a contact point are far apart.
 pub(crate) fn tables(rows: u32, with_ids: bool) -> [String; 2] {
     let id = |row: u32| match with_ids {
         true => format!("{row},"),

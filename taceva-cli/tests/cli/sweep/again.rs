@@ -1,4 +1,4 @@
-//! Sweeps that were carried out before: what is found, and what is not taken for the same.
+//! Repeated sweeps: results that are reused, and results of changed inputs.
 
 use super::store::scored;
 use super::{small, text};
@@ -25,7 +25,7 @@ fn a_finished_sweep_is_looked_at_and_not_carried_out_again() {
         2,
         "did you mean `model`?",
     );
-    // More seeds: what is there is found, the rest is estimated by what was measured.
+    // More seeds: existing results are found, and the cost of the rest is estimated from measured times.
     small(&bench, &[("seeds = [1]", "seeds = [1, 2]")]);
     let dry = bench.ok("sweep which.toml --dry-run --jobs 1");
     assert!(

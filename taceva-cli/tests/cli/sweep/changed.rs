@@ -1,4 +1,4 @@
-//! What changes between submission and execution is noticed by the tasks that it concerns.
+//! Changes between submission and execution are noticed by the tasks concerned.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use super::{small, week};
 fn a_recording_that_changes_between_submission_and_execution_fails_its_tasks_and_says_so() {
     let bench = week();
     small(&bench, &[]);
-    // Planned, and carried out by a job later.
+    // Planned, and executed by a job later.
     bench.ok("sweep which.toml -q --only model=baseline");
     fs::remove_dir_all(bench.path("monday")).expect("removed");
     bench.record_with_noise("monday", 24, 3);
@@ -22,7 +22,7 @@ fn a_recording_that_changes_between_submission_and_execution_fails_its_tasks_and
     );
     let collected = bench.run("sweep collect which.toml");
     assert!(collected.out.contains("2 failed"), "{}", collected.out);
-    // Planned anew it has other keys, so that no result of the former recording is taken for one of this.
+    // A new plan has other keys, so no result of the former recording is reused.
     let out = bench.ok("sweep which.toml -q");
     assert!(out.contains("8 scored, 0 failed"), "{out}");
 }
@@ -43,7 +43,7 @@ fn a_sensor_file_that_changes_between_submission_and_execution_stops_its_tasks_a
         3,
         "sensor.toml: the file has changed since the sweep was planned; start the sweep again",
     );
-    // Planned anew no result with the former facts is taken for one with these.
+    // A new plan reuses no result with the former facts.
     let dry = bench.ok("sweep which.toml --dry-run");
     assert!(dry.contains("found    0"), "{dry}");
     bench.write("sensor.toml", sensor);

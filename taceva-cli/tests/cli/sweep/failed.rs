@@ -1,4 +1,4 @@
-//! Tasks that fail, and units that keep no limit.
+//! Tasks that fail, and units that meet no limit.
 
 use std::fs;
 
@@ -37,7 +37,7 @@ fn a_failed_task_is_a_row_with_its_reason_and_its_log_and_the_others_go_on() {
     let log = text(&bench, &format!("which.sweep/logs/{key}.log"));
     assert!(log.contains("failed: ") && log.contains("0 rows"), "{log}");
     assert!(text(&bench, "which.sweep/page.html").contains("Tasks without a result"));
-    // Not again by itself, and again where that is asked for.
+    // Failed tasks are retried only on request.
     let attempts = || {
         text(&bench, &format!("which.sweep/logs/{key}.log"))
             .matches("failed: ")

@@ -1,4 +1,4 @@
-//! A node that is not as the others: its disk is full, or its clock is an hour ahead.
+//! A node that differs from the others: its disk is full, or its clock is an hour ahead.
 
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
@@ -10,11 +10,11 @@ use super::{count, small, week};
 use crate::support::Bench;
 use crate::support::sweeps::bytes;
 
-/// A disk of one page in the place of the evaluations, which this node alone sees.
+/// A disk of one page in place of the evaluations, visible to this node alone.
 const FULL_DISK: &str =
     "mount -t tmpfs -o size=4k tmpfs which.sweep/evaluations || exit 99; exec \"$@\"";
 
-/// The tasks of the sweep on a node whose disk is full; `None` where this needs more rights.
+/// The tasks of the sweep on a node with a full disk; `None` if this needs more rights.
 fn on_a_full_disk(bench: &Bench) -> Option<Output> {
     let mut node = Command::new("unshare");
     node.args(["--mount", "sh", "-c", FULL_DISK, "sh"]);
@@ -47,7 +47,7 @@ fn a_full_disk_on_one_node_fails_its_tasks_in_words_and_another_node_carries_the
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("No space left"), "{said}");
-    // Nothing was lost, nothing half-made is left, and no task counts as failed for good.
+    // Nothing is lost or partial, and no task counts as failed for good.
     assert_eq!(count(&bench.path("which.sweep/results")), 2);
     assert_eq!(count(&bench.path("which.sweep/evaluations")), 2);
     assert_eq!(count(&bench.path("which.sweep/claims")), 0);
@@ -56,7 +56,7 @@ fn a_full_disk_on_one_node_fails_its_tasks_in_words_and_another_node_carries_the
     assert_eq!(bytes(&bench, "which.sweep"), small_bytes());
 }
 
-/// The program on a node whose clock is an hour ahead, the times of files that it reads included.
+/// The program on a node whose clock and file times are an hour ahead.
 fn an_hour_ahead(bench: &Bench, words: &str) -> Command {
     let here = bench.command(words);
     let mut ahead = Command::new("faketime");
@@ -98,7 +98,7 @@ fn clocks_that_differ_by_an_hour_double_no_task_and_leave_no_claim_that_nobody_e
         assert_eq!(log.matches("\nscored").count(), 1, "{log}");
     }
 
-    // A claim that was taken an hour from now by a node that is gone is no younger than any other.
+    // A claim from an hour ahead, of a node that is gone, is no younger than any other.
     let words = "sweep which.toml --out left --jobs 1 -q";
     let mut ahead = an_hour_ahead(&bench, words).spawn().expect("it starts");
     let claims = bench.path("left/claims");

@@ -1,4 +1,4 @@
-//! The page: what is chosen and by what, and what takes no part.
+//! The page: the choice, its criterion, and the candidates without a verdict.
 
 use super::store::whole;
 use super::{small, text, week};
@@ -20,7 +20,7 @@ fn the_page_chooses_on_validation_parts_and_keeps_times_apart() {
     }
     assert!(!page.contains("s per task"));
     assert!(text(&bench, "one/times.html").contains("s per task"));
-    // What is chosen has the least error on validation parts of all that it was chosen among, by the table alone.
+    // By the table alone, the choice has the least error on validation parts of all candidates.
     let table = text(&bench, "one/table.csv");
     let mut reader = csv::Reader::from_reader(table.as_bytes());
     let head: Vec<String> = reader

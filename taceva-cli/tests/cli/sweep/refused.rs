@@ -1,4 +1,4 @@
-//! Files of sweeps that cannot be meant are refused at the start, by line.
+//! Invalid files of sweeps are refused at the start, by line.
 
 use super::{small, week};
 

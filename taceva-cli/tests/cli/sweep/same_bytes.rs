@@ -1,4 +1,4 @@
-//! Whoever carries tasks out, in whatever order: the table, its digest and the page have the same bytes.
+//! The table, its digest and the page have the same bytes for every engine and every order of tasks.
 
 use std::fs;
 use std::process::Stdio;
@@ -25,7 +25,7 @@ fn one_worker_two_workers_and_two_sweeps_at_once_give_the_same_bytes_and_each_ta
     assert_eq!(printed, digest);
     bench.ok("sweep which.toml --out two --jobs 2 -q");
     assert_eq!(bytes(&bench, "two"), reference);
-    // A part of the tasks first: a table of what is there, and the rest in another order.
+    // Some of the tasks first: a table of the existing results; then the rest in another order.
     let part = bench.ok("sweep which.toml --out parts --jobs 2 -q --only seed=2");
     assert!(part.contains("16 scored, 0 failed, 32 missing"), "{part}");
     let both: Vec<_> = (0..2)
@@ -44,7 +44,7 @@ fn one_worker_two_workers_and_two_sweeps_at_once_give_the_same_bytes_and_each_ta
         assert_eq!(log.matches("\nscored").count(), 1, "{log}");
     }
     assert_eq!(count(&bench.path("parts/claims")), 0);
-    // Each frame once for each of the two sizes, whatever was learnt from it.
+    // Each frame once for each of the two sizes, for all trainings.
     assert_eq!(count(&bench.path("one/cache/2/features")), 4);
     assert_eq!(text(&bench, "one/times.csv").lines().count(), TASKS + 1);
 }
@@ -82,7 +82,7 @@ fn the_lines_of_a_list_carried_out_by_any_program_that_starts_commands_give_the_
         .map(|(tasks, last)| (last, tasks))
         .expect("lines");
     assert_eq!(tasks.lines().count(), 8);
-    // Two at once, in the reverse of their order.
+    // Two at once, in reverse order.
     let reversed: Vec<&str> = tasks.lines().rev().collect();
     bench.write("tasks.txt", &reversed.join("\n"));
     let script = format!("xargs -P 2 -I LINE sh -c LINE < tasks.txt && {collect}");

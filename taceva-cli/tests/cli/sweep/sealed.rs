@@ -1,4 +1,4 @@
-//! Files in the folder of a sweep that were changed are refused by name.
+//! Changed files in the folder of a sweep are refused by name.
 
 use std::fs;
 
@@ -66,7 +66,7 @@ fn a_flipped_bit_of_the_list_of_tasks_or_of_an_evaluation_is_noticed() {
         3,
         "it has changed since the task wrote it",
     );
-    // As the message says.
+    // The remedy of the message.
     let name = path.file_name().expect("a name").to_owned();
     fs::remove_file(&path).expect("removed");
     fs::remove_file(bench.path("which.sweep/results").join(name)).expect("removed");
@@ -97,7 +97,7 @@ fn a_flipped_bit_of_what_was_collected_is_noticed_before_it_is_printed() {
         3,
         "run `taceva sweep collect` to make it again",
     );
-    // As the message says; the table never depended on it.
+    // The remedy of the message; the table does not depend on the file.
     bench.ok("sweep collect which.toml -q");
     bench.ok("sweep which.toml -q");
     assert_eq!(fs::read_to_string(&path).expect("text"), whole);
@@ -111,7 +111,7 @@ fn a_flipped_bit_of_the_record_of_jobs_is_noticed_and_no_job_of_others_is_cancel
 
     let bench = week();
     small(&bench, &[]);
-    // What answers in the place of a scheduler.
+    // Programs in place of a scheduler.
     for (name, line) in [
         ("sbatch", "echo 17"),
         ("squeue", "true"),

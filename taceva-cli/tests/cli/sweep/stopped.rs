@@ -1,4 +1,4 @@
-//! Sweeps that are stopped or killed, and go on to the same bytes.
+//! Stopped or killed sweeps resume to the same bytes.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -36,7 +36,7 @@ fn a_sweep_that_is_interrupted_stops_cleanly_and_goes_on() {
     assert_eq!(bytes(&bench, "which.sweep"), bytes(&bench, "one"));
 }
 
-/// As many kills as `TACEVA_SWEEP_KILLS` says, at random moments of a sweep that goes on each time.
+/// Kills a sweep `TACEVA_SWEEP_KILLS` times at random moments; the sweep resumes each time.
 #[test]
 fn a_sweep_that_is_killed_at_random_moments_ends_with_the_same_bytes_and_counts_no_task_twice() {
     let kills = std::env::var("TACEVA_SWEEP_KILLS");
@@ -90,7 +90,7 @@ fn a_stale_claim_of_a_process_that_ended_stops_nobody() {
     let bench = week();
     small(&bench, &[]);
     bench.ok("sweep which.toml -q --only model=baseline");
-    // A process that is killed with its claims held.
+    // A process that is killed while it holds claims.
     let mut child = bench
         .command("sweep which.toml -q --jobs 1")
         .spawn()

@@ -1,4 +1,4 @@
-//! What several tests begin with, made once.
+//! Initial folders of several tests, made once.
 
 use std::sync::LazyLock;
 
@@ -41,7 +41,7 @@ pub(crate) fn scored() -> Bench {
     bench
 }
 
-/// What the small sweep ends in.
+/// Final bytes of the small sweep.
 pub(crate) fn small_bytes() -> Vec<Vec<u8>> {
     let bench = Bench::new();
     SMALL.put(&bench.path("small"));

@@ -1,4 +1,4 @@
-//! What a scene records is a recording of the sweep like any other.
+//! The recording of a scene is used like any other recording of the sweep.
 
 use std::fs;
 
@@ -47,7 +47,7 @@ fn a_scene_is_acquired_once_as_by_a_run_and_its_recordings_are_datasets_beside_o
     let page = fs::read_to_string(bench.path("which.sweep/page.html")).expect("a page");
     assert!(page.contains("Nothing here was measured"), "{page}");
 
-    // The same as a run acquires, to the last byte of the headers.
+    // Equal to the recording of a run, to the last byte of the headers.
     bench.ok("run scenes/pair.toml --out run -q");
     for recording in ["1-one", "2-other"] {
         let folders = ["which.sweep/scenes/pair", "run"];
@@ -56,7 +56,7 @@ fn a_scene_is_acquired_once_as_by_a_run_and_its_recordings_are_datasets_beside_o
         assert_eq!(headers[0], headers[1]);
     }
 
-    // Once: nothing is acquired or carried out again.
+    // Nothing is acquired or computed again.
     let again = bench.run("sweep which.toml");
     assert_eq!(again.code, 0, "{}", again.err);
     assert_eq!(again.err, "");
@@ -64,7 +64,7 @@ fn a_scene_is_acquired_once_as_by_a_run_and_its_recordings_are_datasets_beside_o
     let there = "scene    pair: 2 recordings, already acquired";
     assert!(dry.contains("found    6") && dry.contains(there), "{dry}");
 
-    // Of one more scene the time is known by the presses of the first.
+    // The time of another scene is estimated from the presses of the first.
     let more = sweep.replace(
         "\"scenes/pair.toml\"",
         "[\"scenes/pair.toml\", \"tiny.toml\"]",
@@ -78,7 +78,7 @@ fn a_scene_is_acquired_once_as_by_a_run_and_its_recordings_are_datasets_beside_o
 #[test]
 fn what_is_acquired_twice_has_the_same_keys_and_the_same_bytes() {
     let bench = scored();
-    // Neither what is there nor what a cache has is looked at.
+    // Neither existing recordings nor the cache are used.
     bench.ok("sweep which.toml --out other --no-cache -q");
     assert_eq!(bytes(&bench, "other"), reference());
     let own = header(&bench, RECORDING);
@@ -138,7 +138,7 @@ fn a_scene_that_changed_is_not_taken_for_the_one_that_was_acquired() {
         3,
         "which.toml, line 2: `tiny.toml`: which.sweep/scenes/tiny: the run in it has a different plan",
     );
-    // As the message says.
+    // The remedy of the message.
     fs::remove_dir_all(bench.path("which.sweep/scenes/tiny")).expect("removed");
     let dry = bench.ok("sweep which.toml --dry-run");
     assert!(dry.contains("found    0"), "{dry}");

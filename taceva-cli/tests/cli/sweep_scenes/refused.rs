@@ -1,4 +1,4 @@
-//! Scenes that a sweep cannot acquire are refused before anything is, by the file and the line that name them.
+//! Scenes that a sweep cannot acquire are refused before any acquisition, by file and line.
 
 use std::fs;
 
@@ -23,7 +23,7 @@ fn a_scene_that_is_not_there_is_refused_with_those_that_are_built_in() {
     );
     with(&bench, "scenes = \"tinny.toml\"");
     bench.refused("sweep which.toml", 3, "`tinny.toml`: no such scene in .");
-    // One that is built in is known wherever the file is.
+    // A built-in scene is known from any folder.
     with(&bench, "scenes = \"quick\"");
     let dry = bench.ok("sweep which.toml --dry-run");
     assert!(dry.contains("quick: 4 recordings to be acquired"), "{dry}");
@@ -121,7 +121,7 @@ fn a_scene_that_cannot_be_meant_and_a_sweep_that_cannot_are_refused_before_any_p
     assert!(!bench.path("which.sweep").exists());
 }
 
-/// A rig of real devices, of which none is opened.
+/// A rig of real devices; none of them is opened.
 const LAB: &str = r#"rig_version = 1
 [robot]
 driver = "ufactory/xarm:host=127.0.0.1"

@@ -1,4 +1,4 @@
-//! A sweep that is ended while a scene is acquired goes on where it was.
+//! A sweep that is interrupted during the acquisition of a scene resumes there.
 
 use std::fs;
 use std::process::{Child, Command, Stdio};
@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use super::{RECORDING, TINY, bytes, claims, tiny};
 use crate::support::Bench;
 
-/// The sweep while it runs, once so many bytes are recorded.
+/// The running sweep, once `bytes` bytes are recorded.
 fn recorded(bench: &Bench, bytes: u64) -> Child {
     let mut command = bench.command("sweep which.toml --jobs 1");
     command.stdout(Stdio::null()).stderr(Stdio::piped());
@@ -24,7 +24,7 @@ fn recorded(bench: &Bench, bytes: u64) -> Child {
 #[test]
 fn a_signal_stops_a_sweep_between_presses_and_a_kill_loses_none_that_was_recorded() {
     let bench = tiny();
-    // Presses enough for whoever is late.
+    // Enough presses for a slow machine.
     bench.write("tiny.toml", &TINY.replace("points = 12", "points = 160"));
     bench.ok("sweep which.toml --out whole --no-cache -q");
     let child = recorded(&bench, 2000);

@@ -10,7 +10,7 @@ use crate::support::sweeps::tables;
 const SENSOR: &str = "model = \"drawn\"\nopaque = true\n\n[footprint]\nshape = \"rect\"\nhalf_x_mm = 5.0\nhalf_y_mm = 5.0\ndepth_max_mm = 1.0\n";
 pub(crate) const SWEEP: &str = "sweep_version = 1\nsensor = \"sensor.toml\"\n[score]\ntruth = \"truth.csv\"\npred = \"pred.csv\"\nshards = 7\n";
 
-/// Both tables as CSV and as Parquet, of more rows than are read at once where there are many.
+/// Both tables as CSV and as Parquet; with many rows they exceed one read.
 pub(crate) fn bench(rows: u32, with_ids: bool) -> Bench {
     let bench = Bench::new();
     bench.write("sensor.toml", SENSOR);

@@ -1,4 +1,4 @@
-//! Shards by hand, joined to what one pass gives.
+//! Shards scored by hand, merged to the result of one pass.
 
 use std::fs;
 

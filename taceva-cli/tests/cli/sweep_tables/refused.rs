@@ -1,4 +1,4 @@
-//! Shards that are none, and tables that cannot be read, refused by their place.
+//! Invalid shards and unreadable tables are refused by their place.
 
 use std::fs;
 
@@ -38,7 +38,7 @@ fn bad_cells_ids_and_lengths_are_refused_by_their_place_in_the_file() {
         "truth.csv, line 92, column `Px`",
     );
     bench.ok(&format!("score {CSV} --shard 1/2 -q"));
-    // An id that another shard has too.
+    // Another shard has the same id.
     bench.write("truth.csv", &truth.replacen("\n90,", "\n7,", 1));
     bench.refused(
         &format!("score {CSV} --shard 2/2"),
@@ -57,7 +57,7 @@ fn bad_cells_ids_and_lengths_are_refused_by_their_place_in_the_file() {
         3,
         "100 rows, but truth.csv has 101",
     );
-    // Of columns, by row.
+    // In Parquet tables the place is a row.
     fs::remove_file(bench.path("truth.parquet")).expect("removed");
     write_parquet(
         &bench.path("truth.parquet"),

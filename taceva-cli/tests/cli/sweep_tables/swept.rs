@@ -54,7 +54,7 @@ fn a_table_that_changes_between_submission_and_execution_fails_its_tasks_and_say
         "{}",
         ran.err
     );
-    // Written anew with the same bytes it is the same table.
+    // Written again with the same bytes, it is the same table.
     bench.write("pred.csv", &prediction);
     bench.write("truth.csv", &truth);
     bench.ok("sweep task which.sweep --tasks which.sweep/tasks.json --at 1,2 --retry-failed -q");

@@ -9,7 +9,7 @@ use crate::support::Bench;
 use crate::support::emulated::{Emulated, Running};
 use taceva_dataset::{Dataset, Source};
 
-/// How deep the gel is pressed at the points of a capture, in mm.
+/// Depths of the presses of a capture, mm.
 const DEPTHS_MM: [f64; 8] = [0.3, 0.5, 0.4, 0.6, 0.35, 0.55, 0.45, 0.5];
 
 #[test]
@@ -30,7 +30,7 @@ fn presses_become_points_that_models_are_fitted_and_evaluated_on() {
     }
     running.interrupt();
     let ran = running.ended();
-    // Before the end that was asked for.
+    // Stopped before the requested end.
     assert_eq!(ran.code, 5, "{}", ran.err);
     assert!(ran.err.contains("8 contacts"), "{}", ran.err);
 
@@ -52,7 +52,7 @@ fn presses_become_points_that_models_are_fitted_and_evaluated_on() {
         let greatest = rows
             .filter_map(|row| table.truth(fz).get(row))
             .fold(f64::NEG_INFINITY, f64::max);
-        // The transducer drifts and crosses over by some hundredths.
+        // Drift and crosstalk of the transducer change the force by some hundredths.
         assert!(
             (greatest - held_n).abs() < 0.15,
             "{point}: {greatest} N, held at {held_n} N"
@@ -91,7 +91,7 @@ fn a_sensor_alone_is_recorded_as_its_files_came() {
     for row in 0..12 {
         dataset.frame(row).expect("read").expect("a frame");
     }
-    // Nobody writes over it.
+    // An existing recording is not overwritten.
     bench.refused(
         &format!("capture alone --sensor {sensor} --frames 1"),
         3,
@@ -141,7 +141,7 @@ fn frames_that_nobody_took_in_time_are_counted_and_check_says_so() {
     let words = format!("capture stopped --sensor {} --for 4s", emulated.sensor());
     let running = Running::start(&bench, &words);
     running.until_it_says("press; Ctrl-C");
-    // The process stands still for a second, as on a machine that does something else; the frames wait in the socket.
+    // The process pauses for a second, as on a busy machine; the frames wait in the socket.
     running.signal("STOP");
     std::thread::sleep(Duration::from_secs(1));
     running.signal("CONT");

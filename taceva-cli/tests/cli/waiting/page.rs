@@ -1,6 +1,6 @@
-//! The page of a run and of a preview, on emulated devices: it shows them, and its button stops the arm.
+//! The page of a run and of a preview, on emulated devices: it shows the devices, and its button stops the arm.
 //!
-//! `TACEVA_STOPS=100` presses the button so often, and prints how long the arm went on.
+//! `TACEVA_STOPS=100` sets the number of stops, and prints the stopping times.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use crate::support::Bench;
 use crate::support::emulated::{Emulated, Running};
 
-/// The page of a program that runs: where, and its token.
+/// Address and token of the page of a running program.
 #[derive(Clone)]
 pub(crate) struct Page {
     address: String,
@@ -57,7 +57,7 @@ impl Page {
         self.post("/stop", "");
     }
 
-    /// Answers whatever is asked, from a thread that ends with the page.
+    /// Answers every question, from a thread that ends with the page.
     fn answer_everything(&self) {
         let page = self.clone();
         let mut events = page.asked("GET /events", "");
@@ -80,7 +80,7 @@ impl Page {
         });
     }
 
-    /// Reads a stream until `words` came.
+    /// Reads a stream until it contains `words`.
     pub(crate) fn until(&self, path: &str, words: &[u8]) -> Vec<u8> {
         let mut stream = self.asked(&format!("GET {path}"), "");
         let began = Instant::now();
@@ -128,7 +128,7 @@ fn a_preview_of_a_camera_that_is_gone_says_so() {
     assert!(ran.err.contains("camera/mjpeg"), "{}", ran.err);
 }
 
-/// The arm has to stand after so long, in ms: what is promised of a machine that is not overloaded.
+/// Limit of the stopping time of the arm, ms, on a machine that is not overloaded.
 const STOPPED_MS: f64 = 100.0;
 
 #[test]
@@ -157,7 +157,7 @@ fn the_button_of_a_run_stops_the_arm_and_the_run_goes_on_from_there() {
             page.until("/frames", b"\xff\xd8\xff");
         }
         if !in_a_long_motion(&emulated, &mut running) {
-            // On a machine that is too busy the guard ends a run by itself.
+            // On a busy machine the guard ends a run by itself.
             continue;
         }
         let pressed = Instant::now();
@@ -180,7 +180,7 @@ fn the_button_of_a_run_stops_the_arm_and_the_run_goes_on_from_there() {
         took_ms[last * 9 / 10],
         took_ms[last]
     ));
-    // On a machine as busy as one that tests; the figure is that of a quiet one.
+    // Tolerance for a busy test machine; the limit is that of a quiet one.
     assert!(took_ms[last / 2] < 5.0 * STOPPED_MS, "{took_ms:?}");
 }
 
@@ -189,7 +189,7 @@ fn print(words: &str) {
     eprintln!("{words}");
 }
 
-/// Waits until the arm has been moving for a while, since short ways end by themselves; whether the run goes on that long.
+/// Waits until the arm has moved for a while, because short motions end by themselves. Returns true if the run lasts that long.
 fn in_a_long_motion(emulated: &Emulated, running: &mut Running) -> bool {
     const LONG: Duration = Duration::from_millis(80);
     let began = Instant::now();

@@ -1,4 +1,4 @@
-//! Permissions as a person meets them: a refusal, the line that it ends with, and the same command again.
+//! Permissions by the program: a refusal, the remedy in its last line, and the same command again.
 
 #![cfg(target_os = "linux")]
 
@@ -7,7 +7,7 @@ use std::net::TcpListener;
 
 use crate::support::Bench;
 
-/// The sensor of the template, with a connection to a machine that it holds while it is open.
+/// The sensor of the template, with a connection that is held while the sensor is open.
 fn connecting_sensor(bench: &Bench) {
     bench.ok("plugin new sensor my-eye");
     let path = bench.path("my-eye/src/sensor.rs");
@@ -38,7 +38,7 @@ fn connecting_sensor(bench: &Bench) {
     bench.build_plugin("my-eye");
 }
 
-/// Writes what the manifest needs.
+/// Writes the need `need` into the manifest.
 fn needs(bench: &Bench, need: &str) {
     let path = bench.path("my-eye/plugin.toml");
     let manifest = fs::read_to_string(&path).expect("there");
@@ -55,14 +55,14 @@ fn the_line_that_a_refusal_prints_makes_the_next_run_pass() {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("bound").port();
 
-    // What the manifest needs whatever the arguments are: the plugin itself meets the refusal.
+    // A need without arguments: the plugin itself meets the refusal.
     needs(&bench, &format!("tcp:127.0.0.1:{port}"));
     let check = format!(
         "plugin check org.example.my-eye --plugin-dir my-eye --only driver/opens --with org.example.my-eye/my-eye:host=127.0.0.1;port={port}"
     );
     let refused = bench.run(&check);
     assert_eq!(refused.code, 1, "{}{}", refused.out, refused.err);
-    // Three checks open it, one tells why none can.
+    // Three checks open the plugin; one reports why none can.
     assert_eq!(refused.out.matches("FAIL").count(), 1, "{}", refused.out);
     let looked = bench.run("doctor --plugin-dir my-eye");
     assert_eq!(looked.code, 1, "{}", looked.out);
@@ -84,13 +84,13 @@ fn the_line_that_a_refusal_prints_makes_the_next_run_pass() {
     let looked = bench.run("doctor --plugin-dir my-eye");
     assert!(!looked.out.contains("allow it"), "{}", looked.out);
 
-    // And taken back.
+    // The permission is revoked.
     bench.ok("plugin deny org.example.my-eye");
     assert_eq!(bench.run(&check).code, 1);
-    // Whoever is trusted asks nobody.
+    // A trusted plugin needs no permission.
     bench.ok(&format!("{check} --trust org.example.my-eye"));
 
-    // Where it is installed, the line needs no folder.
+    // For an installed plugin the line needs no folder.
     let said = bench.ok("plugin install my-eye");
     let line = format!("allow it: taceva plugin allow org.example.my-eye tcp:127.0.0.1:{port}\n");
     assert!(said.ends_with(&line), "{said}");
@@ -106,14 +106,14 @@ fn the_line_that_a_refusal_prints_makes_the_next_run_pass() {
     bench.ok(&check_installed);
     bench.ok("plugin deny org.example.my-eye");
     fs::remove_dir_all(&installed).expect("removed");
-    // What is no library is not installed.
+    // An invalid library is not installed.
     let manifest = fs::read_to_string(bench.path("my-eye/plugin.toml")).expect("there");
     bench.write("broken/plugin.toml", &manifest);
     bench.write("broken/target/release/libmy_eye.so", "no library");
     assert_ne!(bench.run("plugin install broken").code, 0);
     assert!(!installed.join("org.example.my-eye").exists());
 
-    // What the arguments decide, with the name of a machine that a confined plugin could ask nobody for.
+    // Needs by arguments, with a host name that a confined plugin could not resolve.
     needs(&bench, "tcp:{host}:{port}");
     let scene = format!(
         r#"scene_version = 1

@@ -1,5 +1,5 @@
-//! The carousel in `examples/plugins/carousel`, a changer that is a plugin: refused, allowed, checked, and used in a run on an emulated bench, whose
-//! specimens it changes; and in the same run stuck, wrong, without an answer and gone.
+//! The changer in `examples/plugins/carousel`, which is a plugin: refused, allowed, checked, and used in a run on an emulated bench. In the same
+//! run it is also stuck, wrong, unresponsive and gone.
 
 #![cfg(target_os = "linux")]
 
@@ -20,7 +20,7 @@ const ID: &str = "org.example.carousel";
 const FOLDER: &str = "--plugin-dir carousel";
 const HOLDS: &str = "sphere of radius 2 mm, line grating of 1 mm, line grating of 1.5 mm";
 
-/// What the carousel does when it is asked to turn to its second place or its third.
+/// Behaviour of the carousel when it is asked to turn to its second or third place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Mood {
     Well,
@@ -30,10 +30,10 @@ enum Mood {
     Gone,
 }
 
-/// The places that it was asked for, and whether the arm stood above the gel at the beginning and at the end of each turn.
+/// Requested places, each with true if the arm was above the gel at the beginning and the end of the turn.
 type Turns = Mutex<Vec<(usize, bool)>>;
 
-/// The carousel on the other side of its line.
+/// The carousel at the other end of the line.
 struct Carousel {
     port: u16,
     mood: Arc<Mutex<Mood>>,
@@ -47,7 +47,7 @@ impl Carousel {
         let mood = Arc::new(Mutex::new(Mood::Well));
         let turns = Arc::new(Mutex::new(Vec::new()));
         let shared = (bench.clone(), Arc::clone(&mood), Arc::clone(&turns));
-        // It ends with the test.
+        // The thread ends with the test.
         thread::spawn(move || {
             for stream in listener.incoming() {
                 let (bench, mood, turns) = shared.clone();
@@ -132,7 +132,7 @@ calibration = { points = 6, indentations = 1 }
 gratings = { from_mm = 1.0, to_mm = 1.5, step_mm = 0.5, kinds = ["line"], presses = 4 }
 "#;
 
-/// A run, again where a machine that is too busy ended it.
+/// A run, repeated if a busy machine ended it.
 fn run(bench: &Bench) -> Ran {
     let mut ran = None;
     for _ in 0..5 {
@@ -198,7 +198,7 @@ fn a_carousel_changes_what_an_emulated_bench_presses_with_and_its_failures_lose_
     );
     assert!(!plan.err.contains("changed by hand"), "{}", plan.err);
 
-    // Nobody is there. Each failure ends the run before the board is pressed; every press before it is kept.
+    // No operator. Each failure ends the run before the board is pressed; every press before it is kept.
     for (mood, said) in [
         (Mood::Stuck, "the motor is hot"),
         (
@@ -222,7 +222,7 @@ fn a_carousel_changes_what_an_emulated_bench_presses_with_and_its_failures_lose_
     let places = turns.iter().map(|(place, _)| *place);
     assert_eq!(BTreeSet::from_iter(places), BTreeSet::from([1, 2, 3]));
 
-    // Each of the 14 presses, and each once.
+    // Each of the 14 presses exactly once.
     let dataset = Dataset::open(&bench.path("r/recordings/1-wire")).expect("it is whole");
     let samples = dataset.table().samples();
     let ids: BTreeSet<&String> = samples.iter().collect();

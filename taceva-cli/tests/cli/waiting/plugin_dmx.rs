@@ -1,4 +1,4 @@
-//! The light in `examples/plugins/dmx-light`, a changer that is a plugin: refused, allowed, and set through a port whose other end looks.
+//! The light in `examples/plugins/dmx-light`, a changer that is a plugin: refused, allowed, and set through a port that the test reads.
 
 #![cfg(target_os = "linux")]
 
@@ -14,7 +14,7 @@ use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 
 const KEY: &str = "org.example.dmx-light/dmx-light";
 
-/// A port, and all that comes through it.
+/// A port, and all bytes that it received.
 fn port() -> (String, Arc<Mutex<Vec<u8>>>) {
     let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).expect("a terminal");
     grantpt(&master).expect("ours");
@@ -22,7 +22,7 @@ fn port() -> (String, Arc<Mutex<Vec<u8>>>) {
     let name = ptsname(&master, Vec::new()).expect("it has a name");
     let name = name.to_str().expect("plain").to_owned();
     fs::set_permissions(&name, fs::Permissions::from_mode(0o666)).expect("ours");
-    // Held open, so that it does not end with the first who closes it.
+    // Held open, so that the port does not close with its first user.
     let held = File::options().write(true).open(&name).expect("a port");
     let came = Arc::new(Mutex::new(Vec::new()));
     let heard = Arc::clone(&came);
@@ -61,7 +61,7 @@ fn the_light_is_allowed_and_every_byte_that_sets_it_comes_through_its_port() {
     let begun = Instant::now();
     let came = loop {
         let came = came.lock().expect("whole").clone();
-        // The last may still be on its way through the terminal.
+        // The last packet may still be in the buffer of the terminal.
         if came.len() >= 8 * 518 && came.len() % 518 == 0 {
             break came;
         }
@@ -82,7 +82,7 @@ fn the_light_is_allowed_and_every_byte_that_sets_it_comes_through_its_port() {
         assert!(lit <= 1, "{packet:?}");
     }
 
-    // What is no port is refused before the plugin starts.
+    // An invalid port is refused before the plugin starts.
     bench.ok(&format!(
         "plugin allow org.example.dmx-light serial:/dev/null {folder}"
     ));

@@ -1,4 +1,4 @@
-//! The driver in `examples/plugins/line-transducer`, which was written by the guide alone: built, refused, allowed, checked and planned with.
+//! The driver in `examples/plugins/line-transducer`, written by the guide alone: built, refused, allowed, checked and planned with.
 
 #![cfg(target_os = "linux")]
 
@@ -13,11 +13,11 @@ use crate::support::Bench;
 
 const KEY: &str = "org.example.line-transducer/line-transducer";
 
-/// A device on loopback that writes what `line` gives for each number, 200 times a second, to each that connects; its port.
+/// A device on loopback that sends the text of `line` for each number, 200 times a second, to every client. Returns its port.
 fn device(line: fn(u64) -> String) -> u16 {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("bound").port();
-    // It ends with the test.
+    // The thread ends with the test.
     thread::spawn(move || {
         for stream in listener.incoming() {
             let mut stream = stream.expect("a connection");
@@ -44,7 +44,7 @@ fn the_example_is_allowed_checked_and_planned_with_and_says_what_is_wrong_with_i
     let folder = "--plugin-dir line-transducer";
     assert_eq!(bench.run("plugin manifest line-transducer").code, 0);
 
-    // By the name of a machine, which a confined process could ask nobody for.
+    // By a host name, which a confined process could not resolve.
     let port = device(resting);
     let check = format!(
         "plugin check {ID} {folder} --with {KEY}:host=localhost;port={port}",
@@ -62,7 +62,7 @@ fn the_example_is_allowed_checked_and_planned_with_and_says_what_is_wrong_with_i
         "{checked}"
     );
 
-    // What is no reading, however it goes on: the driver says so.
+    // The driver reports every invalid reading, whatever follows.
     for (line, words) in [
         (
             (|_| "hello\n".to_owned()) as fn(u64) -> String,
@@ -90,7 +90,7 @@ fn the_example_is_allowed_checked_and_planned_with_and_says_what_is_wrong_with_i
         assert!(failed.out.contains(words), "{words}: {}", failed.out);
     }
 
-    // A device that stops sending is a reading that did not come in time, and no process that has to be ended.
+    // A device that stops sending gives a late reading; its process is not killed.
     let port = device(|number| {
         if number > 3 {
             thread::sleep(Duration::from_secs(600));
@@ -110,7 +110,7 @@ fn the_example_is_allowed_checked_and_planned_with_and_says_what_is_wrong_with_i
         silent.out
     );
 
-    // The plan opens nothing, and says what would be refused.
+    // The plan opens nothing, and names what would be refused.
     let rig = format!(
         r#"rig_version = 1
 simulated = true

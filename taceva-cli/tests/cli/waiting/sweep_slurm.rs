@@ -1,4 +1,4 @@
-//! Sweeps on a real Slurm: two virtual nodes on loopback, begun and ended by `tests/slurm`.
+//! Sweeps on a real Slurm: two virtual nodes on loopback, started and stopped by `tests/slurm`.
 
 mod cluster;
 mod nodes;
@@ -7,7 +7,7 @@ mod submitted;
 
 use crate::support::{Bench, sweeps};
 
-/// What the cluster is asked for.
+/// Resources requested from the cluster.
 const SLURM: &str = r#"[slurm]
 partition = "main"
 time = "00:10:00"

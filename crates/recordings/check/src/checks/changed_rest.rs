@@ -52,7 +52,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     if rest.len() < LEAST || pressed.len() < LEAST {
         return Vec::new();
     }
-    // The median of each tile would cost more and say the same: static faults are in every picture.
+    // The median of each tile would cost more for the same result: static faults are in every picture.
     let Some(mean) = Tiles::mean(rest.iter().map(|(_, tiles)| *tiles)) else {
         return Vec::new();
     };

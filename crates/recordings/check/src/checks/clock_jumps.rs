@@ -24,7 +24,7 @@ const JUMP_STEPS: f64 = 100.0;
 const JUMP_S: f64 = 1.0;
 /// Without contact points a pause between presses looks like a jump: at most one step in this many, or a single one, is a jump.
 const SELDOM: usize = 100;
-/// Jumps are sought there only if nine in ten steps are at most this many usual ones.
+/// Such jumps are searched only if nine in ten steps are at most this many usual steps.
 const REGULAR_STEPS: f64 = 3.0;
 /// Difference of consecutive stamps that shows two clocks, s: twelve days. Seconds since 1970 and since a start are 54 years apart.
 const TWO_CLOCKS_S: f64 = 1e6;
@@ -87,7 +87,7 @@ fn of_two_kinds(last: &[f64]) -> Option<Found> {
         .then(|| Found::overall(Severity::Warning, message))
 }
 
-/// Finds stamps that jump ahead within one contact, or between rows without any, by less than two clocks differ.
+/// Finds stamps that jump ahead within one contact, or between rows without contact points, by less than `TWO_CLOCKS_S`.
 fn set_within(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(stream) = Stream::of(evidence) else {
         return Vec::new();

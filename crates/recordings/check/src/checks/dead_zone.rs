@@ -22,8 +22,8 @@ const LEAST: usize = 10;
 const SHARE: usize = 20;
 /// Minimum correlation of nonzero forces with the change of their pictures, so that pictures show the load.
 const CLEAR: f64 = 0.7;
-/// Threshold of contact in a picture, between rest and the median with force. Rest is the level that one in `AT_REST` of the zero-force
-/// pictures is below.
+/// Threshold of contact in a picture, between rest and the median with force. Rest is the quantile 1 / `AT_REST` of
+/// the zero-force pictures.
 const PRESSED: f64 = 0.25;
 const AT_REST: usize = 10;
 

@@ -21,7 +21,7 @@ const GAP: std::ops::Range<f64> = 1.5..10.5;
 /// A regular stream: maximum deviation of a step from the usual one, and minimum share of such steps.
 const NEAR: f64 = 0.25;
 const REGULAR: f64 = 0.75;
-/// Streams with more missing frames: the period is sought near the step that one in this many is shorter than.
+/// For streams with more missing frames, the period is searched near the step that one in this many steps is shorter than.
 const SHORT: usize = 10;
 /// Minimum share of steps of one period.
 const SINGLE: f64 = 0.3;
@@ -43,7 +43,7 @@ pub(super) struct Missing {
     pub(super) frames: f64,
     /// The rows after the gaps.
     rows: Vec<usize>,
-    /// The steps of the stream.
+    /// Number of steps of the stream.
     steps: usize,
     /// The longest gap, in periods.
     longest: f64,
@@ -167,7 +167,7 @@ fn is_cut(stream: &Stream, period: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// The missing frames between these numbers of periods of 1/30 s.
+    /// Number of missing frames of a stream with these steps, in periods of 1/30 s.
     fn missing_of(periods: &[f64]) -> f64 {
         let seconds: Vec<f64> = periods.iter().map(|periods| periods / 30.0).collect();
         Missing::of(&Stream::of_seconds(&seconds)).map_or(0.0, |missing| missing.frames)

@@ -160,7 +160,7 @@ impl Lag {
             .iter()
             .filter_map(|stream| Some(stream.last()?.0 - stream.first()?.0));
         let longest = OF_RECORDING * spans.sum::<f64>();
-        // Up to where three quarters of the samples have a partner.
+        // Limit of the lag: three quarters of the samples must have a partner.
         let furthest = (1..=FURTHEST).take_while(|shift| {
             #[expect(clippy::cast_precision_loss, reason = "at most 60 steps")]
             let is_near = *shift as f64 * step <= longest;
@@ -170,7 +170,7 @@ impl Lag {
             is_near && (count - partners.sum::<usize>()) * SHARE <= count
         });
         let furthest = i64::try_from(furthest.count()).ok()?;
-        // The nearest among equal lags.
+        // On a tie the smallest lag wins.
         let mut lags: Vec<i64> = (-furthest..=furthest).collect();
         lags.sort_by_key(|lag| lag.abs());
         let mut best = (0, at(0));

@@ -20,7 +20,7 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of stretches for their length.
 const LEAST: usize = 5;
-/// Median length of a stretch, rows, and the factor that nine in ten stretches stay below: levels held on purpose vary more.
+/// Minimum median length of a stretch, rows. Nine in ten stretches are at most `ALIKE` medians long; levels held on purpose vary more.
 const ROWS: usize = 2;
 const ALIKE: usize = 2;
 

@@ -1,4 +1,4 @@
-//! Labels that are one, labels that were normalised, and depths that are none.
+//! Duplicate labels, normalised labels, and implausible depths.
 
 use taceva_check::CheckReport;
 
@@ -65,7 +65,7 @@ fn table(rows: u32, head: &str, cells: impl Fn(u32) -> String) -> String {
         .join("\n")
 }
 
-/// A number from 0 to 1, both of which are met.
+/// A number from 0 to 1; both ends occur.
 fn unit(row: u32, factor: u32) -> f64 {
     f64::from(row * factor % 41) / 40.0
 }

@@ -1,11 +1,11 @@
-//! Forces that stand still and forces that are cut at a limit.
+//! Forces that freeze, and forces that are cut at a limit.
 
 use taceva_check::CheckReport;
 
 use super::streams::{message, says_nothing};
 use super::{Recording, picture, readings};
 
-/// What a check says of a recording with these normal forces.
+/// Report on a recording with these normal forces.
 fn with_forces(force: impl Fn(u32) -> f64, change: impl FnOnce(&mut Recording)) -> CheckReport {
     let mut recording = Recording::sound();
     for (number, sample) in (0..).zip(&mut recording.samples) {
@@ -18,7 +18,7 @@ fn with_forces(force: impl Fn(u32) -> f64, change: impl FnOnce(&mut Recording)) 
     recording.check("")
 }
 
-/// From 1 N to 2.99 N, no two alike.
+/// From 1 N to 2.99 N, all different.
 fn forces(number: u32) -> f64 {
     1.0 + 0.01 * f64::from(number * 37 % 200)
 }
@@ -61,7 +61,7 @@ fn a_force_that_is_cut_in_a_third_of_the_samples_is_stuck_at_its_limit() {
     );
     let pulled = with_forces(|number| -forces(number).min(2.305), |_| {});
     assert!(message(&pulled, "TAC009").starts_with("Fz ends at -2.305 N in 69 of 200"));
-    // Levels that somebody set, and the least force, which may be that at rest.
+    // Commanded levels, and the least force, which may be that at rest.
     let levels = |number: u32| f64::from(1 + number % 4);
     says_nothing(&with_forces(levels, |_| {}), "TAC009");
     says_nothing(
@@ -70,7 +70,7 @@ fn a_force_that_is_cut_in_a_third_of_the_samples_is_stuck_at_its_limit() {
     );
 }
 
-/// What a check says of presses from 0 to 1.5 N and back, whose forces are seen through `read`, after a rest of `rest` samples.
+/// Report on presses from 0 to 1.5 N and back, whose forces pass through `read`, after `rest` samples at rest.
 fn of_presses(rest: u32, read: impl Fn(f64) -> f64) -> CheckReport {
     let press = |number: u32| match number < rest {
         true => 0.0,
@@ -95,10 +95,10 @@ fn a_force_that_is_zero_below_a_threshold_differs_from_rest_by_its_pictures() {
         found.starts_with("Fz is exactly 0 in 80 samples, but "),
         "{found}"
     );
-    // So is one that is clipped at zero behind an offset.
+    // A force clipped at zero behind an offset, too.
     let clipped = |force: f64| (force - 0.7).max(0.0);
     message(&of_presses(0, clipped), "TAC027");
-    // A rest, and the ends of presses.
+    // Rest, and the ends of presses.
     says_nothing(&of_presses(80, |force| force), "TAC027");
     says_nothing(&of_presses(0, |force| force), "TAC027");
 }

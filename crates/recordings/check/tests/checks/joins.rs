@@ -1,4 +1,4 @@
-//! Labels that a join by time found, although the times or the readings do not allow it.
+//! Labels joined by time, although the times or the readings do not suit it.
 
 use super::codes;
 use super::lab::{PICTURES, SENSOR, imported, pictures};

@@ -1,4 +1,4 @@
-//! A lab's folder, drawn, imported and checked.
+//! A drawn lab's folder, imported and checked.
 
 use std::num::NonZeroUsize;
 
@@ -19,7 +19,7 @@ pub(super) const PICTURES: &str =
 const WIDTH: u32 = 24;
 const HEIGHT: u32 = 16;
 
-/// Gray pictures in the form of numpy, one for each of `presses`: a press darkens the middle, and no two pictures have the same noise.
+/// Gray pictures as a NumPy file, one for each of `presses`: a press darkens the middle, and the noise of all pictures differs.
 pub(super) fn pictures(presses: &[f64]) -> Vec<u8> {
     let shape = format!("({}, {HEIGHT}, {WIDTH})", presses.len());
     let header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}\n");
@@ -42,7 +42,7 @@ pub(super) fn pictures(presses: &[f64]) -> Vec<u8> {
     bytes
 }
 
-/// Imports a folder of these files by this map, and makes the checks of these codes.
+/// Imports a folder of these files by this map, and runs the checks of these codes.
 pub(super) fn imported(files: &[(&str, Vec<u8>)], map: &str, only: &[&str]) -> CheckReport {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, bytes) in files {

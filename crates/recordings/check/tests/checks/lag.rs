@@ -1,8 +1,8 @@
-//! A clock of the forces that is not that of the pictures.
+//! A clock of the forces that differs from that of the pictures.
 
 use super::{Recording, picture, readings};
 
-/// Presses of 40 samples, no two alike.
+/// Presses of 40 samples, all different.
 fn press(number: u32) -> f64 {
     let depth = 0.4 + 0.2 * f64::from(number / 40 * 3 % 4);
     depth * (1.0 - (f64::from(number % 40) / 20.0 - 1.0).abs())
@@ -11,7 +11,7 @@ fn press(number: u32) -> f64 {
 #[test]
 fn forces_that_go_with_earlier_pictures_are_a_lag_of_clocks() {
     let mut recording = Recording::sound();
-    // Each force is that of five pictures before.
+    // Each force belongs to the picture five samples earlier.
     for (number, sample) in (0..).zip(&mut recording.samples) {
         let before = press(u32::max(number, 5) - 5);
         sample.frame = Some(picture(number, press(number)));
@@ -40,7 +40,7 @@ fn units_that_are_recorded_in_turn_have_the_lag_of_their_clock_and_none_of_their
     for (later, steps) in [(0, None), (4, Some("(4 steps) later"))] {
         let mut recording = Recording::sound();
         for (number, sample) in (0..).zip(&mut recording.samples) {
-            // The second is pressed half a press later.
+            // The second unit is pressed half a press later.
             let own = number / 2 + 20 * (number % 2);
             sample.unit_id = Some(format!("u{}", number % 2));
             sample.stamp = Some(taceva_core::Stamp {

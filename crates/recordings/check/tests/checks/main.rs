@@ -26,7 +26,7 @@ use taceva_core::{
 };
 use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 
-/// A recording without a flaw, sample by sample, to be spoilt.
+/// A recording without a flaw, sample by sample, for the tests to spoil.
 struct Recording {
     facts: SensorFacts,
     clock: Clock,
@@ -103,7 +103,7 @@ impl Recording {
     }
 }
 
-/// More force, less light; red is the brightest colour.
+/// More force gives less light; red is the brightest colour.
 fn picture(number: u32, force: f64) -> Frame {
     let info = FrameInfo {
         width: 8,

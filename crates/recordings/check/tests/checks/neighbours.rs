@@ -4,7 +4,7 @@ use taceva_check::{CheckReport, Severity};
 
 use super::{Recording, SAMPLES, readings};
 
-/// A recording without points, each label a function of the place of its row in time.
+/// A recording without points, whose labels are a function of the row number.
 fn labelled(label: impl Fn(u32) -> f64) -> Recording {
     let mut recording = Recording::sound();
     for (number, sample) in (0..SAMPLES).zip(&mut recording.samples) {
@@ -19,7 +19,7 @@ fn pressed(number: u32) -> f64 {
     1.0 + (f64::from(number) / 9.0).sin()
 }
 
-/// Labels of which no one resembles the one before.
+/// Labels of which none resembles the previous one.
 fn scattered(number: u32) -> f64 {
     0.1 + f64::from(number.wrapping_mul(2_654_435_761) >> 16) / 65_536.0
 }

@@ -1,4 +1,4 @@
-//! Frames that are missing, clocks of several units, and clocks that jump.
+//! Missing frames, clocks of several units, and clocks that jump.
 
 use taceva_check::{CheckReport, Severity};
 use taceva_core::{Clock, Stamp};
@@ -6,7 +6,7 @@ use taceva_core::{Clock, Stamp};
 use super::streams::{message, regular, says_nothing, stamped};
 use super::{Recording, SAMPLES, codes, found};
 
-/// What a check says of a recording by its stamps, without any contact point.
+/// Report on a recording with these stamps, without any contact point.
 fn without_points(time: impl Fn(u32) -> f64) -> CheckReport {
     stamped(time, |recording| {
         for sample in &mut recording.samples {
@@ -129,7 +129,7 @@ fn two_units_in_turn_have_a_clock_each() {
         message(&report, "TAC008"),
         "32.2581 Hz from the median step of 0.0310 s, without gaps"
     );
-    // What one of them misses is missing still.
+    // Frames missing in one unit are still found.
     let report = in_turn(|number| {
         let misses = number % 2 == 1 && number > 100;
         regular(number / 2 + u32::from(misses))
@@ -160,7 +160,7 @@ fn units_of_different_months_have_one_kind_of_clock_and_units_since_1970_and_sin
         "TAC024",
         "two clocks in one column: some tables or units have stamps since 1970",
     );
-    // What one of them shows is no time since 1970, however late the other one is.
+    // The stamps of one unit are no Unix times, however late those of the other are.
     let stated = in_turn(Clock::Unix, 20.0);
     assert!(
         stated

@@ -1,4 +1,4 @@
-//! Doubled and dropped frames, clocks that jump, blank samples, and what an import left out.
+//! Doubled and dropped frames, clocks that jump, blank samples, and omissions of an import.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -10,7 +10,7 @@ use taceva_import::{ImportMap, ImportPlan};
 
 use super::{Recording, SAMPLES, codes};
 
-/// What a check says of a recording whose stamps, in s, are these.
+/// Report on a recording with these stamps, s.
 pub(super) fn stamped(
     time: impl Fn(u32) -> f64,
     change: impl FnOnce(&mut Recording),
@@ -69,7 +69,7 @@ fn frames_that_are_the_one_before_once_more_are_counted_with_the_true_rate() {
         message(&report, "TAC022"),
         "100 of 199 steps repeat the previous frame, up to 2 in a row: the stamps are at 32.2581 Hz, new pictures at 16.0480 Hz"
     );
-    // A copy elsewhere is a copy, and no stream that stands still.
+    // A copy elsewhere is a copy, not a frozen stream.
     let report = stamped(regular, |recording| {
         recording.samples[100].frame = recording.samples[3].frame.clone();
     });
@@ -99,7 +99,7 @@ fn steps_of_two_and_four_usual_ones_are_dropped_frames_and_a_pause_is_none() {
         ),
         "TAC023",
     );
-    // Of steps that are never alike nobody can say that one is missing.
+    // If all steps differ, a missing frame cannot be detected.
     let uneven = |number: u32| 0.02 * f64::from(number) + 0.03 * f64::from(number * number % 7);
     says_nothing(&stamped(|number| uneven(number).max(0.0), |_| {}), "TAC023");
 }
@@ -155,7 +155,7 @@ fn frames_of_one_colour_are_found_by_a_check_that_is_asked_for_alone() {
     );
 }
 
-/// What the checks of these codes say of an import.
+/// Report of the checks of these codes on an import.
 fn imported(files: &[(&str, &str)], map: &str, only: &[&str]) -> CheckReport {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, text) in files {

@@ -1,4 +1,4 @@
-//! What `check` says of taxels.
+//! Findings of `check` about taxels.
 
 use std::num::NonZeroUsize;
 
@@ -18,7 +18,7 @@ fn checked(dataset: &Dataset, only: &[&str]) -> CheckReport {
     check(dataset, &request, &SilentProgress).expect("checked")
 }
 
-/// Codes and messages of what is found in a drawn recording whose signals are changed by `change`.
+/// Codes and messages of the findings in a drawn recording whose signals `change` alters.
 fn found(change: impl Fn(u32, Vec<f32>) -> Vec<f32>) -> Vec<(&'static str, String)> {
     let folder = tempfile::tempdir().expect("a folder");
     let dataset = record_changed(&folder.path().join("data"), 400, change);
@@ -72,14 +72,14 @@ fn a_taxel_at_the_end_of_its_converter_is_named_and_one_that_is_silent_at_rest_i
         message.starts_with("1 of 15 signals are clipped at a limit: taxel_4_0_z is 400 uT in "),
         "{message}"
     );
-    // Below 320 µT, which hardly any press stays under, it says nothing.
+    // Below 320 µT, which few presses stay under, the taxel shows nothing.
     let silent = found(|_, values| values.into_iter().map(|value| value.max(320.0)).collect());
     assert_eq!(silent, []);
 }
 
 #[test]
 fn rows_without_contact_that_are_pressed_are_named() {
-    // At rest the numbers of a deep press, and the deeper the others the nearer to them.
+    // The values at rest are those of a deep press, so deeper samples are nearer to them.
     let pressed = found(|row, values| match row < REST {
         true => values.into_iter().map(|value| value + 700.0).collect(),
         false => values,

@@ -33,7 +33,7 @@ fn checked(left: &[u8], right: &[u8], only: &[&str]) -> CheckReport {
     imported(&files, &map, only)
 }
 
-/// Pictures of which the noise differs from that of the other finger.
+/// Pictures whose noise differs from that of the other finger.
 fn other_finger() -> Vec<u8> {
     let mut bytes = pictures(&presses(0));
     let pixels = bytes.len() - ROWS * 24 * 16;
@@ -41,7 +41,7 @@ fn other_finger() -> Vec<u8> {
     bytes
 }
 
-/// The same with the picture of a row in the place of that of another.
+/// The same pictures, with row `from` copied to row `to`.
 fn repeated(mut bytes: Vec<u8>, from: usize, to: usize) -> Vec<u8> {
     let begin = bytes.len() - ROWS * 24 * 16;
     let of = |row: usize| begin + row * 24 * 16..begin + (row + 1) * 24 * 16;
@@ -64,7 +64,7 @@ fn equal_pictures_in_two_views_are_named_with_both() {
         ["the pictures of `left` and `right` are the same file in 24 of 24 samples"]
     );
     assert_eq!(report.findings[0].severity, Severity::Error);
-    // In some samples alone: one camera hung and the other was copied.
+    // In some samples only: one camera froze and the other was copied.
     let mut some = right.clone();
     let begin = some.len() - ROWS * 24 * 16;
     some[begin..begin + 3 * 24 * 16].copy_from_slice(&left[begin..begin + 3 * 24 * 16]);

@@ -1,4 +1,4 @@
-//! A transducer whose zero moves while pictures without contact stay what they are.
+//! A transducer whose zero moves while pictures without contact stay the same.
 
 use taceva_check::CheckReport;
 
@@ -43,7 +43,7 @@ fn press(number: u32) -> f64 {
     }
 }
 
-/// Checks 200 samples whose labels of `name` are the press and what `zero` adds.
+/// Checks 200 samples whose labels of `name` are the press plus `zero`.
 fn with_zero(name: &str, time: bool, zero: impl Fn(u32) -> f64) -> CheckReport {
     let header = if time { "t,fz" } else { "fz" };
     let mut table = format!("{header}\n");

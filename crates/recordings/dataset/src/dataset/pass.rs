@@ -118,7 +118,7 @@ impl Dataset {
     /// Memory holds at most a few frames for each thread. The result does not depend on the number of threads.
     ///
     /// # Errors
-    /// Those of [`frame`](Dataset::frame), for the first row in order that has one; [`DatasetError::Request`] if a row has no frame;
+    /// As [`frame`](Dataset::frame), for the first failing row in order; [`DatasetError::Request`] if a row has no frame;
     /// [`DatasetError::Sink`] if `take` fails; [`DatasetError::Cancelled`].
     pub fn map_frames<T: Send>(
         &self,
@@ -141,7 +141,7 @@ impl Dataset {
     /// progress reports.
     ///
     /// # Errors
-    /// Those of `work` and `take`, for the first row in order that has one; [`DatasetError::Cancelled`].
+    /// Errors of `work` and `take`, for the first failing row in order; [`DatasetError::Cancelled`].
     pub fn map_rows<T: Send>(
         &self,
         pass: Pass<'_>,
@@ -155,7 +155,7 @@ impl Dataset {
     /// Pushes the sample of each row into `sink`, in order; frames are decoded and signals read only if the sink reads them.
     ///
     /// # Errors
-    /// Those of [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink rejects a sample; [`DatasetError::Cancelled`].
+    /// As [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink rejects a sample; [`DatasetError::Cancelled`].
     pub fn stream(
         &self,
         pass: Pass<'_>,

@@ -52,7 +52,7 @@ pub struct JoinedRecording {
 }
 
 impl JoinedRecording {
-    /// Name of its folder; the second of one name is `NAME#2`.
+    /// Name of its folder; a second folder of that name becomes `NAME#2`.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -167,8 +167,8 @@ type Shared = (Digest, Vec<Option<u64>>);
 /// Number of different pictures shared under other labels from which two recordings overlap: no camera takes a picture twice.
 const SAME_PICTURES: usize = 3;
 
-/// Rejects recordings that share a sample: the bytes of a frame and all of its labels, or some pictures under other labels, as two imports
-/// of one recording do. One would be learnt and the other tested.
+/// Rejects recordings that share a sample: equal frame bytes and labels, or some pictures under other labels, as in two imports of one recording.
+/// A shared sample could be in both the training and the test part.
 fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
     let mut known: HashMap<Shared, (usize, usize)> = HashMap::new();
     let mut pictures: HashMap<Digest, (usize, usize)> = HashMap::new();

@@ -32,8 +32,8 @@ impl Dataset {
 
     /// The same dataset with the frames of the view `view`, or of several side by side: `left+right`.
     ///
-    /// The digest is a function of that of the dataset and of the view. Labels stay the same. Several views have no common file, so that
-    /// entries of the table then have no bytes.
+    /// The digest depends on the digest of the dataset and on the view. Labels stay the same. Several views have no common file, so entries of
+    /// the table then have no bytes.
     ///
     /// # Errors
     /// [`DatasetError::View`] if there is no such view; [`DatasetError::Request`] if one is named twice, or if pictures side by side differ

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Misread, differing, number, quoted};
 
-/// Mapping of a label by an import. A dataset needs it before rows by another map are added: the same column in another unit, with another
-/// sign or through another matrix gives wrong numbers without a sign of it.
+/// Mapping of a label by an import. It is compared before rows are added with another map: another unit, sign or matrix for the same column would
+/// give wrong numbers without an error.
 ///
 /// ```
 /// let text = "label = \"Fz\"\nfrom = [\"force_z\"]\nunit = \"mN\"\nsign = -1\n";
@@ -31,7 +31,7 @@ pub struct MappedColumn {
     /// Factors of the offset-corrected columns, which are then summed; empty for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub factors: Vec<f64>,
-    /// The value that means "not measured": a row with it in all columns that have one is left out.
+    /// Value that means "not measured". A row is left out if all columns with a placeholder hold it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placeholder: Option<f64>,
     /// Order of taxels: `place-first` or `channel-first`.
@@ -86,7 +86,7 @@ impl MappedColumn {
         other.from.iter().any(|column| self.from.contains(column))
     }
 
-    /// The first setting of `self`, from a new map, that differs from `known`, which read the same column for the same label.
+    /// First setting that differs between `self`, from a new map, and `known`. Both read the same column for the same label.
     fn differs_from(&self, known: &MappedColumn) -> Option<Misread> {
         let facts = |column: &MappedColumn| {
             let order = column.order.clone();

@@ -44,7 +44,7 @@ impl Extension {
 }
 
 impl Header {
-    /// All digests of the recording, each with the number of samples then: those before each extension, and the present one last.
+    /// Digests of the recording with their numbers of samples: one before each extension, the present one last.
     pub fn stages(&self) -> impl Iterator<Item = (Digest, u64)> + '_ {
         let before = self.extended.iter();
         let before = before.map(|extension| (extension.digest, extension.rows));

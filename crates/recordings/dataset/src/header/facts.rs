@@ -235,7 +235,7 @@ pub struct FrameCodec {
     /// The decoder, with its version if known; `None` if frames are stored as they came.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub decoder: Option<String>,
-    /// Bits of a sample in the clip, if above 8: luma keeps its numbers in 16 bits and is not scaled up to their full range.
+    /// Bits of a sample in the clip, if above 8. Luma is stored in 16 bits without scaling.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<u8>,
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Fact, number, or_none, quoted};
 
-/// Join of a table by an import: with another lag or pick the same columns give readings of other instants.
+/// Join of a table by an import. Another lag or pick would give readings of other instants.
 ///
 /// ```
 /// let text = "name = \"ft\"\nby = \"time\"\ncolumn = \"t\"\nunit = \"s\"\npick = \"nearest\"\ntolerance_ms = 5.0\nlag_ms = 12.5\nunmatched = \"drop\"\n";
@@ -34,7 +34,7 @@ pub struct MappedJoin {
     /// Maximum distance in time, ms.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance_ms: Option<f64>,
-    /// Lag of the clock of this table, ms: it shows the same instant that much later.
+    /// Delay of the clock of this table, ms; positive if it shows a later time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_ms: Option<f64>,
     /// Source of a lag that differs by row: the column with it, or `file = ms` for each file.

@@ -37,7 +37,7 @@ impl Mapping {
         *self == Mapping::default()
     }
 
-    /// The first key of `new`, another map, that contradicts `self`. Things of other names are ignored.
+    /// The first key of `new`, another map, that contradicts `self`. Entries under other names are ignored.
     pub fn misread(&self, new: &Mapping) -> Option<Misread> {
         let columns = misread(&self.columns, &new.columns);
         let joins = new.joins.iter().find_map(|join| {
@@ -77,7 +77,7 @@ impl Mapping {
     }
 }
 
-/// `known`, then those of `new` that are not in it.
+/// `known`, followed by the entries of `new` that it lacks.
 fn united<T: Clone + PartialEq>(mut known: Vec<T>, new: &[T]) -> Vec<T> {
     for one in new {
         if !known.contains(one) {

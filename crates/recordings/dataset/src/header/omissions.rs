@@ -30,7 +30,7 @@ pub struct LeftOut {
     /// Rows of the tables, by the rule that excluded them; several rules may exclude one row.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub rows: BTreeMap<String, u64>,
-    /// Rows of joined tables that match no row of the table, used or not, by the name of the join.
+    /// Rows of joined tables that match no row of the table, kept or dropped, by the name of the join.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub joined_rows: BTreeMap<String, u64>,
     /// Rows of joined tables that `skip` excludes, by the name of the join.

@@ -55,7 +55,7 @@ impl Frame {
             .flatten()
             .any(|factor| !(1..=4).contains(factor))
         {
-            return Err("a sampling factor that is none of 1 to 4".to_owned());
+            return Err("a sampling factor outside of 1 to 4".to_owned());
         }
         let greatest = |axis: usize| {
             sampling

@@ -67,7 +67,7 @@ impl Scan {
         Ok(scan)
     }
 
-    /// Records the bits that it codes, which must be the next ones.
+    /// Records the bits that the scan codes. They must follow those of the earlier scans.
     fn note_bits(&self, frame: &mut Frame) -> Result<(), String> {
         let wrong = || Err("a scan that codes bits out of order".to_owned());
         let [first, last] = self.band;
@@ -236,7 +236,7 @@ impl Scan {
                     (15, 0) => {}
                     _ => {
                         return Err(
-                            "a coefficient of more than one bit in a scan of one".to_owned()
+                            "a coefficient of more than one bit in a one-bit scan".to_owned()
                         );
                     }
                 }

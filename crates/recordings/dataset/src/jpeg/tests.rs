@@ -22,7 +22,7 @@ fn of(name: &str) -> Vec<u8> {
     drawn.expect("a drawn picture").1
 }
 
-/// Where the data of the first scan begins, and where the end marker is.
+/// Offsets of the data of the first scan, and of the end marker.
 fn data(bytes: &[u8]) -> (usize, usize) {
     let scan = bytes.windows(2).position(|pair| pair == [0xFF, 0xDA]);
     let scan = scan.expect("a scan");
@@ -96,7 +96,7 @@ fn a_table_and_a_size_that_contradict_the_data_are_refused_without_a_panic() {
             for bit in 0..8 {
                 let mut changed = bytes.clone();
                 changed[at] ^= 1 << bit;
-                // Some headers say the same in other words; whatever comes of it comes as a value.
+                // Some changed headers are equivalent, so only a panic fails here.
                 let _ = check_whole(&changed);
             }
         }

@@ -61,7 +61,7 @@ impl Recorder {
             from_parquet(file, &header.channels, &header.attributes, &[]).map_err(damaged)?;
         if read != self.table {
             return Err(damaged(
-                "read back, it differs from what was written".to_owned(),
+                "it reads back differently from what was written".to_owned(),
             ));
         }
         Ok(())

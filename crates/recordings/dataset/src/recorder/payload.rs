@@ -113,7 +113,7 @@ pub(super) struct WrittenSample {
     spacing_nm: Option<i64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     intensity: Option<f64>,
-    /// In double precision, whose text reads back to the same number in single.
+    /// Double precision, because its text reads back to the same single-precision number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     signals: Option<Vec<f64>>,
     truth: BTreeMap<String, f64>,

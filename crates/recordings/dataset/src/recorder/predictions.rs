@@ -19,7 +19,8 @@ pub(super) struct PredictedTable {
 impl Recorder {
     /// Stores the predictions `table`, CSV with one line for each sample, of the model called `by`, until the recording is closed.
     ///
-    /// The last one is used. An earlier interruption loses it, but frames and labels are kept, and `taceva predict` can make it again.
+    /// Only the last table is kept. An interruption before the close loses the table, but not frames and labels; `taceva predict` can make it
+    /// again.
     pub fn keep_predictions(&mut self, by: &str, model: Digest, table: Vec<u8>) {
         self.predictions = Some(PredictedTable {
             facts: LivePredictions::new(by, model, &table),

@@ -28,7 +28,7 @@ impl From<DatasetError> for ReplayError {
 impl Recorder {
     pub(super) fn replay(&mut self, record: &JournalRecord) -> Result<(), ReplayError> {
         match record.kind {
-            RecordKind::Start => Err("a second beginning".to_owned().into()),
+            RecordKind::Start => Err("a second start record".to_owned().into()),
             RecordKind::Sample => self.replay_sample(WrittenSample::parse(&record.payload)?),
             RecordKind::Reference => {
                 self.take_reference(WrittenFrame::parse(&record.payload)?);

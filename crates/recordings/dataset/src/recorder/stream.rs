@@ -33,7 +33,7 @@ impl Streamed {
         Streamed { sample, sent: None }
     }
 
-    /// The same sample with the file that its frame was sent as.
+    /// The same sample with the file of its frame as the camera sent it.
     ///
     /// # Errors
     /// A message: the file is neither PNG nor JPEG nor TIFF, truncated, or damaged inside.

@@ -74,7 +74,7 @@ impl SignalsReader {
         signals.map_err(|error| DatasetError::damaged(&self.path, format!("row {row}: {error}")))
     }
 
-    /// Reads every row, and compares them with the recorded digest, whatever their storage.
+    /// Reads every row, and compares the content with the recorded digest.
     pub fn verify(&self) -> Result<(), DatasetError> {
         let mut digest = self.info.spec.digest();
         for number in 0..self.starts.len() - 1 {
@@ -137,7 +137,7 @@ fn starts(
         .clone()
         .all(|column| column.max_def_level() == 0 && column.max_rep_level() == 0);
     if !is_flat || !names.eq(info.spec.column_names()) {
-        return Err("its columns are not those that the header says".to_owned());
+        return Err("its columns differ from those in the header".to_owned());
     }
     let length = info.spec.info.len();
     let mut starts = vec![0];

@@ -11,7 +11,7 @@ fn spec() -> SignalsSpec {
     SignalsSpec::new(info, ["x", "y", "z"]).expect("three names")
 }
 
-/// The numbers of `row`: none the same as another, with a negative zero and the least number there is.
+/// Distinct numbers of `row`, with a negative zero and the least positive number.
 fn values(row: u16) -> Vec<f32> {
     let own = |place: u16| f32::from(row) * 1.25 - f32::from(place) / 3.0;
     let mut values: Vec<f32> = (0..15).map(own).collect();
@@ -144,7 +144,7 @@ fn a_stranger_who_knows_the_digest_gets_an_error_and_no_panic() {
         let read = opened(&path, &lying, 40).and_then(|reader| reader.verify());
         noticed += usize::from(read.is_err());
     }
-    // What is left are bits that say nothing about the numbers: names of programs, page sizes that nobody reads.
+    // The remaining bits do not affect numbers: names of programs and unused page sizes.
     assert!(
         noticed * 4 > bytes.len() * 3,
         "{noticed} of {}",
@@ -160,7 +160,7 @@ fn a_stranger_who_knows_the_digest_gets_an_error_and_no_panic() {
     }
 }
 
-/// The same file, said to be of a grid of 3 × 5 single numbers.
+/// Facts of the same file with a grid of 3 × 5 single numbers.
 fn other_grid(info: &SignalsInfo) -> SignalsInfo {
     let grid = SignalInfo::new(3, 5, 1, Unit::Microtesla).expect("fifteen numbers");
     SignalsInfo {

@@ -31,7 +31,6 @@ fn a_second_writer_is_refused_and_a_leftover_is_cleared() {
     assert_eq!(names(folder.path()), ["set"]);
 }
 
-/// K3.
 #[cfg(unix)]
 #[test]
 fn links_and_folders_of_strangers_at_hidden_names_stay_as_they_are() {

@@ -23,12 +23,12 @@ pub struct FrameEntry {
     pub path: String,
     /// The bytes within that file; `None` for all of them.
     pub span: Option<Span>,
-    /// The digest of its bytes; for a difference, of these and of the digest of the frame it is relative to.
+    /// Digest of its bytes; for a difference, digest of its bytes and of the digest of the first frame.
     pub digest: Digest,
 }
 
 impl FrameEntry {
-    /// The frame at `place`: a path, and after that of a pack `@OFFSET+LENGTH`, as tables write it.
+    /// The frame at `place` as tables write it: a path, followed by `@OFFSET+LENGTH` for a pack.
     pub fn at(place: impl Into<String>, digest: Digest) -> FrameEntry {
         let place = place.into();
         let found = place.rfind('@').and_then(|at| {

@@ -1,4 +1,4 @@
-//! A recorder is killed at any moment, and loses nothing that it acknowledged.
+//! A recorder killed at any moment loses no acknowledged sample.
 #![cfg(unix)]
 
 use std::io::{BufRead, BufReader, Read};
@@ -54,7 +54,7 @@ fn nothing_acknowledged_is_lost_when_the_recorder_is_killed() {
             child.wait().expect("gone");
             let mut rest = String::new();
             lines.read_to_string(&mut rest).expect("read");
-            // What was printed before the kill counts, read by us or not.
+            // Acknowledgements printed before the kill count, even if they were not read.
             for number in rest.lines().filter_map(|line| line.strip_prefix("ACK ")) {
                 acknowledged = number.parse().unwrap_or(acknowledged);
             }

@@ -1,4 +1,4 @@
-//! A recording survives being killed, and says what it kept.
+//! A recording survives a kill and reports its samples.
 
 mod killed;
 mod packs;

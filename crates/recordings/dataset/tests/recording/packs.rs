@@ -1,4 +1,4 @@
-//! Frames of a recording lie in packs, as differences to the first of each.
+//! Frames are stored in packs, as differences to the first frame of each.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use taceva_dataset::{Dataset, DatasetError, Recorder};
 use super::{sample, spec};
 use crate::support::Random;
 
-/// A texture that stays, noise that does not, and a place that is touched.
+/// Static texture, changing noise, and a touched region.
 fn textured(number: u8, format: PixelFormat) -> Frame {
     let info = FrameInfo {
         width: 40,
@@ -51,7 +51,7 @@ fn frames_lie_in_one_pack_where_what_stays_the_same_is_stored_once() {
         let dataset = Dataset::open(&path).expect("opens");
         dataset.verify_frames().expect("whole");
         let mut bytes = 0;
-        // From the last one on, so that a difference is read before what it is one to.
+        // In reverse, so that a difference is read before its first frame.
         for row in (0..20_u8).rev() {
             let decoded = dataset.frame(usize::from(row)).expect("decodes");
             assert_eq!(decoded, Some(textured(row, format)));
@@ -104,7 +104,7 @@ fn a_pack_with_a_changed_byte_gives_no_other_picture() {
                 found => assert_eq!(found.expect("whole"), Some(textured(row, format)), "{at}"),
             }
         }
-        // The others are differences to the first frame: none of them can be decoded.
+        // The others are differences to the first frame, so none of them can be decoded.
         let first = dataset.table().frames()[0]
             .as_ref()
             .and_then(|entry| entry.span);
@@ -131,7 +131,7 @@ fn what_an_interruption_left_behind_the_last_frame_of_the_journal_is_cut() {
     assert!(!twice.join("frames/0001.pack").exists());
     let digest = |path: &Path| Dataset::open(path).expect("opens").digest();
     assert_eq!(digest(&twice), digest(&once));
-    // What the journal names and the pack does not hold was lost by somebody else.
+    // The journal names bytes that the pack lacks: they were lost outside the program.
     let cut = folder.path().join("cut");
     drop(recorded(&cut, 0..3, format));
     let pack = cut.join("frames/0000.pack");

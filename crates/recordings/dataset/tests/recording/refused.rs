@@ -1,4 +1,4 @@
-//! What a recorder refuses.
+//! Samples, folders and links that a recorder refuses.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -116,7 +116,7 @@ fn links_at_names_of_a_recording_lead_nothing_elsewhere() {
     let thesis = theirs.join("thesis.tex");
     std::fs::create_dir(&theirs).expect("made");
     std::fs::write(&thesis, "theirs").expect("written");
-    // Beforehand, in a folder that looks as if its creation was interrupted.
+    // Links from before the recording, in a folder that looks like an interrupted creation.
     for (name, leads_to) in [("journal", &thesis), ("frames", &theirs)] {
         let path = folder.path().join(format!("begun-{name}"));
         std::fs::create_dir(&path).expect("made");
@@ -127,7 +127,7 @@ fn links_at_names_of_a_recording_lead_nothing_elsewhere() {
             "{name}: {refused}"
         );
     }
-    // At the name of the first pack, before the first frame.
+    // Link at the name of the first pack, before the first frame.
     let path = folder.path().join("pack");
     let mut recorder = Recorder::create(&path, &spec()).expect("created");
     let frames = path.join("frames");
@@ -135,7 +135,7 @@ fn links_at_names_of_a_recording_lead_nothing_elsewhere() {
     packs.for_each(|pack| symlink(&thesis, pack).expect("linked"));
     recorder.append(&sample(1)).expect_err("a link");
     drop(recorder);
-    // While it records, at the names of its last files.
+    // Links made during the recording, at the names of its last files.
     let path = folder.path().join("set");
     let mut recorder = Recorder::create(&path, &spec()).expect("created");
     recorder.append(&sample(1)).expect("recorded");
@@ -151,7 +151,7 @@ fn links_at_names_of_a_recording_lead_nothing_elsewhere() {
     assert_eq!(theirs.read_dir().expect("there").count(), 1);
 }
 
-/// The files and folders in the folder of a recording, by their path in it, and the bytes of files.
+/// Relative paths of the files and folders of a recording, with the bytes of files.
 fn entries(recording: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut entries = BTreeMap::new();
     for folder in [recording.to_owned(), recording.join("frames")] {
@@ -181,7 +181,7 @@ fn a_link_in_place_of_any_file_of_a_recording_is_refused_and_its_target_keeps_it
     interrupted(&whole);
     let mut names: Vec<PathBuf> = entries(&whole).into_keys().collect();
     assert_eq!(names.len(), 4, "{names:?}");
-    // Names at which nothing stands before the recording is closed.
+    // Names that are unused until the recording is closed.
     let later = ["dataset.toml", "samples.parquet", "predictions.csv"];
     let later = later.map(|name| [name.to_owned(), format!("{name}.partial")]);
     names.extend(later.into_iter().flatten().map(PathBuf::from));

@@ -1,4 +1,4 @@
-//! A recording that was interrupted is resumed, and becomes what it would have been.
+//! An interrupted recording is resumed to the same result.
 
 use std::fs;
 
@@ -60,12 +60,12 @@ fn an_interrupted_close_is_finished() {
     recorder.append(&sample(1)).expect("recorded");
     let journal = fs::read(path.join("journal")).expect("read");
     let digest = recorder.close().expect("closed").digest;
-    // Before the header was renamed: the journal decides.
+    // Interrupted before the header was renamed: the journal decides.
     fs::write(path.join("journal"), &journal).expect("written");
     fs::remove_file(path.join("dataset.toml")).expect("removed");
     let recorder = Recorder::resume(&path).expect("resumed");
     assert_eq!(recorder.close().expect("closed").digest, digest);
-    // After it was: the journal is a leftover.
+    // Interrupted after the header was renamed: the journal is a leftover.
     fs::write(path.join("journal"), &journal).expect("written");
     assert!(matches!(
         Recorder::resume(&path),

@@ -4,9 +4,9 @@
 //! cargo run -p taceva-import --example formats -- FOLDER [DATASETS]
 //! ```
 //!
-//! With DATASETS each dataset is kept there with the map it was made by, for `tests/formats/compare.py`, which reads the files again by the packages.
-//! `packages.json` says which file or folder of FOLDER which package wrote. Each is imported by its map beside this file, or else by a fresh draft whose
-//! units are filled in as a lab would: N, Nm and mm. Clips need ffmpeg on the PATH.
+//! With DATASETS, each dataset is kept there with its map, so that `tests/formats/compare.py` can read the files again with their packages.
+//! `packages.json` names the package that wrote each file or folder of FOLDER. Each is imported by its map beside this file, or else by a fresh
+//! draft with the units N, Nm and mm filled in. Clips need ffmpeg on the PATH.
 
 #![expect(clippy::print_stdout, reason = "a program says what it found")]
 
@@ -26,12 +26,12 @@ struct Written {
     path: String,
     package: String,
     version: String,
-    /// The file beside this one that maps it, where a draft cannot know what the package's documents say.
+    /// Map beside this example; `None` for a fresh draft.
     #[serde(default)]
     map: Option<String>,
 }
 
-/// The most letters of a refusal that a row shows.
+/// Limit of an error message in a row, characters.
 const SHOWN: usize = 400;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -66,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Copies a file into `to`, or all that lies in a folder.
+/// Copies a file, or the content of a folder, to `to`.
 fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
     if from.is_file() {
         let name = from.file_name().unwrap_or_default();
@@ -86,7 +86,7 @@ fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The counts of a dataset that was made of the lab's folder; it and its map are put into `target`.
+/// Imports the lab's folder, writes dataset and map to `target`, and returns a summary.
 fn imported(lab: &Path, map: Option<String>, target: &Path) -> Result<String, Box<dyn Error>> {
     let by = if map.is_some() {
         "by its map"
@@ -136,7 +136,7 @@ fn imported(lab: &Path, map: Option<String>, target: &Path) -> Result<String, Bo
     Ok(format!("{}, {by}{open}", parts.join(", ")))
 }
 
-/// Channels of a draft whose column a lab is asked for.
+/// Channels whose column a draft leaves open.
 fn left_open(draft: &str) -> Vec<String> {
     let open = draft
         .lines()
@@ -145,7 +145,7 @@ fn left_open(draft: &str) -> Vec<String> {
         .collect()
 }
 
-/// A draft with what only a lab knows.
+/// Draft with units and sensor model filled in, without open channels.
 fn filled(draft: &str) -> String {
     let line = |line: &str| {
         let unit = match line.as_bytes().first() {
@@ -160,12 +160,12 @@ fn filled(draft: &str) -> String {
             false => line,
         }
     };
-    // Of a channel whose column is not known there is nothing to fill in.
+    // Channels with an open column are removed.
     let known = draft.lines().filter(|line| !line.contains("from = \"?\""));
     known.map(line).collect::<Vec<String>>().join("\n")
 }
 
-/// The beginning of a message, without the folder that nobody else has.
+/// Beginning of a message, without the path of the lab's folder.
 fn short(message: &str, lab: &Path) -> String {
     let message = message
         .replace(&format!("{}/", lab.display()), "")

@@ -37,7 +37,7 @@ pub(super) struct RowSplitter {
 }
 
 impl RowSplitter {
-    /// Searches `most` rows from `start` on. Clears `bounds` and writes their bounds to it.
+    /// Searches up to `most` rows from `start`. Clears `bounds` and writes the cell bounds to it.
     pub(super) fn new(
         delimiter: u8,
         columns: usize,

@@ -1,4 +1,4 @@
-//! Columns of a table, of all rows or of some.
+//! Parsed columns of a table, for all or some rows.
 
 use std::ops::Range;
 
@@ -26,8 +26,7 @@ impl CsvTable {
         self.whole(name, Invalid::Refuse)
     }
 
-    /// The numbers of the column called `name`, with NaN for each cell that is neither empty nor a finite number, so that these can be counted;
-    /// empty cells are absent.
+    /// Numbers of the column called `name`; empty cells are absent. A cell that is no finite number becomes NaN, so that callers can count it.
     ///
     /// # Errors
     /// [`ImportError::Table`] if there is no such column.
@@ -35,7 +34,7 @@ impl CsvTable {
         self.whole(name, Invalid::AsNan)
     }
 
-    /// The numbers that the column at `column` has in `rows`, in their order; empty cells are absent.
+    /// Numbers of the column at `column` in `rows`, in that order; empty cells are absent.
     ///
     /// # Errors
     /// [`ImportError::Table`] at the first cell that is no finite number.
@@ -52,7 +51,7 @@ impl CsvTable {
     /// As [`numbers_in`](CsvTable::numbers_in), with NaN for each cell that is neither empty nor a finite number.
     ///
     /// # Errors
-    /// Never: the type is that of [`numbers_in`](CsvTable::numbers_in), so that a caller can choose between the two.
+    /// None. The return type equals that of [`numbers_in`](CsvTable::numbers_in), so that a caller can choose between the two.
     /// # Panics
     /// If there is no such row or column.
     pub fn numbers_in_with_invalid(
@@ -63,7 +62,7 @@ impl CsvTable {
         self.some(column, rows, Invalid::AsNan)
     }
 
-    /// Finite number in a cell, converted to the unit it is kept in; `None` if the cell is empty.
+    /// Finite number in a cell, converted to the stored unit; `None` if the cell is empty.
     ///
     /// If the units differ by a power of ten, the decimal point is moved before parsing. So `1212.4 um` is the binary64 nearest to 1.2124
     /// mm.

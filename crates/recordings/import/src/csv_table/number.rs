@@ -14,10 +14,10 @@ const EXACT_POWERS: [f64; 23] = [
 /// The limit up to which binary64 holds every integer exactly.
 const EXACT_INTEGERS: u64 = 1 << 53;
 
-/// 16 digits and a point: more are beyond 2^53 unless they begin with zeros.
+/// Limit of a plain cell, bytes: 16 digits and a point. More digits exceed 2^53 unless they begin with zeros.
 const PLAIN_BYTES: usize = 17;
 
-/// The longest cell that is read at once, without its sign.
+/// Limit of a cell that is parsed in one step, bytes, without its sign.
 const WINDOW: usize = 8;
 
 /// Parses the number in a cell of `text`: `Some(None)` if the cell is empty, `None` if it holds something else.
@@ -47,7 +47,7 @@ pub(super) fn parse_shifted(cell: &str, places: i32) -> Option<f64> {
     format!("{mantissa}e{exponent}").parse().ok()
 }
 
-/// Digits with at most one point, where one division is exactly rounded: both operands are exact (Clinger 1990).
+/// Parses digits with at most one point by one division. The result is correctly rounded because both operands are exact (Clinger 1990).
 fn parse_plain(cell: &[u8]) -> Option<f64> {
     let (negative, digits) = match cell.split_first()? {
         (b'-', rest) => (true, rest),
@@ -77,8 +77,7 @@ fn parse_plain(cell: &[u8]) -> Option<f64> {
     Some(if negative { -magnitude } else { magnitude })
 }
 
-/// As [`parse_plain`], for up to eight bytes and a sign, processed together. Branches on the position of the point and the number of
-/// following digits would be unpredictable.
+/// As [`parse_plain`], for up to eight bytes and a sign, processed together to avoid unpredictable branches.
 ///
 /// The window ends with the cell, so that the last digit is in its highest byte.
 fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
@@ -90,7 +89,7 @@ fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
     }
     let window = u64::from_le_bytes(window.try_into().expect("a window of eight bytes"));
     let before = 8 * (WINDOW - length);
-    // A byte of zero is the digit 0, and none is a point.
+    // Clears the bytes before the cell. A zero byte is the digit 0, never a point.
     let bytes = (window ^ repeated(b'0')) >> before << before;
     let points = zero_bytes(bytes ^ repeated(b'0' ^ b'.'));
     let (digits, places) = if points == 0 {
@@ -99,7 +98,7 @@ fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
         return None;
     } else {
         let point = points.trailing_zeros() as usize / 8;
-        // The digits before the point move up by a byte, over the point.
+        // Shifts the digits before the point up by one byte, over the point.
         let ahead = (1 << (8 * point)) - 1;
         let kept = bytes & !(ahead << 8 | 0xff);
         (kept | (bytes & ahead) << 8, WINDOW - 1 - point)
@@ -125,7 +124,7 @@ fn zero_bytes(bytes: u64) -> u64 {
     !(((bytes & LOW_BITS) + LOW_BITS) | bytes | LOW_BITS)
 }
 
-/// Number from eight decimal digits, one per byte, the first in the lowest byte. Neighbours are combined to pairs, fours, eight.
+/// Number from eight decimal digits, one per byte, the first in the lowest byte. Adjacent digits are combined into pairs, fours and eight.
 fn eight_digits(digits: u64) -> u64 {
     let pairs = digits.wrapping_mul((10 << 8) + 1) >> 8 & 0x00ff_00ff_00ff_00ff;
     let fours = pairs.wrapping_mul((100 << 16) + 1) >> 16 & 0x0000_ffff_0000_ffff;

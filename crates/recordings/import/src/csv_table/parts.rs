@@ -215,7 +215,7 @@ impl CsvTable {
     }
 }
 
-/// Adds a line of cells, quoted where they must be. A single empty cell is quoted, as a blank line would be no row.
+/// Adds a line of cells, quoted where they must be. A single empty cell is quoted, because a blank line is no row.
 fn push_line<'c>(text: &mut String, cells: impl IntoIterator<Item = &'c str>) {
     let start = text.len();
     for (at, cell) in cells.into_iter().enumerate() {
@@ -278,7 +278,7 @@ pub(super) fn begin_of(file: &mut File) -> std::io::Result<u64> {
 mod tests {
     use super::*;
 
-    /// More rows than a part has, some of them quoted where `is_quoted`; blank lines between.
+    /// Table longer than one part, with blank lines; some cells are quoted if `is_quoted`.
     fn text(is_quoted: bool) -> String {
         let mut text = "id,Fz,note\n".to_owned();
         for row in 0..PART_ROWS + 77 {

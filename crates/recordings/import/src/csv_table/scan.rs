@@ -46,7 +46,7 @@ pub(super) struct LineScan<R> {
     line: u64,
     /// Offset of the current line, bytes.
     start: u64,
-    /// The byte before the next one.
+    /// Last byte passed.
     last: u8,
 }
 
@@ -92,7 +92,7 @@ impl<R: Read> LineScan<R> {
         self.found.end += bytes.len() as u64;
     }
 
-    /// Ends the line before `end`. `before` is the byte in front of it.
+    /// Ends the line before `end`. `before` is the byte in front of `end`.
     fn end_line(&mut self, end: u64, before: u8) {
         let length = end - self.start;
         let is_blank = length == 0 || (length == 1 && before == b'\r');

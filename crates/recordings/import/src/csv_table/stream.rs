@@ -16,7 +16,7 @@ use taceva_dataset::{Digest, Place};
 /// Read size, bytes.
 const AHEAD: usize = 1 << 16;
 
-/// Limit of a block, bytes. A larger block holds no rows of numbers.
+/// Limit of a block, bytes; rows of numbers stay below it.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Number of leading bytes that are searched for zero bytes, as in [`CsvTable::read`].
@@ -56,8 +56,8 @@ impl CsvStream {
     /// Opens the file at `path` and reads its header.
     ///
     /// # Errors
-    /// [`ImportError::Table`] if the header is none or has a quoted cell, or the beginning is no text; [`ImportError::Dataset`] if it is no
-    /// regular file or cannot be read.
+    /// [`ImportError::Table`] if there is no header, the header has a quoted cell, or the file does not begin with text; [`ImportError::Dataset`]
+    /// if it is no regular file or cannot be read.
     pub fn open(path: &Path) -> Result<CsvStream, ImportError> {
         let (mut file, _) = open_regular(path, u64::MAX)?;
         begin_of(&mut file).map_err(ImportError::io("read", path))?;
@@ -107,8 +107,8 @@ impl CsvStream {
     /// Replaces the rows of `block` with the next `rows` rows: fewer at the end of the file, then none. Its memory is reused.
     ///
     /// # Errors
-    /// As [`CsvTable::read`]; also [`ImportError::Table`] for a quoted cell, whose end only the whole file shows. After an error the
-    /// stream cannot be read.
+    /// As [`CsvTable::read`]; also [`ImportError::Table`] for a quoted cell, whose end needs the whole file. After an error the stream cannot be
+    /// read.
     pub fn read(&mut self, rows: usize, block: &mut CsvTable) -> Result<(), ImportError> {
         let CsvTable { path, names, .. } = &self.header;
         let mut text = std::mem::take(&mut block.text).into_bytes();
@@ -152,7 +152,7 @@ impl CsvStream {
         Ok(())
     }
 
-    /// Digest of the whole file, equal to [`CsvTable::digest`], once everything was read.
+    /// Digest of the whole file, equal to [`CsvTable::digest`]. Valid once everything was read.
     pub fn digest(&self) -> Digest {
         self.digest.clone().finish()
     }
@@ -173,12 +173,12 @@ fn fill(
     let read = file.take(AHEAD as u64).read_to_end(bytes);
     let read = read.map_err(ImportError::io("read", path))?;
     let new = &bytes[had..];
-    // Counts over every byte, without a branch, so that the loop vectorises.
+    // Compares every byte without a branch, so that the loop vectorises.
     let quotes = new
         .iter()
         .fold(0, |any, byte| any | u8::from(*byte == b'"'));
     if quotes != 0 {
-        let problem = "a quoted cell, which is read with the whole table alone".to_owned();
+        let problem = "a quoted cell, which only a read of the whole table accepts".to_owned();
         return Err(wrong(path, 1, problem));
     }
     digest.fixed(new);
@@ -193,7 +193,7 @@ fn wrong(path: &Path, line: u64, problem: String) -> ImportError {
 mod tests {
     use super::*;
 
-    /// The rows of the file, read in blocks of so many, against those of the whole.
+    /// Compares the file, read in blocks of `rows` rows, with the whole table.
     fn is_as_the_whole(path: &Path, rows: usize) {
         let whole = CsvTable::read(path).expect("a table");
         let mut stream = CsvStream::open(path).expect("plain");
@@ -265,7 +265,7 @@ mod tests {
             (format!("a,b\n{good}1,2,3"), "line 50002: 3 cells"),
             (format!("a,b\n{good}\"1\",2"), "a quoted cell"),
             ("\"a\",b\n".to_owned(), "a quoted cell"),
-            ("a,b,a\n1,2,3\n".to_owned(), "the column `a` comes twice"),
+            ("a,b,a\n1,2,3\n".to_owned(), "the column `a` occurs twice"),
             ("a,b\n1,\0\n".to_owned(), "line 2: a byte of value 0"),
             (String::new(), "expected a header"),
         ] {

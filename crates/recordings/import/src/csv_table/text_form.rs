@@ -52,7 +52,7 @@ impl TextForm {
     /// Returns the cell with a decimal point and without groups; `None` if it is no number or needs no change.
     ///
     /// # Errors
-    /// The problem with a cell of digits and signs that breaks this form.
+    /// A message if a cell of digits and signs does not have this form.
     pub(crate) fn converted(&self, cell: &str) -> Result<Option<String>, String> {
         if !self.converts() || !cell.bytes().any(|byte| byte.is_ascii_digit()) {
             return Ok(None);

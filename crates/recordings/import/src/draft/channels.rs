@@ -31,7 +31,7 @@ impl Offered<'_> {
         )
     }
 
-    /// Position in a pose that is a list of lists: position before rotation.
+    /// Rank within a pose that is a list of lists: the position precedes the rotation.
     fn place_in_pose(&self) -> u32 {
         let is_place = self.candidate.channel.starts_with('P');
         let last = self.name.rsplit('/').next().filter(|_| is_place);

@@ -126,7 +126,7 @@ fn empty_rows(column: &SeenColumn, rows: usize) -> Option<String> {
     })
 }
 
-/// Frames whose paths in the table begin in a parent folder or on another machine.
+/// Frame lines for a table whose paths begin in a parent folder or on another machine.
 fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLines> {
     let own = folder.path().join(main.group.first());
     let own = taceva_files::parent_of(&own).to_owned();
@@ -264,7 +264,7 @@ pub(super) fn of(
     }
 }
 
-/// Frame lines of the `names` that are views of one another, made by `lines`.
+/// Frame lines of the `names` that are views of one sample; `lines` makes those of each view.
 pub(super) fn of_views(names: &[&str], lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
     of_sides(sided(names), lines)
 }

@@ -45,7 +45,7 @@ pub(super) fn of<'t, 'g>(
         else {
             continue;
         };
-        // A topic is named by itself, another table by its file.
+        // A topic keeps its name; another table is named by its file.
         let stem = table
             .written
             .split("rows = \"")
@@ -100,7 +100,7 @@ fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
         let is_named = column
             .name
             .starts_with(|letter: char| !letter.is_ascii_digit());
-        // ROS 1 messages count per publisher.
+        // `header.seq` of ROS 1 counts messages per publisher, so it is no key.
         let is_own = column.name.ends_with("header.seq");
         is_key
             && is_named
@@ -164,7 +164,7 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     ])
 }
 
-/// Number of these units in a second.
+/// Number of units called `unit` in a second.
 fn second_in(unit: &str) -> f64 {
     match unit {
         "ns" => 1e9,

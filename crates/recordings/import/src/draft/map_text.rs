@@ -256,7 +256,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     ended(text)
 }
 
-/// Joins with a column in an active line of the map, and the tables of the others as a map writes them.
+/// Joins with a column in an active line of the map, and the tables of the unused joins as a map writes them.
 fn used_joins<'t, 'g>(
     main: &SeenTable<'_>,
     found: Vec<SeenJoin<'t, 'g>>,

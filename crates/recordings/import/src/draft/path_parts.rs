@@ -104,7 +104,7 @@ impl PathParts {
                 continue;
             }
             let is_number = matches!(first[at], Token::Number(_));
-            // Uses the nearest letters before it, if all paths share them.
+            // Names the part by the nearest letters before it, if all paths share them.
             let letters = first[..at]
                 .iter()
                 .enumerate()

@@ -39,7 +39,7 @@ pub(super) enum Role {
     Other,
 }
 
-/// Least number of ascending rows that make a force a counter, larger if the name is that of the channel.
+/// Least number of ascending rows that make a force a counter; larger if the column has the name of the channel.
 const COUNTED: usize = 4;
 const COUNTED_BY_NAME: usize = 16;
 
@@ -258,7 +258,7 @@ mod tests {
             let found = role(name, "", &counts);
             assert!(matches!(found, Role::Excluded(_)), "{name}: {found:?}");
         }
-        // A few presses of whole newtons are no counter where the name says so.
+        // A few presses of whole newtons are a force if the column has the name of one.
         let few = &counts[..8];
         assert!(matches!(role("Fz", "", few), Role::Channels(_)));
         assert!(matches!(role("z", "", &counts), Role::Channels(_)));

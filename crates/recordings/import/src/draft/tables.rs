@@ -30,7 +30,7 @@ pub(super) struct SeenTable<'g> {
     pub(super) is_single_array: bool,
     /// True if channels are guessed from the number of columns alone.
     pub(super) has_guessed_channels: bool,
-    /// Comment on its header, or on its cut.
+    /// Comment on the guessed header, or on the cut of a recording.
     pub(super) header_guess: Option<String>,
     pub(super) rows: usize,
     pub(super) columns: Vec<SeenColumn>,

@@ -41,7 +41,7 @@ pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
         }
     }
     groups.retain(|(_, group)| group.len() > 1);
-    // Of two equally large groups the first wins, which differs in an earlier word.
+    // On a tie the first group wins: it differs in an earlier word.
     let most = groups.iter().map(|(_, group)| group.len()).max();
     let largest = groups
         .into_iter()

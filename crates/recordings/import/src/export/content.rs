@@ -64,7 +64,7 @@ impl Exported<'_> {
             ),
             (
                 self.is_partly(),
-                "that samples have no picture, which an import refuses",
+                "missing pictures of samples, which an import refuses",
             ),
         ];
         let left = parts.into_iter().filter(|(is_left, _)| *is_left);

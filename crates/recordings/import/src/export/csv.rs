@@ -165,7 +165,7 @@ fn write_table(
 /// Shortest text that gives the same `f32` when parsed as `f64` and rounded.
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "that this rounding gives the number is what is looked at"
+    reason = "the comparison tests this rounding"
 )]
 fn single(value: f32) -> String {
     let text = format!("{value:?}");

@@ -12,7 +12,7 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{Cells, staging::StagedFolder};
 
 const FILE: &str = "recording.h5";
-/// Limit of a text, bytes. All texts of an array take the room of the longest.
+/// Limit of a text, bytes. All texts of an array take the space of the longest.
 const TEXT_BYTES: usize = 4096;
 
 pub(super) fn write(

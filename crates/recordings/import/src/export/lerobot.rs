@@ -24,7 +24,7 @@ const STATE: &str = "observation.state";
 const TAXELS: &str = "observation.tactile";
 /// Prefix of picture features, followed by the view; `gel` for samples with one picture.
 const PICTURES: &str = "observation.images";
-/// Number of pictures in the statistics, about as many as LeRobot itself takes.
+/// Number of pictures in the statistics, about as many as LeRobot itself uses.
 const LOOKED_AT: usize = 100;
 
 pub(super) fn write(

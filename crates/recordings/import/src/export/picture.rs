@@ -50,7 +50,7 @@ impl<'a> Pictures<'a> {
         self.dataset.view()
     }
 
-    /// `name`, followed by that of the view if there are several.
+    /// `name`, followed by the name of the view if there are several.
     pub(super) fn named(&self, name: &str) -> String {
         match self.view() {
             None => name.to_owned(),

@@ -138,7 +138,7 @@ impl ColumnSource for ArrayRows {
         }
     }
 
-    /// NumPy times that pandas stores as integers marked as times.
+    /// Unit of NumPy times that pandas stores as integers marked as times.
     fn time_unit(&self, name: &str) -> Option<&'static str> {
         let mut units = self
             .groups

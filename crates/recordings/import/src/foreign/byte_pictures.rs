@@ -102,7 +102,7 @@ byte_columns!(ArrowTable, path);
 byte_columns!(
     LeRobot,
     folder,
-    // LeRobot reads no null among numbers, so NaN alone marks an absent one.
+    // LeRobot rejects nulls among numbers, so NaN marks an absent number.
     fn present(cell: Cell) -> Cell {
         match cell {
             Cell::Number(number) if number.is_nan() => Cell::Null,

@@ -104,7 +104,7 @@ fn unquoted(value: &str) -> Option<Cow<'_, str>> {
     Some(Cow::Owned(json.unwrap_or_else(|| unescaped(inside))))
 }
 
-/// Text as Python prints it, without its backslashes.
+/// Text printed by Python, without the backslashes of its escapes.
 fn unescaped(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut letters = text.chars();

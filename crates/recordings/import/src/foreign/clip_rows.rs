@@ -21,7 +21,7 @@ const INDEX: &str = "index";
 const TIME: &str = "t";
 
 impl ClipRows {
-    /// Opens the clip at `path`, with its first frame at `start_s`. Without a rate, times are those that the clip states.
+    /// Opens the clip at `path`, with its first frame at `start_s`. Without a rate, the times stated by the clip are used.
     ///
     /// # Errors
     /// Errors of the clip reader; clips whose times are absent or do not rise.

@@ -69,7 +69,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// The part that is read of a recording that was cut.
+    /// Part of a cut recording that is read.
     fn before_cut(&self) -> Option<BeforeCut> {
         None
     }
@@ -132,13 +132,13 @@ pub(crate) enum PictureKind {
     },
 }
 
-/// Table of columns.
+/// Table whose columns are read on first use.
 #[derive(Debug)]
 pub(crate) struct ColumnTable {
     path: PathBuf,
     source: Box<dyn ColumnSource>,
     read: Mutex<ReadColumns>,
-    /// The most bytes that its cells may take: a small file may be made to fill a memory.
+    /// Limit of the memory of its cells, bytes: a small crafted file could exhaust the memory.
     most_bytes: usize,
 }
 
@@ -149,7 +149,7 @@ struct ReadColumns {
     bytes: usize,
 }
 
-/// Maximum memory of the cells of a file, bytes: this number, or this many times the file size if that is more.
+/// Memory limit of the cells of a file, bytes: `CELL_BYTES`, or `CELL_RATIO` times the file size if that is more.
 const CELL_BYTES: u64 = 128 << 20;
 const CELL_RATIO: u64 = 64;
 

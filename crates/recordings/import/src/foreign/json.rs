@@ -283,7 +283,7 @@ fn no_json(path: &Path, text: &str, error: &serde_json::Error, lines_before: u64
     let line = u64::try_from(error.line()).unwrap_or(1).max(1);
     table_error!(
         Place::line(path, lines_before + line),
-        "no JSON: {}",
+        "invalid JSON: {}",
         json_problem(text, error)
     )
 }

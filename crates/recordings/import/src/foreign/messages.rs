@@ -57,7 +57,7 @@ pub(crate) struct Topics {
 }
 
 impl Topics {
-    /// Topics of the recording at `path`; of one that was cut, those before the cut.
+    /// Topics of the recording at `path`; for a cut recording, the topics before the cut.
     pub(crate) fn of(path: &Path) -> Result<Topics, String> {
         let recording = guarded(|| open(path, true)).and_then(|opened| opened)?;
         let topics = recording.topics().iter();
@@ -83,7 +83,7 @@ fn open(path: &Path, is_to_cut: bool) -> Result<Recording, String> {
     })
 }
 
-/// The part that is read of a recording that was cut.
+/// Part of a cut recording that is read.
 fn before_cut(recording: &Recording) -> Option<BeforeCut> {
     let topics = recording.topics().iter();
     let messages = topics.map(|topic| topic.count).sum();

@@ -30,7 +30,7 @@ pub(crate) enum TableForm {
     /// Messages of one topic of a recording: MCAP, rosbag2 or a ROS 1 bag.
     Messages {
         topic: Option<String>,
-        /// True to read a recording that was cut up to the cut.
+        /// True to read a cut recording up to the cut.
         is_to_cut: bool,
     },
     /// LeRobot folder, version 2.1 or 3.0.

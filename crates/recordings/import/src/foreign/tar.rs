@@ -13,7 +13,7 @@ const BLOCK: usize = 512;
 const NAME_BYTES: u64 = 64 << 10;
 /// Limit of members in an archive.
 pub(crate) const MEMBERS: u64 = 1 << 20;
-/// Limit of empty members, of which a small archive may hold any number.
+/// Limit of empty members; a small archive may hold any number of them.
 pub(crate) const EMPTY_MEMBERS: u64 = 20_000;
 
 /// Error of an archive.
@@ -36,7 +36,7 @@ pub(crate) enum TarError {
     Link { name: String },
     #[error("`{name}` has holes, which are not supported: write the archive without `--sparse`")]
     Sparse { name: String },
-    #[error("`{name}` is no file and no folder (type `{kind}`)")]
+    #[error("`{name}` is neither a file nor a folder (type `{kind}`)")]
     Kind { name: String, kind: char },
     #[error("`{name}`: {problem}")]
     Name { name: String, problem: &'static str },
@@ -48,7 +48,7 @@ pub(crate) enum TarError {
         "more than the {EMPTY_MEMBERS} empty files and folders that are accepted: leave them out, or unpack the archive and import its folder"
     )]
     EmptyMembers,
-    #[error("`{0}` is in it twice")]
+    #[error("the archive holds `{0}` twice")]
     Twice(String),
 }
 
@@ -346,7 +346,7 @@ fn own_name(header: &[u8; BLOCK]) -> Vec<u8> {
     }
 }
 
-/// Number of a header: octal digits, or from 2^33 on base 256 after a byte of 128.
+/// Number in a header: octal digits, or base 256 after a byte of 128 for numbers from 2^33.
 fn number(field: &[u8]) -> Option<u64> {
     if field[0] == 0x80 {
         let (high, low) = field[1..].split_at(field.len().checked_sub(9)?);

@@ -1,4 +1,4 @@
-//! WebDataset shards: tar members with one name before the first dot are a sample. Pictures are read in place.
+//! WebDataset shards: tar members whose names agree up to the first dot are one sample. Pictures are read in place.
 
 mod samples;
 
@@ -72,7 +72,10 @@ impl Shard {
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         serde_json::from_str(text).map(Some).map_err(|error| {
             let (line, problem) = (error.line(), json_problem(text, &error));
-            format!("`{}.{field}`, line {line}: no JSON: {problem}", sample.key)
+            format!(
+                "`{}.{field}`, line {line}: invalid JSON: {problem}",
+                sample.key
+            )
         })
     }
 

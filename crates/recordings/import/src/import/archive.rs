@@ -21,8 +21,8 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 /// Unpacked `.tar` or `.tar.gz`. Its files are in a hidden folder that is removed on drop.
 ///
-/// Readers of recordings open files by path and seek in them, and maps name further files. Inside an archive that would need all of it in
-/// memory. WebDataset shards are the exception: they are read in place.
+/// Readers of recordings open files by path and seek in them, and maps name further files. Reading them inside the archive would need all of it
+/// in memory. WebDataset shards are the exception: they are read in place.
 ///
 /// ```no_run
 /// use taceva_import::{MapDraft, UnpackedArchive};

@@ -129,7 +129,7 @@ impl ImportPlan {
         })
     }
 
-    /// List of source files of the dataset, followed by that of the folder whose rows are added.
+    /// List of source files of the dataset, followed by the list of the added folder.
     fn sources(
         &self,
         before: &Dataset,

@@ -38,7 +38,7 @@ pub(super) use signals::{ColumnSignals, place_first};
 pub(super) use table::ResolvedTable;
 pub(super) use unit_statement::{problem_of_names, problem_of_signals};
 
-/// Table in which every column of the map is found by the map's name.
+/// Table whose columns have the names that the map uses.
 pub(super) struct Resolved {
     pub(super) table: ResolvedTable,
     /// Columns of the main table that the map does not mention.
@@ -73,7 +73,7 @@ struct Sources<'a> {
     /// Time column in seconds, if the table writes times as text.
     times: Option<Vec<String>>,
     warnings: Vec<ImportWarning>,
-    /// Programs by which the times of clips are read.
+    /// Programs that read the times of clips.
     decoders: &'a Decoders,
 }
 
@@ -219,7 +219,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Warns of recordings of which only the messages before a cut are read.
+    /// Warns if only the messages before a cut of a recording are read.
     fn warn_of_cuts(&mut self, folder: &SourceFolder) {
         let joined = self.joined.iter().flat_map(Joined::tables);
         for table in std::iter::once(&self.main).chain(joined) {

@@ -226,7 +226,7 @@ mod tests {
             magnitude_suspicion_in(channel, &said, kept).map(|suspicion| suspicion.perhaps)
         };
         let hint = |text: &str| Some(text.to_owned());
-        // Millimetres that the map said to be metres, and the other way round.
+        // Millimetres declared as metres, and the reverse.
         assert_eq!(
             perhaps(&Channel::PZ, "m", [1.2, 2.5, 3.1]),
             hint("mm and not in m")
@@ -243,7 +243,7 @@ mod tests {
             perhaps(&Channel::PZ, "mm", [1200.0, 2500.0, 3100.0]),
             hint("um and not in mm")
         );
-        // Half a newton to three of them, in gram-force.
+        // 0.5 N to 3 N in gram-force.
         assert_eq!(
             perhaps(&Channel::FZ, "N", [50.0, 120.0, 310.0]),
             hint("gf or mN and not in N")

@@ -49,7 +49,7 @@ pub enum ImportWarning {
         /// Rule of the map, in words.
         rule: String,
     },
-    /// Of a recording that was cut, only the complete messages before the cut are read.
+    /// Only the complete messages before the cut of a recording are read.
     CutRecording {
         /// File, relative to the folder of the lab.
         file: String,

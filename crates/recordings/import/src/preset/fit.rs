@@ -165,7 +165,7 @@ fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let wrong = |problem: &str| ImportError::table(&path, problem);
     let bytes = read_capped(&path, limits::JSON_BYTES)?;
     let value: serde_json::Value =
-        serde_json::from_slice(&bytes).map_err(|error| wrong(&format!("no JSON: {error}")))?;
+        serde_json::from_slice(&bytes).map_err(|error| wrong(&format!("invalid JSON: {error}")))?;
     let first = value.as_object().and_then(|all| all.iter().next());
     let sensors = first.and_then(|(key, sensors)| Some((key, sensors.as_object()?)));
     let (key, sensors) = sensors.ok_or_else(|| {

@@ -44,7 +44,7 @@ fn cyclic_and_external_links_of_hdf5_end_or_are_named() {
         let other = imported(folder.path(), &map("/ft"));
         assert!(other.is_ok(), "{file}: {:?}", other.err());
     }
-    // Groups of which one is a dead link are not read without it.
+    // If one group is a dead link, the others are not read without it.
     let groups = map("x").replace("\"run.h5\"", "{ file = \"run.h5\", rows = \"/data/x*\" }");
     refused(
         from("dead-links.h5").path(),
@@ -158,7 +158,7 @@ fn signals_that_are_no_numbers_name_their_row() {
     refused(folder.path(), &map, &["taxels.npy", "row 1", "NaN"]);
 }
 
-/// The collection of files that broke other readers may not be copied into the repository: it is read from the folder of recordings.
+/// The collection must not be copied into the repository, so it is read from the folder of recordings.
 #[test]
 fn the_public_collection_of_hdf5_files_that_broke_readers_is_refused_or_read() {
     let folder = std::env::var_os("TACEVA_DATA").map(|data| Path::new(&data).join("cve_hdf5"));

@@ -1,4 +1,4 @@
-//! Files that are made to harm whoever reads them.
+//! Files crafted to harm their reader.
 
 use std::fs::File;
 use std::path::Path;
@@ -18,12 +18,12 @@ pub(super) fn npy(kind: &str, shape: &str, data: &[u8]) -> Vec<u8> {
     [&head, header.as_bytes(), data].concat()
 }
 
-/// An archive with the one deflated member `value.npy`, which is said to become `size` bytes.
+/// An archive with one deflated member `value.npy` that declares a size of `size` bytes.
 pub(super) fn archive_of_zeros(size: u64, zeros: &[u8]) -> Vec<u8> {
     let member = npy("<f8", &format!("({},)", size / 8), zeros);
     let packed = miniz_oxide::deflate::compress_to_vec(&member, 6);
     let (length, name) = (packed.len() as u64, b"value.npy");
-    // Sizes of 64 bits stand in an extra field.
+    // 64-bit sizes are in an extra field.
     let extra = [
         &[1, 0, 16, 0][..],
         &size.to_le_bytes(),
@@ -48,7 +48,7 @@ pub(super) fn archive_of_zeros(size: u64, zeros: &[u8]) -> Vec<u8> {
     [local, entry, end].concat()
 }
 
-/// A table of half a million texts of 10 kB, all of them one entry of a dictionary, beside numbers.
+/// A table of half a million texts of 10 kB, all one dictionary entry, beside numbers.
 pub(super) fn bomb_of_parquet(path: &Path) {
     const ROWS: usize = 500_000;
     let schema = "message x { required double value; required binary text (UTF8); }";

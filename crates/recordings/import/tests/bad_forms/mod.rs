@@ -1,5 +1,5 @@
-//! Hostile input of every form, given to an import: refused in words or read, in at most ten seconds and 512 MiB, nothing run and
-//! nothing left behind.
+//! Hostile input of every form in an import: refused with a message or read, in at most ten seconds and 512 MiB. Nothing is executed and nothing
+//! is left behind.
 
 mod arrays;
 mod crafted;
@@ -33,7 +33,7 @@ fn lab(files: &[(&str, &[u8])]) -> tempfile::TempDir {
     folder
 }
 
-/// The most memory that this process has had, KiB; 0 where the system does not say.
+/// Peak memory of this process, KiB; 0 if the system does not report it.
 fn most_memory() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find(|line| line.starts_with("VmHWM"));
@@ -41,7 +41,7 @@ fn most_memory() -> u64 {
     number.unwrap_or(0)
 }
 
-/// Imports the folder by a map of version 2, within the time and the memory; what was kept, or why it was refused.
+/// Imports the folder by a map of version 2, within the limits of time and memory. The error is the message of a refusal.
 #[track_caller]
 fn imported(folder: &Path, map: &str) -> Result<Kept, String> {
     let began = Instant::now();
@@ -221,7 +221,7 @@ fn names_in_any_script_are_files_columns_and_labels() {
     );
 }
 
-/// A million files are a thousand of these a folder; so many are made here that a test machine has time for.
+/// Fewer files than a million, to keep the test short.
 #[test]
 #[expect(clippy::print_stdout, reason = "the time is the result")]
 fn thousands_of_files_that_no_row_names_are_counted_in_time() {
@@ -263,7 +263,7 @@ fn an_mcap_without_an_index_is_read_by_its_records() {
     .expect("there");
     let folder = lab(&[("run.mcap", &file)]);
     let map = format!("table = {{ file = \"run.mcap\", rows = \"/none\" }}\n{FORCE}{NO_TIME}");
-    // Its topics are known although nothing lists them.
+    // Topics are found although no index lists them.
     refused(folder.path(), &map, &["run.mcap", "/none"]);
 }
 
@@ -339,7 +339,7 @@ fn messages_with_the_schema_of_another_message_are_refused_by_their_topic() {
     let map = fs::read_to_string(workspace("tests/recordings/mcap-none/map.toml")).expect("there");
     let map = map.replace("map_version = 2", "");
     let map = map.split("[sensor]").next().expect("the rest");
-    // The schema of the forces says that they are positions: one letter of its text.
+    // One changed letter of the schema turns the forces into positions.
     let place = whole
         .windows(13)
         .position(|bytes| bytes == b"float64 x\nflo");

@@ -1,4 +1,4 @@
-//! Datasets for the tests, each of which holds something that the others do not.
+//! Datasets for the tests, each with its own special content.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -15,10 +15,10 @@ use taceva_dataset::{
 };
 use taceva_import::{ExportForm, ExportPlan, ExportReport, ImportMap, ImportPlan};
 
-/// More than a row group of a table holds.
+/// More samples than a row group of a table holds.
 const SAMPLES: u16 = 1030;
 
-/// A recording with every id, absent labels, a picture without contact, and frames that are kept as differences.
+/// A recording with every id, absent labels, a picture without contact, and frames stored as differences.
 pub(crate) fn recorded(folder: &Path) -> Dataset {
     let path = folder.join("recorded");
     let sensor = SensorFacts::new("gel \"π\"")
@@ -38,7 +38,7 @@ pub(crate) fn recorded(folder: &Path) -> Dataset {
         height: 12,
         format: PixelFormat::Rgb8,
     };
-    // A texture that no filter of PNG makes small, and a few pixels that change: what a difference is small of.
+    // Incompressible texture with a few changing pixels, so that only differences are small.
     let frame = |seed: u16| {
         let pixels = (0..576_u32).map(|pixel| {
             let [.., texture] = pixel.wrapping_mul(2_654_435_761).to_le_bytes();
@@ -77,7 +77,7 @@ pub(crate) fn recorded(folder: &Path) -> Dataset {
     Dataset::open(&path).expect("a dataset")
 }
 
-/// A recording of taxels, of which the first rows are without contact.
+/// A recording of taxels; the first rows are without contact.
 pub(crate) fn skin(folder: &Path) -> Dataset {
     let path = folder.join("skin");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("skin"));
@@ -134,7 +134,7 @@ gel = "g'1"
 opaque = "unknown"
 "#;
 
-/// An import of pictures in blue, green, red and JPEG, whose rows say where they came from, with names in several scripts.
+/// An import of BGR and JPEG pictures, with the origin of each row and names in several scripts.
 pub(crate) fn imported(folder: &Path) -> Dataset {
     let lab = folder.join("lab");
     fs::create_dir_all(lab.join("bilder")).expect("made");

@@ -1,4 +1,4 @@
-//! Exports as the libraries of other people read them: the csv of Python and Pillow, `datasets` of Hugging Face, h5py, pyarrow, LeRobot.
+//! Exports read by external libraries: csv of Python and Pillow, `datasets` of Hugging Face, h5py, pyarrow, LeRobot.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ struct ReadBack {
     signals: Vec<Vec<String>>,
 }
 
-/// An interpreter of Python that has `module`; else the skip is noted.
+/// A Python interpreter that has `module`; else the skip is reported.
 fn python(variable: &str, (need, module): (Need, &str)) -> Option<PathBuf> {
     let named = std::env::var_os(variable).map(PathBuf::from);
     let installed = Path::new(env!("CARGO_MANIFEST_DIR")).join(INSTALLED);
@@ -97,7 +97,7 @@ fn is_same(found: Option<&str>, expected: Option<&str>, is_single: bool) -> bool
     }
 }
 
-/// Compares every label, number of a taxel and pixel with what `reader` finds in the export.
+/// Compares every label, taxel value and pixel with the export as `reader` reads it.
 #[track_caller]
 fn is_read(python: &Path, dataset: &Dataset, (form, reader): (ExportForm, &str)) -> ReadBack {
     let folder = dataset.path().with_extension(form.name());
@@ -159,7 +159,7 @@ fn is_read(python: &Path, dataset: &Dataset, (form, reader): (ExportForm, &str))
         let frame = dataset.frame(row).expect("read").expect("a picture");
         let of = Digest::of(frame.bytes()).to_string();
         let expected = of.rsplit(':').next().map(str::to_owned);
-        // Decoders of JPEG differ by a few steps, and pictures in blue, green, red keep their bytes beside a table.
+        // JPEG decoders differ by a few levels, and BGR pictures keep their bytes beside a table.
         if form != ExportForm::Csv || dataset.header().attributes.is_empty() {
             assert_eq!(*found, expected, "{reader}: picture {row}");
         }
@@ -212,7 +212,7 @@ fn lerobot_itself_reads_its_form_with_a_press_as_an_episode() {
     let folder = tempfile::tempdir().expect("a folder");
     let dataset = recorded(folder.path());
     let read = is_read(&python, &dataset, (ExportForm::LeRobot, "lerobot"));
-    // Two repeats of ten rows at each of 51 places and a half, and the scene ends amid one of them.
+    // Two repeats of ten rows at 51.5 points, and the scene changes within one of them.
     assert_eq!(read.columns["@episodes"], [Some("103".to_owned())]);
     is_read(
         &python,

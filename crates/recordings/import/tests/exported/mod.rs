@@ -1,5 +1,5 @@
-//! A dataset that is exported is what the libraries of other people read, and imported again by the map beside it, it is the same: ids, labels to the
-//! last bit, signals, origin, pixels.
+//! External libraries read an exported dataset correctly. Imported again by the map beside it, the dataset is the same: ids, labels to the last
+//! bit, signals, origin, pixels.
 
 mod drawn;
 mod libraries;

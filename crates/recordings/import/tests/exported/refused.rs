@@ -16,7 +16,7 @@ use taceva_import::{ExportForm, ExportPlan, ImportError};
 
 use super::drawn::{exported, skin};
 
-/// Asks to stop at once.
+/// Progress that cancels at once.
 #[derive(Debug)]
 struct Stopped;
 
@@ -143,7 +143,7 @@ fn samples_without_a_picture_are_kept_where_the_form_can_and_named_where_not() {
         assert_eq!((report.samples, report.pictures), (2, 1));
         assert_eq!(
             report.left_out,
-            ["that samples have no picture, which an import refuses"]
+            ["missing pictures of samples, which an import refuses"]
         );
     }
     for form in [ExportForm::Hdf5, ExportForm::LeRobot] {

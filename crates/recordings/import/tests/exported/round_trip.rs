@@ -1,4 +1,4 @@
-//! Datasets that are exported, and imported again by the map that the export wrote.
+//! Exported datasets, imported again by the map of the export.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -10,7 +10,7 @@ use taceva_import::{ExportForm, ExportPlan, ExportReport, ImportMap, ImportPlan}
 
 use super::drawn::{exported, import, imported, recorded, skin};
 
-/// Exports `dataset` in `form`, imports that, and compares all that a map can say.
+/// Exports `dataset` in `form`, imports the export, and compares everything that a map can express.
 #[track_caller]
 fn comes_back(dataset: &Dataset, form: ExportForm) -> Dataset {
     let (folder, report) = exported(dataset, form);
@@ -95,7 +95,7 @@ fn every_form_brings_a_recording_back() {
         comes_back(&dataset, form);
     }
     let (_, report) = exported_anew(&dataset, folder.path(), ExportForm::Csv);
-    // Those that are kept as differences become files.
+    // Frames stored as differences become files.
     assert_eq!(report.pictures, 1030);
     assert!((1000..1030).contains(&report.encoded_anew), "{report:?}");
     assert_eq!(report.left_out, Vec::<String>::new());
@@ -107,7 +107,7 @@ fn every_form_brings_taxels_back() {
     let dataset = skin(folder.path());
     for form in ExportForm::ALL {
         let again = comes_back(&dataset, form);
-        // Without pictures nothing is encoded, so that all is the same to the last byte that counts.
+        // Without pictures nothing is re-encoded, so the digests are equal.
         assert_eq!(again.digest(), dataset.digest(), "{form:?}");
     }
 }
@@ -118,7 +118,7 @@ fn every_form_brings_an_import_back_with_where_its_rows_came_from() {
     let dataset = imported(folder.path());
     for form in ExportForm::ALL {
         let again = comes_back(&dataset, form);
-        // A table with pictures beside it keeps even their bytes.
+        // A table with separate picture files keeps their bytes.
         assert_eq!(
             again.digest() == dataset.digest(),
             form == ExportForm::Csv,
@@ -172,7 +172,7 @@ fn the_same_dataset_gives_the_same_files() {
     }
 }
 
-/// The same export at another place, on one thread.
+/// The same export to another folder, on one thread.
 fn exported_anew(dataset: &Dataset, folder: &Path, form: ExportForm) -> (PathBuf, ExportReport) {
     let target = folder.join(format!("anew-{}", form.name()));
     let plan = ExportPlan::new(dataset, form).expect("samples");
@@ -182,7 +182,7 @@ fn exported_anew(dataset: &Dataset, folder: &Path, form: ExportForm) -> (PathBuf
     (target, report)
 }
 
-/// The files in a folder and those inside it, by their paths there.
+/// Relative paths of all files below a folder.
 fn files(folder: &Path) -> Vec<String> {
     let mut found = Vec::new();
     let mut open = vec![folder.to_owned()];

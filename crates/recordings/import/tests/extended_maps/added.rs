@@ -1,4 +1,4 @@
-//! Rows that are added by a map that joins, finds pictures, names classes or leaves out placeholders otherwise than the one before.
+//! Rows added by a map with other joins, pictures, class names or placeholders.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -9,7 +9,7 @@ use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::Addition;
 
-/// Two folders with the same tables and other numbers: a camera, a transducer, raw pictures.
+/// Two folders with the same tables and different numbers: a camera, a transducer, raw pictures.
 fn folders() -> [tempfile::TempDir; 2] {
     [0.0_f32, 100.0].map(|start| {
         let times = |step: f32| {
@@ -81,7 +81,8 @@ fn added(folder: &Path, map: &str, target: &Path) -> Result<(), String> {
     outcome.map(drop).map_err(|error| error.to_string())
 }
 
-/// Checks that rows by `map` with `from` replaced by `to` are refused by `key`, which says `own` in the dataset and `other` in the map.
+/// Checks that adding rows by `map`, with `from` replaced by `to`, is refused. The message names `key`, the value `own` of the dataset and the
+/// value `other` of the map.
 fn refused(from: &str, to: &str, [key, own, other]: [&str; 3]) {
     let [first, second] = folders();
     let target = first.path().join("dataset");
@@ -223,7 +224,7 @@ fn another_column_of_the_position_of_a_picture_is_refused() {
 
 #[test]
 fn other_axes_of_an_array_of_pictures_are_refused() {
-    // Of three rows and three columns, or of three colours: the lengths fit both.
+    // Three rows, three columns and three colours: the lengths fit both layouts.
     let folders = [0_u8, 50].map(|start| {
         let folder = lab(&[("labels.csv", &format!("Fz\n{start}\n"))]);
         let pixels: Vec<u8> = (0..27).map(|pixel| pixel + start).collect();
@@ -242,7 +243,7 @@ fn other_axes_of_an_array_of_pictures_are_refused() {
     let problem = added(folders[1].path(), &nchw, &target).expect_err("other axes");
     let words = "`frame.layout` is nhwc or nhw in the dataset and nchw in the map";
     assert!(problem.contains(words), "{problem}");
-    // What the lengths told is said.
+    // A stated layout equal to the inferred one is accepted.
     added(folders[1].path(), &map("layout = \"nhwc\"\n"), &target).expect("the same axes");
 }
 

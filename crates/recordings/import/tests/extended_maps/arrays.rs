@@ -1,4 +1,4 @@
-//! Arrays as tables and as frames: what of them is refused, and in which words.
+//! Arrays as tables and as frames, and the messages of refused ones.
 
 use super::{FACTS, NO_TIME, planned};
 use taceva_dataset::Dataset;
@@ -74,7 +74,7 @@ fn numbers_become_pixels_by_the_range_that_the_map_states() {
     let picture = image::open(target.join(frame.path))
         .expect("a picture")
         .into_luma16();
-    // Black and full are exchanged: a half is rounded away from zero.
+    // Black and full scale are exchanged: halves are rounded away from zero.
     assert_eq!(picture.into_raw(), [32_768, 49_151]);
 }
 
@@ -259,7 +259,7 @@ fn a_column_called_row_does_not_say_which_picture_a_row_has() {
     }
 }
 
-/// Three recordings of two rows, each with its own array, and one of all six pictures; the pictures of recording 2 are 20 and 21.
+/// Three recordings of two rows, each with its own array, and one array with all six pictures. Recording 2 has the pictures 20 and 21.
 fn recordings() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let mut all = Vec::new();
@@ -291,7 +291,7 @@ fn an_array_that_several_tables_share_without_an_index_is_refused_and_not_begun_
     for (array, map) in [
         ("all.npy", map_of_recordings("all.npy")),
         ("s*/frames.npy", map_of_recordings("s*/frames.npy")),
-        // The number of the row, in words.
+        // Explicit row number.
         ("all.npy", by_row(map_of_recordings("all.npy"))),
     ] {
         let problem = planned(folder.path(), &map).expect_err(array);
@@ -333,7 +333,7 @@ fn pictures_that_are_called_by_the_row_belong_to_one_table_alone() {
     ] {
         assert!(problem.contains(expected), "{expected}: {problem}");
     }
-    // A column counts through all of them.
+    // A column counts across all tables.
     planned(folder.path(), &map("{k}.png")).expect("planned");
 }
 

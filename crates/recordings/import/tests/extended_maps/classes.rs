@@ -1,4 +1,4 @@
-//! Classes whose names are whole numbers: which cells are positions in the list, and which lists are refused.
+//! Classes named by whole numbers: cells as positions in the list, and refused lists.
 
 use super::arrays::npy;
 use super::{NO_TIME, imported, imported_from, planned, refused};
@@ -60,7 +60,7 @@ fn integers_of_joined_tables_of_messages_and_of_shards_are_positions_too() {
     };
     let (_, found) = imported(&files, &joined("j.jsonl", "/k", "/label"), &["c"]);
     assert_eq!(found[0], ["10", "1", "2"]);
-    // A CSV file says nothing of the types of its cells.
+    // A CSV file states no types of its cells.
     let message = refused(&files, &joined("j.csv", "k", "label"));
     assert!(message.contains("which is also the position"), "{message}");
 
@@ -101,7 +101,7 @@ fn integers_of_joined_tables_of_messages_and_of_shards_are_positions_too() {
     );
     let map = "table = { file = \"run.mcap\", rows = \"/tactile/image_raw\" }\n[columns]\nPz = { from = \"width\", unit = \"mm\" }\n[classes]\nc = { from = \"FIELD\", names = [NAMES] }\n[time]\nclock = \"unknown\"\n";
     let of = |field: &str| {
-        // As many as the picture has rows and more, the last two exchanged.
+        // More names than the picture has rows, in reverse order.
         let names: Vec<String> = (0..400).map(|at| format!("\"{}\"", 399 - at)).collect();
         let map = map
             .replace("FIELD", field)
@@ -155,7 +155,7 @@ fn folders_that_are_called_by_numbers_are_names() {
     ];
     let (_, found) = imported(&files, &with("{kind}"), &["c"]);
     assert_eq!(found[0], ["1", "10", "2"]);
-    // A part that is stated to be digits may be a counter.
+    // A part declared as digits may be a counter.
     let message = refused(&files, &with("{kind:digits}"));
     assert!(message.contains("which is also the position"), "{message}");
 }

@@ -1,4 +1,4 @@
-//! Joins whose rows are counted: of several tables each would begin with the first row again.
+//! Joins by row number: with several tables, each would begin with the first row again.
 
 use super::{NO_TIME, lab, planned};
 use taceva_dataset::Dataset;
@@ -56,7 +56,7 @@ fn a_joined_table_whose_rows_are_counted_belongs_to_one_table_alone() {
         assert!(problem.contains("t1.csv: join `b`"), "{problem}");
         assert!(problem.contains("b/all.csv"), "{problem}");
     }
-    // Of one table the rows are counted.
+    // The rows of one table may be counted.
     of("\"t0.csv\"", "on = \"row\"").expect("one table");
     of("\"t1.csv\"", "until = \"end\"").expect("one table");
     of("\"t1.csv\"", "on = { row = \"end\" }").expect("one table");

@@ -1,4 +1,4 @@
-//! Nothing is left out without a word: what an import does not take is counted in its summary and in the description of the dataset.
+//! Everything that an import leaves out is counted in its summary and in the dataset.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -11,7 +11,7 @@ use taceva_import::ImportSummary;
 use super::arrays::{bytes_of, npy};
 use super::{NO_TIME, lab, planned};
 
-/// The summary, and what the dataset remembers.
+/// The summary, and the omissions recorded in the dataset.
 fn left_out(folder: &Path, map: &str) -> (ImportSummary, LeftOut) {
     let plan = planned(folder, map).expect("planned");
     let summary = plan.summary().clone();
@@ -40,7 +40,7 @@ fn an_import_that_takes_everything_says_nothing_and_its_format_is_as_before() {
 
 #[test]
 fn rows_of_both_sides_of_a_join_are_counted_over_all_main_tables() {
-    // The row at 9 s belongs to none; both main tables use the transducer's, of which two rows are used and one is skipped.
+    // The row at 9 s has no match. Both main tables share the transducer's table, of which two rows are used and one is skipped.
     let folder = lab(&[
         ("a/run.csv", "t\n0.0\n9.0\n"),
         ("b/run.csv", "t\n1.0\n"),

@@ -1,4 +1,4 @@
-//! Maps of version 2: labels in paths and cells, tables of other forms, joins, matrices, classes; and what of them is refused.
+//! Maps of version 2: labels in paths and cells, tables of other forms, joins, matrices, classes, and refusals.
 
 mod added;
 mod arrays;
@@ -157,7 +157,7 @@ fn another_table_is_joined_by_time_with_the_lag_of_its_clock() {
             "table = \"camera.csv\"\n[[join]]\nname = \"ft\"\ntable = {{ file = \"ft.csv\", header = false }}\ntime = {{ column = 0, unit = \"s\" }}\npick = \"{pick}\"\ntolerance_ms = 6\nlag_ms = 40\nunmatched = \"drop\"\nskip = {{ \"1\" = -1 }}\n[columns]\nFz = {{ from = \"ft.1\", unit = \"N\" }}\n[time]\nclock = \"unix\"\ncolumn = \"stamp\"\nunit = \"ms\"\n"
         )
     };
-    // The force transducer's clock shows each instant 40 ms later; what it says at 1.05 s is no measurement.
+    // The clock of the force transducer shows each instant 40 ms later; its value at 1.05 s is a placeholder.
     let ft = "1.04,10\n1.045,20\n1.05,-1\n1.055,40\n1.2,50\n";
     let files = [
         ("camera.csv", "stamp\n1000\n1004\n1009\n1100\n"),

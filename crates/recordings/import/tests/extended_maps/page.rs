@@ -38,7 +38,7 @@ const AROUND: [(&str, &str); 6] = [
     ("classes", ""),
 ];
 
-/// The table that a key without one belongs to.
+/// Tables of keys that the page writes without one.
 const OF_KEY: [(&str, &str); 15] = [
     ("table", ""),
     ("rows", "table"),
@@ -67,7 +67,7 @@ fn code(text: &str) -> Vec<&str> {
     text.split('`').skip(1).step_by(2).collect()
 }
 
-/// The second cell of each row of the table below the heading; a `|` within code is none of a table.
+/// The second cell of each row of the table below the heading; a `|` within code separates no cells.
 fn cells() -> Vec<&'static str> {
     let (_, section) = PAGE.split_once("## Find your layout").expect("a heading");
     let (section, _) = section.split_once("\n## ").expect("another heading");
@@ -77,23 +77,23 @@ fn cells() -> Vec<&'static str> {
         .collect()
 }
 
-/// A fragment: the table it is of, its keys, and their values where it gives any.
+/// A fragment: its table, its keys, and their values if given.
 struct Fragment {
     table: String,
     keys: Vec<String>,
     values: Option<Table>,
 }
 
-/// Replaces `…` of the page, by the key before it.
+/// Replaces each `…` by a value for the key before it.
 fn filled(text: &str) -> String {
     text.replace("[…]", "[\"a\", \"b\"]")
         .replace("{ … }", "{ column = \"t\", unit = \"s\" }")
 }
 
-/// The fragments of a cell; a name of a column is that of a label.
+/// The fragments of a cell; a column name is taken for a label.
 fn fragments(cell: &str) -> Vec<Fragment> {
     let mut all: Vec<Fragment> = Vec::new();
-    // A table alone, as in "other topics by `[[join]]`", says no key.
+    // A table name alone, as in "other topics by `[[join]]`", states no key.
     for text in code(cell).into_iter().filter(|text| !text.ends_with("]]")) {
         let (named, rest) = match text.strip_prefix('[') {
             Some(_) => {
@@ -125,7 +125,7 @@ fn fragments(cell: &str) -> Vec<Fragment> {
     all
 }
 
-/// The table called `name` of a map, begun as others are if it is not there.
+/// The table called `name` of a map, created if missing.
 fn table_of<'m>(map: &'m mut Table, name: &str) -> &'m mut Table {
     let around = AROUND.iter().find(|(table, _)| *table == name);
     let around = around.map_or("", |(_, text)| text);
@@ -141,7 +141,7 @@ fn table_of<'m>(map: &'m mut Table, name: &str) -> &'m mut Table {
     }
 }
 
-/// The least map that says what the fragments of a cell say.
+/// The smallest map with the fragments of a cell.
 fn map_of(fragments: &[Fragment]) -> Table {
     let mut map: Table = toml::from_str(LEAST).expect("TOML");
     for Fragment { table, values, .. } in fragments {
@@ -158,7 +158,7 @@ fn map_of(fragments: &[Fragment]) -> Table {
                     .extend(values);
             }
             "table" => {
-                // `rows` is of a form that has groups or members.
+                // `rows` needs a form with groups or members.
                 let file = if map["table"].is_table() {
                     map["table"]["file"].clone()
                 } else {
@@ -175,7 +175,7 @@ fn map_of(fragments: &[Fragment]) -> Table {
     map
 }
 
-/// Adds what a join or a frame cannot be without.
+/// Adds the required keys of a join or a frame.
 fn complete(map: &mut Table) {
     if map.contains_key("join") {
         let join = table_of(map, "join");
@@ -214,7 +214,7 @@ fn every_fragment_of_the_table_of_layouts_is_read_as_a_map_says_it() {
 fn every_key_that_the_table_of_layouts_names_without_a_value_is_one() {
     let said = |table: &str, key: &str| {
         let mut map = map_of(&[]);
-        // No key takes a date, so that what is known is refused by its type and what is not by its name.
+        // No key takes a date, so a known key is refused by its type and an unknown one by its name.
         let wrong = Value::Datetime("2026-11-26".parse().expect("a date"));
         table_of(&mut map, table).insert(key.to_owned(), wrong);
         parsed(&toml::to_string(&map).expect("TOML")).expect_err("a date")

@@ -1,4 +1,4 @@
-//! Frames without contact that rows name each for themselves: one of the recording where all name the same, else an attribute.
+//! Frames without contact named by rows: one of the recording if all rows name the same, else an attribute.
 
 use std::num::NonZeroUsize;
 
@@ -8,7 +8,7 @@ use taceva_import::ImportSummary;
 
 use super::{NO_TIME, lab, planned};
 
-/// The summary, the dataset and its folder of an import whose rows name these references.
+/// Summary, dataset and folder of an import whose rows name these references.
 fn imported(named: [&str; 3]) -> Result<(ImportSummary, Dataset, tempfile::TempDir), String> {
     let rows = named.iter().enumerate().map(|(at, name)| {
         format!("{{\"frame\": \"{at}.png\", \"ref\": \"{name}\", \"Fz\": {at}}}\n")
@@ -42,7 +42,7 @@ fn a_reference_that_all_rows_name_is_that_of_the_recording() {
     let reference = dataset.reference().expect("read").expect("there");
     assert_eq!(reference.bytes()[0], 30);
     assert_eq!(dataset.table().attribute_names(), [""; 0]);
-    // The other one is a picture that no row names.
+    // The other file is a picture that no row names.
     assert_eq!(summary.unnamed_images, 1);
 }
 
@@ -65,7 +65,7 @@ fn references_that_differ_are_an_attribute_and_the_summary_says_so() {
         "{words}"
     );
     assert_eq!(summary.unnamed_images, 0);
-    // One that some rows do not name is not that of the recording either.
+    // A reference that some rows lack is not that of the recording.
     let (_, dataset, _target) = imported(["ref_a.png", "", "ref_a.png"]).expect("imported");
     assert!(dataset.reference().expect("read").is_none());
 }

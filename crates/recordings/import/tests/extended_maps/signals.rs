@@ -1,4 +1,4 @@
-//! `[signals]` of a map: columns, cells and arrays of numbers, their order and unit, rows without contact; and what is refused.
+//! `[signals]` of a map: columns, cells and arrays of numbers, their order and unit, rows without contact, and refusals.
 
 use std::num::NonZeroUsize;
 use std::path::Path;

@@ -41,7 +41,7 @@ fn a_unit_that_the_file_states_is_not_overruled_by_the_map_without_a_word() {
         let (_, found) = imported_from(folder.path(), &map(column), &["Fz"]);
         assert_eq!(found[0][0], expected, "{column}");
     }
-    // Of a table that is joined, too.
+    // The same for a joined table.
     std::fs::write(folder.path().join("t.csv"), "k\n0\n1\n").expect("written");
     let joined = map("unit = \"N\"")
         .replace("\"run.h5\"", "\"t.csv\"")
@@ -72,7 +72,7 @@ fn more_pictures_than_rows_belong_to_nobody_knows_which_unless_the_map_says_it()
     let folder = tempfile::tempdir().expect("a folder");
     let forces = npy("<f4", "(3,)", &bytes_of(&[1.0, 2.0, 3.0]));
     std::fs::write(folder.path().join("ft.npy"), forces).expect("written");
-    // Height, width and number: four pictures of 2 × 3 to whoever takes the first axis for the number.
+    // Height, width and number: four pictures of 2 × 3 if the first axis is taken for the number.
     let frames = npy("|u1", "(4, 2, 3)", &[7; 24]);
     std::fs::write(folder.path().join("frames.npy"), frames).expect("written");
     let map = |index: &str| {
@@ -137,7 +137,7 @@ fn files_that_are_counted_through_are_refused_where_10_stands_before_2() {
     planned(folder.path(), &map).expect("padded");
 }
 
-/// Two rows of three taxels in a file of HDF5 beside a table, of which the file says this.
+/// Two rows of three taxels in an HDF5 file with these attributes, beside a table.
 fn taxels(attributes: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = super::lab(&[("labels.csv", "Fz\n1\n2\n")]);
     let path = folder.path().join("skin.h5");
@@ -176,7 +176,7 @@ fn a_unit_that_an_array_of_taxels_states_is_not_overruled_by_the_map_without_a_w
     }
     assert!(!problem.contains("scale = 1"), "{problem}");
     planned(folder.path(), &taxels_map(from, "mT")).expect("as the file says");
-    // As columns of the table itself, where [signals] has no scale either.
+    // As columns of the table itself; [signals] has no scale there either.
     let column = taxels_map("\"skin.field\"", "uT")
         + "[[join]]\nname = \"skin\"\ntable = \"skin.h5\"\non = \"row\"\n";
     let problem = planned(folder.path(), &column).expect_err("the same");

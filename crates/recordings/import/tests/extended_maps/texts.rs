@@ -1,4 +1,4 @@
-//! Texts in lists, and ids of several texts: none is cut, and no two become one.
+//! Texts in lists, and ids of several texts: none is truncated, and no two are merged.
 
 use super::arrays::npy;
 use super::{NO_TIME, imported, imported_from, refused};

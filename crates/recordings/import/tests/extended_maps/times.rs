@@ -1,10 +1,10 @@
-//! Times that a Parquet file says to be times: read in seconds whatever it counts in, and never scaled by the map again.
+//! Times declared in a Parquet file: read in seconds from any unit, and never scaled again by the map.
 
 use std::fs;
 
 use super::{imported_from, lab, planned};
 
-/// A folder with the file that pyarrow wrote, and with `files`.
+/// A folder with a file written by pyarrow, and `files`.
 fn times(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = lab(files);
     let written = concat!(
@@ -93,10 +93,10 @@ fn a_map_that_states_another_unit_of_typed_times_is_refused_naming_both() {
     ] {
         assert!(problem.contains(words), "no `{words}` in {problem}");
     }
-    // Integers that nothing is said of are in the unit of the map, as ever.
+    // Undeclared integers are in the unit of the map.
     let (_, found) = imported_from(folder.path(), &map("count", "ms"), &["t_s"]);
     assert_eq!(found[0][5], "1700000.0");
-    // A channel, and the time of what is joined.
+    // A channel, and the time of a joined table.
     let channel = "table = \"times.parquet\"\n[columns]\nhold = { from = \"duration_ms\", unit = \"ms\" }\n[time]\nclock = \"unknown\"\n";
     let problem = planned(folder.path(), channel).expect_err("refused");
     assert!(problem.contains("column `duration_ms`"), "{problem}");

@@ -95,7 +95,7 @@ impl Lab {
         self.import_to("set", 2)
     }
 
-    /// The message of an import that must fail, and that it left nothing behind.
+    /// The message of an import that must fail and leave nothing behind.
     #[track_caller]
     pub(crate) fn refusal(&self) -> String {
         let before = names(self.folder.path());

@@ -1,4 +1,4 @@
-//! Recordings in a tar: read as the folder would be, refused in words where they are hostile.
+//! Recordings in a tar: read like a folder, refused with a message if hostile.
 
 use std::fs::File;
 use std::io::Write;
@@ -35,7 +35,7 @@ fn refused(path: &Path) -> String {
     error.to_string()
 }
 
-/// A header with any name, which `tar` would not write.
+/// A header with a name that `tar` would not write.
 fn header(name: &[u8], size: u64, kind: EntryType) -> Header {
     let mut header = Header::new_ustar();
     let field = &mut header.as_old_mut().name;
@@ -129,7 +129,7 @@ fn an_archive_gives_the_dataset_of_the_folder_packed_or_compressed() {
         let draft = MapDraft::of(unpacked.folder()).expect("a draft");
         assert!(draft.text().contains("--preset bristol"));
     }
-    // What was unpacked went away.
+    // The unpacked files are removed.
     assert!(!lab.path().join(".run.tar.unpacked.partial").exists());
     let names = std::fs::read_dir(lab.path()).expect("there").flatten();
     let hidden = names.filter(|entry| entry.file_name().to_string_lossy().contains("unpacked"));
@@ -185,7 +185,7 @@ fn hostile_archives_are_refused_by_member_and_leave_nothing_behind() {
         (
             "device",
             file(b"a", 0, EntryType::Char),
-            "no file and no folder",
+            "neither a file nor a folder",
         ),
         ("sparse", file(b"a", 0, EntryType::GNUSparse), "has holes"),
         (
@@ -204,7 +204,7 @@ fn hostile_archives_are_refused_by_member_and_leave_nothing_behind() {
             binary_sum,
             "header at byte 0 has a wrong checksum",
         ),
-        ("twice", twice, "is in it twice"),
+        ("twice", twice, "the archive holds"),
         (
             "no text",
             file(b"\xff\xfe", 0, regular),
@@ -253,7 +253,7 @@ fn compressed_bombs_and_cut_ones_are_refused() {
     let bytes = std::fs::read(&gzip).expect("there");
     std::fs::write(&gzip, &bytes[..bytes.len() / 2]).expect("written");
     assert!(refused(&gzip).contains("b.tar.gz"));
-    // The checksum of the whole stands behind everything else.
+    // The checksum of the whole follows all data.
     let mut wrong_sum = bytes.clone();
     let sum = wrong_sum.len() - 8;
     wrong_sum[sum] ^= 1;
@@ -267,7 +267,7 @@ fn compressed_bombs_and_cut_ones_are_refused() {
 fn more_than_a_million_members_are_refused() {
     let lab = tempfile::tempdir().expect("a folder");
     let path = lab.path().join("a.tar");
-    // Heads that describe all that follows: they count as members, and not as empty files.
+    // Global headers count as members, not as empty files.
     let folder = header(b"pax_global_header", 0, EntryType::XGlobalHeader);
     {
         let mut file = std::io::BufWriter::new(File::create(&path).expect("created"));

@@ -16,7 +16,7 @@ struct Expected {
     preset: &'static str,
     rows: usize,
     channels: &'static [&'static str],
-    /// Row, channel, number in the unit that is kept.
+    /// Row, channel, number in the stored unit.
     numbers: &'static [(usize, &'static str, f64)],
     /// The number of the picture of each row, as it was drawn; JPEG is not exact.
     pictures: &'static [u8],
@@ -25,7 +25,7 @@ struct Expected {
     time: Option<(usize, f64)>,
 }
 
-/// Torques are kept in N·mm, places in mm.
+/// Torques are stored in N·mm, positions in mm.
 const EXPECTED: [Expected; 14] = [
     Expected {
         preset: "bristol",
@@ -84,7 +84,7 @@ const EXPECTED: [Expected; 14] = [
         rows: 4,
         channels: &["Fx", "Fy", "Fz"],
         numbers: &[(0, "Fz", 2.5), (2, "Fx", 1.0), (3, "Fz", 6.5)],
-        // The last two lie in the second pickle.
+        // The last two are in the second pickle.
         pictures: &[1, 2, 4, 5],
         point: Some("sphere:batch_1:0"),
         attributes: &[("slip", 1, "1"), ("shape", 0, "sphere")],
@@ -128,7 +128,7 @@ const EXPECTED: [Expected; 14] = [
         preset: "poseit",
         rows: 3,
         channels: &["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"],
-        // The first of the forces of a second.
+        // The first force of each second.
         numbers: &[(1, "Fx", 0.25), (2, "Fz", 3.5)],
         pictures: &[0, 1, 2],
         point: Some("bangle:1612630172:8"),
@@ -195,7 +195,7 @@ pub(crate) fn preset(name: &str) -> Preset {
     Preset::from_name(name).expect("a preset")
 }
 
-/// The folder that is drawn in a layout.
+/// The drawn folder of a layout.
 pub(crate) fn drawn(name: &str) -> PathBuf {
     let presets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../tests/presets");
     presets.join(name)
@@ -300,7 +300,7 @@ fn lerobot_and_ros_recordings_of_other_libraries_are_imported_by_their_presets()
             &target.path().join("set"),
         );
         assert_eq!(dataset.table().rows(), rows, "{recording}");
-        // By the map of the recording itself; which lag its clocks have is what a preset cannot know.
+        // By the map of the recording itself, because a preset cannot know the lag of its clocks.
         let written = std::fs::read_to_string(own.join("map.toml")).expect("there");
         let lines = written
             .lines()

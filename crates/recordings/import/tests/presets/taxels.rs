@@ -4,7 +4,7 @@ use taceva_import::{ImportMap, MapDraft};
 
 use super::import;
 
-/// Layouts of taxels: a headerless table with a time in front beside one of a scale, and an array of nothing else.
+/// Layouts of taxels: a headerless table with a leading time beside the table of a scale, and an array alone.
 #[test]
 fn a_draft_of_taxel_tables_needs_units_alone() {
     let lab = tempfile::tempdir().expect("a folder");

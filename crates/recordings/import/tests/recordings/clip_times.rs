@@ -1,4 +1,4 @@
-//! Clips of a variable rate as tables: frames come at the stamps of the container, not at multiples of a period.
+//! Clips of a variable rate as tables: frames have the times of the container, not multiples of a period.
 
 use std::num::NonZeroUsize;
 use std::process::Command;
@@ -42,7 +42,7 @@ fn frames_of_a_matroska_clip_of_a_variable_rate_come_at_its_stamps() {
         return skip(Need::Ffmpeg, error);
     }
     let lab = tempfile::tempdir().expect("a folder");
-    // Each frame comes later than the one before by a longer step.
+    // Each step between frames is longer than the previous one.
     let written = Command::new("ffmpeg")
         .args(["-v", "error", "-i"])
         .arg(folder("mkv-ffv1").join("clip.mkv"))

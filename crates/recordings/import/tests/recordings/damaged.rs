@@ -1,5 +1,5 @@
-//! Every file of the recordings in `tests/recordings`, cut short or with flipped bits: an import is refused in words or made, and whatever is
-//! refused leaves nothing behind. A caught panic of a foreign decoder counts as such a refusal.
+//! Every file in `tests/recordings`, truncated or with flipped bits: an import succeeds, or is refused and leaves nothing behind. A caught panic
+//! of a third-party decoder counts as a refusal.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -9,11 +9,11 @@ use taceva_import::{Decoders, ImportMap, ImportPlan, MapDraft};
 
 use super::{copy, folder};
 
-/// Copies of each file that are cut, and that have flipped bits.
+/// Number of truncated copies of each file, and of copies with flipped bits.
 const CUTS: u64 = 2;
 const FLIPS: u64 = 6;
 
-/// The files below `folder` but pictures, of which tests of their own have damaged copies, and what belongs to the tests.
+/// Files below `folder`, without pictures, which have their own tests, and without files of the tests.
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
         let path = entry.path();
@@ -26,7 +26,7 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Numbers that a seed decides.
+/// Pseudorandom numbers from a seed.
 struct Numbers(u64);
 
 impl Numbers {
@@ -43,7 +43,7 @@ fn damaged(bytes: &[u8], number: u64, numbers: &mut Numbers) -> Vec<u8> {
     match number < CUTS {
         true => damaged.truncate(numbers.below(bytes.len())),
         false => {
-            // Headers are hit as often as what follows them.
+            // Headers are changed as often as the rest.
             let within = if number.is_multiple_of(2) {
                 bytes.len()
             } else {
@@ -55,7 +55,7 @@ fn damaged(bytes: &[u8], number: u64, numbers: &mut Numbers) -> Vec<u8> {
     damaged
 }
 
-/// Imports the folder and drafts a map for it; whether it was refused.
+/// Imports the folder and drafts a map for it. Returns true if it is refused.
 fn is_refused(folder: &Path, map: &ImportMap) -> bool {
     let targets = tempfile::tempdir().expect("a folder");
     let target = targets.path().join("dataset");
@@ -88,7 +88,7 @@ fn a_damaged_file_of_any_form_is_refused_in_words_or_read_and_leaves_nothing_beh
         let mut all = Vec::new();
         files(lab.path(), &mut all);
         all.sort();
-        // Stores of chunks have many files that are alike.
+        // Chunked stores have many similar files.
         for file in all.iter().step_by(all.len() / 8 + 1) {
             let bytes = std::fs::read(file).expect("there");
             if bytes.is_empty() {

@@ -1,4 +1,4 @@
-//! Depth maps of LeRobot: millimetres, or refused; never the codes as brightness.
+//! Depth maps of LeRobot: stored in millimetres or refused, never stored as brightness.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -24,7 +24,7 @@ fn changed(from: &str, to: &str) -> tempfile::TempDir {
     target
 }
 
-/// The least and the greatest pixel of the first picture of `source` by the map `text`, and the bits of one.
+/// Least and greatest pixel of the first picture of `source` by the map `text`, and the bits of a pixel.
 fn ends(source: &Path, text: &str, ffmpeg: Option<&str>) -> Result<([u32; 2], u8), String> {
     let map = ImportMap::parse("map.toml".as_ref(), text).map_err(|error| error.to_string())?;
     let decoders = Decoders {
@@ -105,7 +105,7 @@ fn distances_are_whole_millimetres_or_shares_of_the_range_that_the_map_says() {
         };
         let read = |text: &str| ends(&folder(NAME), text, Some("ffmpeg"));
         let ([near, far], bits) = read(&map).expect("imported");
-        // Recorded were 300 and 1000 mm; codes are up to 1.5 mm apart there.
+        // 300 and 1000 mm were recorded; codes are up to 1.5 mm apart there.
         assert!(
             near.abs_diff(300) <= 1 && far.abs_diff(1000) <= 1,
             "{near} {far}"

@@ -1,4 +1,4 @@
-//! Drafts of maps: of which recordings they leave nothing open but units, signs and the name of the sensor.
+//! Drafts of maps: recordings for which only units, signs and the name of the sensor stay open.
 
 use taceva_import::MapDraft;
 use taceva_needs::{Need, skip};
@@ -6,7 +6,7 @@ use taceva_needs::{Need, skip};
 use super::expected::differences;
 use super::{copy, ffmpeg, folder, own_map};
 
-/// The recording as its lab has it: without the map and what is expected of it.
+/// The recording without its map and its expected results.
 fn bare(name: &str) -> tempfile::TempDir {
     let target = tempfile::tempdir().expect("a folder");
     copy(&folder(name), target.path());
@@ -16,7 +16,7 @@ fn bare(name: &str) -> tempfile::TempDir {
     target
 }
 
-/// The draft of a map for the recording, its units, signs, offsets, scales and sensor filled in from the map of its lab.
+/// Draft for the recording, with units, signs, offsets, scales and sensor from the map of its lab.
 fn finished_draft(name: &str) -> Result<String, String> {
     let draft = MapDraft::of(bare(name).path()).map_err(|error| error.to_string())?;
     let own: toml::Table = own_map(name).parse().expect("TOML");
@@ -56,22 +56,22 @@ fn finished_draft(name: &str) -> Result<String, String> {
 
 /// Folders whose drafts leave more open than units and signs.
 const MORE_OPEN: [&str; 8] = [
-    // How much later one clock shows the same instant stands nowhere.
+    // The lag between two clocks is not in the files.
     "join-time",
-    // That the columns are volts, of which a matrix beside them makes forces.
+    // The columns are volts, which a matrix beside them converts to forces.
     "matrix",
     "mcap-lz4",
     "mcap-none",
     "mcap-zstd",
-    // Which numbers are black and full, where they are neither pixels nor shares.
+    // The numbers of black and full scale are unknown.
     "npy-int16",
-    // Three recordings lie beside each other, of which the map wants one.
+    // Three recordings are side by side; the map selects one.
     "pickle",
-    // That -1 g means nothing was weighed, and that the other table is the taxels.
+    // -1 g means that nothing was weighed, and the other table holds the taxels.
     "taxels-csv",
 ];
 
-/// Clips that ffmpeg alone decodes here: AV1 has a child of the program for it otherwise.
+/// Clips that only ffmpeg decodes here; the program decodes AV1 in a child process.
 const DECODED_BY_FFMPEG: [&str; 6] = [
     "lerobot-v3-av1",
     "lerobot-v3-depth",
@@ -212,7 +212,7 @@ fn a_draft_prefers_what_was_measured_to_commands_predictions_and_deviations() {
     };
     assert!(line("Fz = ").starts_with("Fz = { from = \"fz_meas\", unit = \"?\" }"));
     assert!(line("Fx = ").starts_with("Fx = { from = \"fx\", unit = \"?\" }"));
-    // What was commanded, predicted or computed is none.
+    // Commanded, predicted or computed quantities are no channels.
     let excluded = line("# No channels: ");
     for (channel, name, word) in [
         ("Fy = ", "fy_pred", "`pred`"),

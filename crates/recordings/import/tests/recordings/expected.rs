@@ -42,7 +42,7 @@ pub(crate) fn differences(name: &str, map: &str) -> Vec<String> {
     .concat()
 }
 
-/// The row of the dataset that each key of `expected.json` means.
+/// Row of the dataset for each key of `expected.json`.
 fn rows(name: &str, table: &Table) -> BTreeMap<String, usize> {
     let key = |row: usize| match BY_SOURCE_ROW.contains(&name) {
         true => table.source_row()[row]
@@ -89,7 +89,7 @@ impl Expected<'_> {
                 };
                 let cell = cells[row].clone().unwrap_or_default();
                 let is_right = match value.as_f64() {
-                    // Torques are kept in N·mm.
+                    // Torques are stored in N·mm.
                     Some(number) if value.is_f64() => {
                         let number = if name.starts_with('T') {
                             number * 1e3
@@ -155,7 +155,7 @@ impl Expected<'_> {
             .collect()
     }
 
-    /// Numbers of taxels, to the last bit of the 32 that they are kept in.
+    /// Taxel values, to the last of their 32 bits.
     fn signals(&self) -> Vec<String> {
         let mut wrong = Vec::new();
         for (key, numbers) in self.expected["signals"].as_object().into_iter().flatten() {

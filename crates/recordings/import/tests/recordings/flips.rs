@@ -1,5 +1,5 @@
-//! Single bits are flipped in labels, pictures and indices of every form: what a checksum covers is refused, and nothing vanishes without a word.
-//! `TACEVA_FLIPS=2000 cargo test --workspace --test import recordings::flips -- --nocapture` tries as many in all and prints the counts by form.
+//! Flips single bits in labels, pictures and indices of every form: a flip under a checksum is refused, and nothing vanishes without a message.
+//! `TACEVA_FLIPS=2000 cargo test --workspace --test import recordings::flips -- --nocapture` sets the total number and prints the counts by form.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -12,25 +12,25 @@ use taceva_import::{Decoders, ImportError, ImportMap, ImportPlan};
 use super::{copy, folder};
 use crate::support::Random;
 
-/// In all, where nobody asks for more.
+/// Total number by default.
 const FLIPS: usize = 100;
 /// Bytes at both ends of a file, where headers and indices lie.
 const ENDS: usize = 512;
-/// Forms whose every byte of labels and pictures is covered by a checksum of the file.
+/// Forms whose labels and pictures are fully covered by checksums in the file.
 const COVERED: [&str; 2] = ["npz-", "mcap-"];
 
-/// An import, as far as a flip may change it.
+/// Result of an import, as far as a flip may change it.
 #[derive(Clone, Debug, PartialEq)]
 struct Seen {
     digest: Digest,
     rows: usize,
-    /// Rows without a picture, or whose picture is of one colour.
+    /// Number of rows without a picture, or with a uniform one.
     bare: usize,
-    /// The summary of the import, its warnings too.
+    /// Summary of the import, with its warnings.
     words: String,
 }
 
-/// The import of the folder, or why it is refused.
+/// Imports the folder; the error is the refusal.
 fn seen(folder: &Path, map: &ImportMap) -> Result<Seen, ImportError> {
     let targets = tempfile::tempdir().expect("a folder");
     let target = targets.path().join("dataset");
@@ -52,7 +52,7 @@ fn seen(folder: &Path, map: &ImportMap) -> Result<Seen, ImportError> {
     })
 }
 
-/// The files of a recording, but for what belongs to the tests.
+/// Files of a recording, without those of the tests.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
@@ -68,7 +68,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// A place in a file of so many bytes: anywhere, or every other time near one of its ends.
+/// Offset in a file of this length: anywhere, or every other time near one of its ends.
 fn place(random: &mut Random, length: usize, number: usize) -> usize {
     let near = length.min(ENDS);
     match number % 4 {
@@ -99,7 +99,7 @@ fn no_flipped_bit_makes_a_row_or_a_picture_vanish_without_a_word() {
         };
         let lab = tempfile::tempdir().expect("a folder");
         copy(&form, lab.path());
-        // What needs a decoder that is not here is refused whole.
+        // Recordings that need a missing decoder are skipped.
         let Ok(whole) = seen(lab.path(), &map) else {
             continue;
         };

@@ -1,5 +1,5 @@
-//! The recordings of `tests/recordings`, written by the libraries of other people, imported by their maps: counts, labels, pixels and packets
-//! are those that the library that wrote them reads back.
+//! Recordings in `tests/recordings`, written by external libraries and imported by their maps: counts, labels, pixels and packets equal those
+//! that the library reads back.
 
 mod clip_times;
 mod damaged;
@@ -23,7 +23,7 @@ fn folder(name: &str) -> PathBuf {
     Path::new(recordings).join(name)
 }
 
-/// Copies a folder with all that is in it.
+/// Copies a folder recursively.
 fn copy(from: &Path, to: &Path) {
     std::fs::create_dir_all(to).expect("made");
     for entry in std::fs::read_dir(from).expect("a folder").flatten() {
@@ -55,7 +55,7 @@ fn import(name: &str, text: &str, target: &Path) -> Result<(), String> {
     report.map(drop).map_err(|error| error.to_string())
 }
 
-/// Each of the recordings is as its library reads it.
+/// Checks that each recording equals the content that its library reads.
 #[track_caller]
 fn all_as_expected(names: &[&str]) {
     let wrong: Vec<String> = names

@@ -33,7 +33,7 @@ fn labels_are_converted_and_frames_keep_their_bytes() {
 #[test]
 fn import_export_and_import_give_the_same_digest() {
     let lab = Lab::new();
-    // Rows do not keep the name of the table that they came from.
+    // Rows do not store the name of their source table.
     lab.replace("map.toml", "[drop]", "[origin]\n\n[drop]");
     let first = lab.import().expect("imported").digest;
     let dataset = Dataset::open(&lab.path("set")).expect("opens");

@@ -1,4 +1,4 @@
-//! Angles that begin again, and rotations that have two names.
+//! Angles that wrap around, and rotations with two representations.
 
 use std::num::NonZeroUsize;
 
@@ -10,7 +10,7 @@ use super::{FACTS, assert_near, case, imported, lab, map_of, planned};
 
 const CASE: &str = "rotation-vector-sign-flip";
 
-/// The same map with a third angle, as the rotation that it is.
+/// The same map with a third angle, declared as a rotation.
 fn declared(map: &str) -> String {
     let with_rz = map.replace(
         "Ry = {",
@@ -116,7 +116,7 @@ fn radians_that_begin_again_and_a_scale_of_the_map_are_as_degrees() {
         assert!((found[0] - expected).abs() < 1e-3, "{found:?}");
         assert!((found[0] + found[1]).abs() < 1e-9, "{found:?}");
     }
-    // No half turn apart, no angle: as before.
+    // Less than half a turn apart, or no angle: interpolated as before.
     let near = lab(&[("t.csv", TIMES), ("r.csv", "t,a\n0,10\n1,20\n")]);
     let column = "a = { from = \"rob.a\", unit = \"deg\" }\n";
     let found = imported(near.path(), &joined("\"r.csv\"", column, ""), "a");
@@ -132,7 +132,7 @@ const QUATERNION_COLUMNS: &str = "qx = { from = \"rob.x\", unit = \"1\" }\nqy = 
 
 #[test]
 fn a_quaternion_that_changes_its_sign_is_joined_by_the_shortest_turn() {
-    // Thirty and sixty degrees about z, the second by its negative.
+    // 30 and 60 degrees about z, the second by its negative.
     let (half, quarter) = (15.0_f64.to_radians(), 30.0_f64.to_radians());
     let text = format!(
         "t,x,y,z,w\n0,0,0,{},{}\n1,0,0,{},{}\n",

@@ -1,4 +1,4 @@
-//! Clips beside logs with clocks of their own.
+//! Clips beside logs with their own clocks.
 
 use std::path::Path;
 
@@ -75,7 +75,7 @@ fn frames_of_a_clip_without_a_rate_come_at_the_times_that_the_clip_states() {
             );
         }
     }
-    // Frames that are lost leave a gap: an AVI of Motion JPEG whose seventh packet is empty.
+    // Lost frames leave a gap: an AVI of Motion JPEG whose seventh packet is empty.
     let avi = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../tests/recordings/avi-mjpeg");
     let clip = std::fs::read_dir(avi)
         .expect("listed")

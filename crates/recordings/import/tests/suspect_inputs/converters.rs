@@ -1,4 +1,4 @@
-//! Files of forms that are not read: the message names the package and the call that write one that is.
+//! Files of unreadable forms: the message names a package and a call that convert them.
 
 use taceva_import::MapDraft;
 
@@ -43,7 +43,7 @@ fn a_folder_of_lance_leads_to_its_package_wherever_the_table_lies() {
         &deeper,
         &["lancedb.connect(\"day 1\").open_table(\"press\")"],
     );
-    // A table of JSON within is none of the lab's.
+    // A JSON table inside the store is not the lab's.
     let hint = refused_draft(&[("press.lance/_versions/hint.json", "{\"Fz\": 1}")]);
     assert_names(&hint, &["open_table(\"press\")"]);
     let folder = lab(&[(inside, "x")]);

@@ -157,7 +157,7 @@ fn tables_and_json_lines_with_a_column_of_frames_have_one_frame_in_all_files() {
     let plan = planned_with(folder.path(), &one).expect("one frame");
     assert_eq!((plan.summary().rows_kept, plan.summary().rows_read), (1, 3));
 
-    // A row without a number is in no frame.
+    // A row without a number has no frame.
     let folder = lab(&[("ft.csv", "fz,frame_id\n1,tool0\n,base\n3,tool0\n")]);
     assert!(planned_with(folder.path(), &map).is_ok());
 

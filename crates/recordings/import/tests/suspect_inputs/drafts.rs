@@ -1,26 +1,26 @@
-//! Drafts of folders with columns that look like a channel and are none.
+//! Drafts of folders with columns that look like a channel but are none.
 
 use super::{case, draft, imported, lab, line, planned};
 
-/// The draft of a folder with one table of so many rows, whose cells a function writes.
+/// Draft of a folder with one table of `rows` rows, whose cells a function writes.
 fn drafted(header: &str, row: impl Fn(usize) -> String) -> String {
     let rows: Vec<String> = (0..40).map(row).collect();
     let folder = lab(&[("labels.csv", &format!("{header}\n{}\n", rows.join("\n")))]);
     draft(folder.path())
 }
 
-/// A number that does not count.
+/// A number that does not count up with the row.
 fn wave(row: usize) -> f64 {
     ((row * 37 % 40) as f64 * 0.13 - 2.0) * 1.01
 }
 
-/// So many numbers that do not count.
+/// Several numbers that do not count up with the row.
 fn waves(row: usize, count: usize) -> String {
     let cells: Vec<String> = (0..count).map(|at| wave(row + at).to_string()).collect();
     cells.join(",")
 }
 
-/// The column that a line takes for a channel.
+/// Column that the draft assigns to `channel`.
 fn taken(draft: &str, channel: &str) -> String {
     let line = line(draft, &format!("{channel} = "));
     let from = line.split("from = \"").nth(1).unwrap_or_default();
@@ -81,7 +81,7 @@ fn filtered_beside_raw_and_one_of_two_sensors_leave_the_line_open_with_both_name
         for name in header.split(',') {
             assert!(said.contains(&format!("{name:?}")), "{said}");
         }
-        // An import refuses it by its line.
+        // An import refuses the draft, and quotes its open value.
         let folder = lab(&[("labels.csv", "a\n1\n")]);
         let problem = planned(folder.path(), &filled(&draft)).expect_err("refused");
         assert!(problem.contains("`\"?\"`"), "{problem}");
@@ -137,7 +137,7 @@ fn zeros_and_forces_that_are_not_valid_are_left_open_with_the_reason() {
     );
     let valid = drafted("force_valid,force_z", |row| format!("true,{}", wave(row)));
     assert_eq!(taken(&valid, "Fz"), "force_z", "{valid}");
-    // A force that begins beyond the first rows is one.
+    // A force that begins after the sampled rows is a channel.
     let rows: String = (0..900)
         .map(|row| format!("{}\n", if row < 600 { 0 } else { row % 7 }))
         .collect();
@@ -276,13 +276,13 @@ fn cells_that_are_names_of_pictures_without_their_ending_are_drafted_as_a_patter
     );
     let forces = imported(folder.path(), &filled(&draft), "Fz");
     assert_eq!(forces, [1.5, 2.5], "{draft}");
-    // One name that is no picture: a number like others.
+    // One name without a picture: the column is a number like others.
     std::fs::remove_file(folder.path().join("img/000013.png")).expect("removed");
     let draft = super::draft(folder.path());
     assert!(!draft.contains("pattern = "), "{draft}");
 }
 
-/// Pictures at 30 Hz beside a table of forces of 10 N a second, with so many rows a second.
+/// Pictures at 30 Hz beside a table with `rate` rows a second, whose force grows by 10 N a second.
 fn beside_forces(rate: u32) -> tempfile::TempDir {
     let rows = (0..12).map(|row| format!("{:.6},{row}.png\n", f64::from(row) / 30.0));
     let camera = format!("t,file\n{}", rows.collect::<String>());
@@ -305,7 +305,7 @@ fn a_join_of_two_rates_states_both_and_interpolates_the_slower_table() {
         pick.starts_with("pick = \"linear\"   # 5 Hz beside 30 Hz of the main table: "),
         "{text}"
     );
-    // Between two rows there is no text.
+    // Texts are not interpolated between rows.
     assert!(!text.contains("object = "), "{text}");
     let forces = imported(slow.path(), &filled(&text), "Fz");
     assert_eq!(forces.len(), 12, "{text}");

@@ -1,9 +1,9 @@
-//! Damage that a sum, an index or a size in the file shows is refused, and what was never written is taken only where the map says so.
+//! Damage that a checksum, an index or a size shows is refused, and unwritten data is accepted only by a key of the map.
 
 use super::{FACTS, NO_TIME, case, lab, map_of, planned, summary};
 use taceva_import::UnpackedArchive;
 
-/// A copy of a file of `tests/recordings` in a folder of its own, changed.
+/// A changed copy of a file of `tests/recordings`, in its own folder.
 fn recording(name: &str, change: impl FnOnce(&mut Vec<u8>)) -> tempfile::TempDir {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../../tests/recordings")
@@ -16,7 +16,6 @@ fn recording(name: &str, change: impl FnOnce(&mut Vec<u8>)) -> tempfile::TempDir
     folder
 }
 
-/// K1.
 #[test]
 fn a_stored_label_of_npz_that_was_damaged_is_refused_by_its_checksum() {
     let name = "npz-stored-label-damaged";
@@ -27,7 +26,6 @@ fn a_stored_label_of_npz_that_was_damaged_is_refused_by_its_checksum() {
     );
 }
 
-/// K1, times and texts beside labels.
 #[test]
 fn damage_in_times_and_texts_of_npz_is_refused_as_that_of_labels_is() {
     let map = std::fs::read_to_string(
@@ -44,7 +42,7 @@ fn damage_in_times_and_texts_of_npz_is_refused_as_that_of_labels_is() {
                 .filter(|at| bytes[*at..*at + 4] == *b"PK\x03\x04")
                 .collect();
             heads.retain(|at| bytes[at + 30..].starts_with(name.as_bytes()));
-            // Behind a head of 30 bytes, the name and the extra field the header of NumPy takes 128 bytes.
+            // The NumPy header takes 128 bytes, after a member header of 30 bytes, the name and the extra field.
             if let [at] = heads.as_slice() {
                 let begin = at + 30 + name.len() + usize::from(bytes[at + 28]);
                 bytes[begin + 128 + 9] ^= 4;
@@ -58,7 +56,6 @@ fn damage_in_times_and_texts_of_npz_is_refused_as_that_of_labels_is() {
     }
 }
 
-/// K2.
 #[test]
 fn a_chunk_of_hdf5_whose_key_was_damaged_is_refused() {
     let name = "hdf5-chunk-index-damaged";
@@ -80,7 +77,7 @@ fn a_chunk_of_hdf5_whose_key_was_damaged_is_refused() {
     );
 }
 
-/// K2: a logger that was stopped leaves chunks that nobody wrote.
+/// A stopped logger leaves unwritten chunks.
 #[test]
 fn chunks_of_hdf5_that_were_never_written_need_fill_in_the_map() {
     let folder = lab(&[]);
@@ -101,7 +98,6 @@ fn chunks_of_hdf5_that_were_never_written_need_fill_in_the_map() {
     assert!(told.to_string().contains("run.h5/filled"), "{told}");
 }
 
-/// K9.
 #[test]
 fn archives_of_nothing_but_empty_files_or_folders_are_refused_in_words() {
     for kind in [tar::EntryType::Regular, tar::EntryType::Directory] {

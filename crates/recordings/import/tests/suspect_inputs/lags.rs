@@ -1,4 +1,4 @@
-//! Clocks that are apart by another time in every run.
+//! Clocks with a different lag in every run.
 
 use super::{FACTS, assert_near, imported, lab, planned};
 
@@ -43,7 +43,7 @@ fn a_lag_by_file_and_by_column_moves_each_run_by_its_own() {
         }
         assert_eq!(found.len(), 4, "{lag}");
     }
-    // By the joined table, of which each run has one.
+    // By the joined table: each run has its own.
     let pairs = lab(&[
         ("run/1.csv", "t\n1\n2\n"),
         ("run/2.csv", "t\n1\n2\n"),

@@ -1,4 +1,4 @@
-//! Folders on which a wrong number would go in, or a good file would be refused: each is right, refused with the remedy, or warned of.
+//! Folders that could give wrong numbers, or a wrong refusal: each is imported correctly, refused with the remedy, or warned of.
 
 mod angles;
 mod clips;
@@ -48,7 +48,7 @@ fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
     folder
 }
 
-/// The plan of an import by a whole map.
+/// The plan of an import by a complete map.
 fn planned(folder: &Path, map: &str) -> Result<ImportPlan, String> {
     let map = ImportMap::parse("map.toml".as_ref(), map).map_err(|error| error.to_string())?;
     ImportPlan::new(folder, &map).map_err(|error| error.to_string())
@@ -64,12 +64,12 @@ fn summary(folder: &Path, map: &str) -> ImportSummary {
     plan.summary().clone()
 }
 
-/// The codes of its warnings.
+/// Codes of the warnings.
 fn codes(summary: &ImportSummary) -> Vec<&'static str> {
     summary.warnings.iter().map(ImportWarning::code).collect()
 }
 
-/// The numbers that an import keeps of a column.
+/// Numbers of a column after an import.
 fn imported(folder: &Path, map: &str, column: &str) -> Vec<f64> {
     let plan = planned(folder, map).unwrap_or_else(|problem| panic!("{problem}\n{map}"));
     let target = tempfile::tempdir().expect("a folder");
@@ -98,7 +98,7 @@ fn draft(folder: &Path) -> String {
     draft.text().to_owned()
 }
 
-/// The first line of a draft that begins so.
+/// First line of a draft that begins with `start`.
 fn line<'d>(draft: &'d str, start: &str) -> &'d str {
     let mut lines = draft.lines();
     lines

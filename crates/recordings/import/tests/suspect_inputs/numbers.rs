@@ -1,4 +1,4 @@
-//! Digits that are grouped, commas for points, a column that is named twice, true and false for numbers.
+//! Grouped digits, decimal commas, columns named twice, and booleans as numbers.
 
 use super::{
     NO_TIME, assert_near, case, codes, imported, lab, map_of, mean, planned, planned_with, summary,

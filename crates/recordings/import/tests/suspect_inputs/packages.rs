@@ -1,4 +1,4 @@
-//! Files of packages of the field that say less, or otherwise, than their names promise.
+//! Files of tactile packages with less, or other, content than their names suggest.
 
 use super::{FACTS, NO_TIME, case, draft, imported, lab, planned};
 use taceva_import::MapDraft;
@@ -33,7 +33,7 @@ fn a_data_frame_in_the_fixed_form_of_pandas_is_a_table_of_its_columns() {
     for (found, expected) in times.iter().zip(&expected) {
         assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
     }
-    // The index is a time where pandas says so, in another unit and another group.
+    // The index is a time if pandas marks it as one, in another unit and another group.
     let folder = data_frame("timed.h5");
     let map = format!(
         "map_version = 2\ntable = {{ file = \"run.h5\", rows = \"/run\" }}\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n[time]\ncolumn = \"index\"\nunit = \"s\"\n\

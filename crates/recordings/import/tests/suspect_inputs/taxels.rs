@@ -1,4 +1,4 @@
-//! Codes of taxels that measured nothing.
+//! Placeholder codes of taxels.
 
 use super::{FACTS, case, draft, lab, line, map_of, summary};
 

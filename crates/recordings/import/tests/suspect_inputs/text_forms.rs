@@ -27,7 +27,7 @@ fn a_row_of_units_comments_and_a_line_of_the_separator_are_read_by_a_key_that_th
         1.99570,
     );
     assert_near(mean(&imported(&folder, &map_of("sep.toml"), "Fz")), 1.99570);
-    // The row says mN, the map N.
+    // The units row states mN, the map N.
     let contradicted = of("units-row", "units_row = true");
     let problem = planned(&folder, &contradicted).expect_err("refused");
     assert!(problem.contains("its unit is `mN`"), "{problem}");

@@ -1,4 +1,4 @@
-//! Forces with a zero that the map takes away, and with the weight of a tool.
+//! Forces with a zero that the map subtracts, and with the weight of a tool.
 
 use super::{FACTS, NO_TIME, assert_near, codes, imported, lab, planned, summary};
 
@@ -138,7 +138,7 @@ fn rows_of_a_zero_that_differ_like_contacts_are_warned_of_and_the_dataset_keeps_
     );
 }
 
-/// A tool of 1 kg, 100 mm before the transducer, at rest and turned by a quarter about x.
+/// A tool of 1 kg, 100 mm in front of the transducer, at rest and turned by 90 degrees about x.
 const TOOL: &str = "fx,fy,fz,tx,ty,tz,rx,ry,rz,x,y,z,w\n\
      0,0,-9.80665,0,0,0,0,0,0,0,0,0,1\n0,-9.80665,0,0.980665,0,0,1.5707963267948966,0,0,0.7071067811865476,0,0,0.7071067811865476\n\
      0,-9.80665,2,0.980665,0,0,1.5707963267948966,0,0,-0.7071067811865476,0,0,-0.7071067811865476\n";

@@ -37,7 +37,7 @@ fn rows_that_are_added_have_their_pictures_in_every_view() {
     }
     let counts = after.header().views.iter().map(|view| view.frames.count);
     assert_eq!(counts.collect::<Vec<_>>(), [9, 9]);
-    // A model of the right finger of before is known by it.
+    // A model of the earlier right finger is recognised by its digest.
     let seen = after.seen("right").expect("a view");
     assert!(
         seen.header()

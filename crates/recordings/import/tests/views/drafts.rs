@@ -1,4 +1,4 @@
-//! Folders in which pictures stand side by side in one row are drafted as views, and others as before.
+//! Folders with pictures side by side in one row are drafted as views, others as before.
 
 use std::path::Path;
 
@@ -93,7 +93,7 @@ fn two_clips_beside_a_log_are_drafted_as_views() {
             .iter()
             .all(|view| view.frames.codec.is_some())
     );
-    // One of another length is left open.
+    // A clip of another length is left open.
     let rows = (0..frames + 4)
         .map(|row| format!("{row},0.5\n"))
         .collect::<String>();

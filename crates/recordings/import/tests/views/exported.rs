@@ -1,4 +1,4 @@
-//! Every form of an export holds the pictures of every view, and its map brings them back.
+//! Every form of an export holds the pictures of every view, and its map restores them.
 
 use std::num::NonZeroUsize;
 
@@ -52,7 +52,7 @@ fn every_form_brings_the_pictures_of_every_view_back() {
             again.table().attribute("frame_left"),
             dataset.table().attribute("frame_left")
         );
-        // Where pictures are files their bytes are kept, and so is all that a dataset says.
+        // Picture files keep their bytes, and the dataset keeps its digest.
         if form != ExportForm::Hdf5 {
             assert_eq!(again.digest(), dataset.digest(), "{}", form.name());
         }
@@ -134,7 +134,7 @@ fn two_cameras_of_lerobot_without_sides_are_drafted_as_views_and_one_is_imported
     assert_eq!(seen(&both, "gel", 4), seen(&dataset, "gel", 4));
     assert_eq!(seen(&both, "wrist", 4), seen(&dataset, "wrist", 4));
 
-    // One [frame] without a name, of the second key.
+    // One [frame] without a name, with the second key.
     let blocks: Vec<&str> = draft.split("[[frame]]\n").collect();
     let [head, _, last] = blocks.as_slice() else {
         panic!("{draft}");

@@ -1,4 +1,4 @@
-//! Rows with several pictures each: of the fingers of a gripper, of the eyes of a sensor.
+//! Rows with several pictures: fingers of a gripper, eyes of a sensor.
 
 mod added;
 mod drafts;
@@ -31,7 +31,7 @@ pub(super) fn two() -> String {
     format!("{TWO}{FACTS}")
 }
 
-/// A folder of two fingers: gray pictures of 48 × 36 on the left and of 60 × 36 on the right, of which no two are alike.
+/// A folder of two fingers: gray pictures of 48 × 36 on the left and of 60 × 36 on the right, all different.
 pub(super) fn gripper() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     fill(folder.path(), 0, ROWS);
@@ -86,7 +86,7 @@ pub(super) fn refusal(folder: &Path, map: &str) -> String {
     }
 }
 
-/// The draft of a folder with what it leaves open written in.
+/// Draft of a folder with its open places filled in.
 pub(super) fn drafted(folder: &Path) -> String {
     let draft = MapDraft::of(folder).expect("a draft");
     draft.text().replace("model = \"?\"", "model = \"gripper\"")

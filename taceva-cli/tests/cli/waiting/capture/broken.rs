@@ -1,4 +1,4 @@
-//! What goes wrong while a capture is recorded: it says what, and what was recorded is whole.
+//! Faults during a capture: the fault is reported, and the recording is complete.
 
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
@@ -67,7 +67,7 @@ fn a_transducer_that_froze_ends_it_and_no_frame_has_its_force() {
     let known = (0..table.rows())
         .filter(|&row| forces.get(row).is_some())
         .count();
-    // Two seconds pass until it is sure.
+    // Detection takes two seconds.
     assert!(
         known > 5 && table.rows() - known > 10,
         "{known} of {}",
@@ -100,7 +100,7 @@ fn a_transducer_that_says_nothing_ends_it_too() {
     whole(&bench, "out");
 }
 
-/// A camera that sends a frame every `period`, as wide as its number says.
+/// A camera that sends a frame every `period`; `width` gives the width of each frame by its number, in pixels.
 pub(crate) fn camera(
     period: Duration,
     width: impl Fn(usize) -> u32 + Send + 'static,
@@ -135,7 +135,7 @@ pub(crate) fn camera(
     address
 }
 
-/// A camera that sends `first` frames of one size and then another for ever.
+/// A camera that sends `first` frames of one size and then frames of another size.
 pub(crate) fn changing_camera(first: usize) -> SocketAddr {
     let width = move |number| if number < first { 32 } else { 48 };
     camera(Duration::from_millis(20), width)
@@ -168,7 +168,7 @@ fn a_full_disk_ends_it_and_what_is_durable_is_closed_once_there_is_room() {
         "capture out --sensor {} --for 60s",
         emulated.sensor()
     ));
-    // To write more than 32 kB into one file fails, as on a full disk.
+    // Writing more than 32 kB to one file fails, as on a full disk.
     let mut small = Command::new("sh");
     small
         .args(["-c", "ulimit -f 64; exec \"$@\"", "sh"])

@@ -1,4 +1,5 @@
-//! `capture --model` and `preview --model`: predictions over the picture, at the terminal and beside the recording, named as such everywhere.
+//! `capture --model` and `preview --model`: predictions over the picture, at the terminal and beside the recording,
+//! labelled as predictions everywhere.
 
 use std::time::Duration;
 
@@ -147,7 +148,7 @@ fn a_model_of_hand_presses_predicts_what_the_transducer_measures_on_a_page_and_b
         "{median} N of {}",
         errors_n.len()
     );
-    // Predictions that were changed afterwards are none of this recording.
+    // Changed predictions no longer belong to the recording.
     std::fs::write(bench.path("more/predictions.csv"), "sample\n").expect("written");
     assert!(dataset.verify_frames().is_err());
 

@@ -11,20 +11,20 @@ use taceva_needs::{Need, skip};
 
 use crate::support::Bench;
 
-/// A loaded machine is waited for.
+/// Timeout that a loaded machine meets.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(240);
 
-/// One cluster at a time: ports that were found free are free until the daemons have them.
+/// One cluster at a time: free ports must stay free until the daemons open them.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// A Slurm of two nodes, ended when it is dropped.
+/// A Slurm of two nodes, stopped on drop.
 pub(crate) struct Cluster {
     folder: tempfile::TempDir,
     _alone: MutexGuard<'static, ()>,
 }
 
 impl Cluster {
-    /// Begins one, if this machine may.
+    /// Starts a cluster; `None` if this machine cannot.
     pub(crate) fn start() -> Option<Cluster> {
         let is_there = |program: &str| {
             let found = Command::new("sh")
@@ -57,7 +57,7 @@ impl Cluster {
 
     fn script(&self, name: &str, words: &[&str]) -> Output {
         let scripts = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/slurm");
-        // Daemons keep what they inherit, so nothing waits for a pipe of theirs.
+        // Daemons keep inherited files, so their output goes to a file instead of a pipe.
         let said = self.folder.path().join(format!("{name}.txt"));
         let file = fs::File::create(&said).expect("made");
         let status = Command::new("bash")
@@ -100,11 +100,11 @@ impl Cluster {
         said
     }
 
-    /// Waits until no job of the sweep is left.
+    /// Waits until the sweep has no jobs left.
     pub(crate) fn wait(&self, bench: &Bench) {
         let began = Instant::now();
         loop {
-            // A controller that was just started may not answer yet.
+            // A newly started controller may not answer yet.
             let (code, status) = self.run(bench, "sweep status which.toml");
             if code == 0 && status.contains("none are left") {
                 return;
@@ -115,7 +115,7 @@ impl Cluster {
         }
     }
 
-    /// Requeued jobs are held for two minutes, which no test waits for.
+    /// Releases requeued jobs, which would be held for two minutes.
     fn release(&self, status: &str) {
         for line in status.lines().filter(|line| line.contains("(BeginTime)")) {
             let id = line.split_whitespace().nth(1).expect("a number");
@@ -156,7 +156,7 @@ fn nix_root() -> bool {
     output.is_ok_and(|output| output.stdout.trim_ascii() == b"0")
 }
 
-/// The first of three ports that are free now.
+/// The first of three free ports.
 fn free_ports() -> u16 {
     for port in (20_000..60_000).step_by(37) {
         let held = [port, port + 1, port + 2].map(|port| TcpListener::bind(("127.0.0.1", port)));

@@ -1,4 +1,4 @@
-//! The same bytes on two nodes, with one lost and the controller started anew.
+//! The same bytes on two nodes, with one node lost and the controller restarted.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -52,9 +52,9 @@ fn a_node_lost_a_controller_started_anew_and_a_sweep_cancelled_and_submitted_aga
     cluster.ok(&bench, "sweep which.toml --on slurm");
     cluster.ok(&bench, "sweep cancel which.toml");
     cluster.ok(&bench, "sweep which.toml --on slurm");
-    // A controller that is ended and started anew while jobs wait and run.
+    // The controller is restarted while jobs wait and run.
     restart_controller(&cluster);
-    // A node that is lost with its jobs.
+    // A node is lost with its jobs.
     let began = Instant::now();
     while fs::read_dir(bench.path("which.sweep/results")).map_or(0, Iterator::count) == 0 {
         assert!(

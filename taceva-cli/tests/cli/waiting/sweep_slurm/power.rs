@@ -1,4 +1,4 @@
-//! Daemons that end as no program would ask them to.
+//! Daemons that are killed.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::cluster::{Cluster, PATIENCE};
 
-/// Ends what runs on a node as a cut of its power would: first the processes that would report the end of a job, then the jobs.
+/// Kills the processes of a node as a power cut would: first those that would report the end of a job, then the jobs.
 pub(crate) fn cut_power(cluster: &Cluster, node: &str) {
     let daemon = cluster.pid(&format!("slurmd-{node}.pid"));
     let ours = [
@@ -50,7 +50,7 @@ pub(crate) fn cut_power(cluster: &Cluster, node: &str) {
     }
 }
 
-/// Ends the controller and starts it anew, whatever waits and runs.
+/// Kills the controller and restarts it, while jobs wait or run.
 pub(crate) fn restart_controller(cluster: &Cluster) {
     let controller = cluster.pid("slurmctld.pid");
     Command::new("kill")

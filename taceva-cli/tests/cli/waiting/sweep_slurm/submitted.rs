@@ -1,4 +1,4 @@
-//! What else is submitted: shards of tables, scenes, and what `sbatch` refuses.
+//! Other submissions: shards of tables, scenes, and refusals of `sbatch`.
 
 use std::fs;
 

@@ -69,7 +69,7 @@ fn stems(groups: &[FileGroup]) -> BTreeMap<(&str, &str), HashSet<&str>> {
     found
 }
 
-/// True if each cell of `column` is another one of `stems`.
+/// True if the cells of `column` are different members of `stems`.
 fn names(column: &SeenColumn, stems: &HashSet<&str>) -> bool {
     let may_name = matches!(
         column.role,

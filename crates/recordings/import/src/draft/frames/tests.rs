@@ -26,7 +26,7 @@ fn each_of_several_tables_has_the_array_beside_it_and_of_one_array_the_index_is_
         of(&sessions, &["frames.npy"]),
         ("frames.npy".to_owned(), false, true)
     );
-    // Which of two belongs to which of three?
+    // Two tables and three files do not pair up.
     assert_eq!(
         of(&sessions, &["s0/frames.npy", "s1/frames.npy"]),
         ("?".to_owned(), true, false)

@@ -146,7 +146,7 @@ impl Quantity {
     }
 }
 
-/// Words that do not distinguish one number from another.
+/// Words that do not describe a quantity.
 const NEUTRAL: [&str; 22] = [
     "sensor",
     "meas",
@@ -234,7 +234,7 @@ impl Named {
         self.own.iter().find_map(|word| axis_of(word))
     }
 
-    /// Reason that bars the name from every channel.
+    /// Reason to exclude the name from every channel.
     pub(super) fn exclusion(&self) -> Option<Exclusion> {
         let has_axis = self.axis().is_some();
         // A single letter may be the name of a sensor.
@@ -343,7 +343,7 @@ impl Named {
         let unit = match (&self.suffix, kept_unit(channel)) {
             (Some(suffix), Some(kept)) => match suffix.of_quantity(kept) {
                 Some(unit) => Some((unit.symbol(), UnitSource::Name)),
-                // A scale converts counts and volts to forces.
+                // Counts and volts need a scale before they are forces.
                 None if suffix.is_unscaled() => None,
                 // A wrench in N also holds torques.
                 None if index.is_empty() => {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Reason that bars a column from every channel.
+/// Reason to exclude a column from every channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Exclusion {
     /// Whole numbers that count up by one.

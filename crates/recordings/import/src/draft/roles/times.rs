@@ -104,7 +104,7 @@ mod tests {
         assert_eq!(unit(1.7e12, 33.0), ("ms", true, false));
         assert_eq!(unit(1.7e15, 33_333.0), ("us", true, false));
         assert_eq!(unit(1.7e18, 33_333_504.0), ("ns", true, false));
-        // Seconds or counts: nothing says which.
+        // Seconds or counts: the numbers do not decide.
         assert_eq!(unit(0.0, 1.0).0, "?");
         assert_eq!(median_step(&[3.0, 1.0, 1.0, 2.0]), Some(1.0));
         assert_eq!(median_step(&[1.0]), None);

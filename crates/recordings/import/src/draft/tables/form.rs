@@ -14,7 +14,7 @@ use crate::foreign::{BeforeCut, ForeignTable, TableForm, cell_list};
 /// Key in a map for a table whose header is numbers.
 pub(super) const NUMBERED_HEADER: &str = "header = true";
 
-/// Key of a recording that was cut, which stays open, with a comment on it.
+/// Map key for a cut recording, left open, with a comment.
 pub(super) fn cut_key(before: BeforeCut) -> (&'static str, String) {
     let BeforeCut { messages, end } = before;
     let comment = format!(
@@ -145,7 +145,7 @@ fn rows_within(names: &[String]) -> Option<String> {
     if let Some(table) = fields.next() {
         return Some(format!("/{table}"));
     }
-    // data/demo_0/ft, data/demo_1/ft: /data/*
+    // `data/demo_0/ft` and `data/demo_1/ft` give `/data/*`.
     let split: Vec<Vec<&str>> = names.iter().map(|name| name.split('/').collect()).collect();
     let first = split.first()?;
     let counted = first

@@ -342,7 +342,7 @@ mod tests {
         };
         assert_eq!(with(-1.0, 8.0), Some(-1.0));
         assert_eq!(with(65_535.0, 8.0), Some(65_535.0));
-        // Numbers around 0, and one that is greater by little.
+        // Numbers around 0, and one that is slightly greater.
         assert_eq!(with(-1.0, -40.0), None);
         assert_eq!(with(255.0, 190.0), None);
         assert_eq!(with(70.0, 8.0), None);

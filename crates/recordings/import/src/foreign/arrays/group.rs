@@ -13,7 +13,7 @@ pub(super) struct Group {
     pub(super) rows: usize,
 }
 
-/// Arrays that `name` may mean in a group: one of the group, a field of the table, one named from the root.
+/// Paths of arrays that `name` may refer to: in the group, a field of the table, or from the root.
 pub(super) fn candidates(group: &str, name: &str) -> Vec<String> {
     let bare = name.trim_start_matches('/');
     let mut paths = Vec::new();

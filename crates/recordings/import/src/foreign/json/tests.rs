@@ -74,7 +74,7 @@ fn a_number_that_json_does_not_have_names_its_line_once_and_the_remedy() {
         let lines = file(&format!("{{\"a\":1}}\n{row}\n"));
         let error = JsonRows::read_lines(lines.path()).expect_err("no JSON");
         let error = error.to_string();
-        let expected = format!("line 2: no JSON: `{word}` in column {column}: ");
+        let expected = format!("line 2: invalid JSON: `{word}` in column {column}: ");
         assert!(error.contains(&expected), "{error}");
         assert!(error.contains("write `null`"), "{error}");
         assert!(!error.contains("line 1"), "{error}");
@@ -85,7 +85,7 @@ fn a_number_that_json_does_not_have_names_its_line_once_and_the_remedy() {
     let cut = file("{\"a\":1}\n{\"a\":\n");
     let error = JsonRows::read_lines(cut.path()).expect_err("cut");
     let error = error.to_string();
-    assert!(error.contains("line 2: no JSON: EOF"), "{error}");
+    assert!(error.contains("line 2: invalid JSON: EOF"), "{error}");
     assert!(!error.contains("line 1"), "{error}");
 }
 

@@ -29,7 +29,7 @@ pub(in crate::import) struct CopiedFrames {
     pub(in crate::import) folders: Vec<String>,
 }
 
-/// Copies the frames of every view; that of the first row becomes frame number `first`.
+/// Copies the frames of every view. The frame of the first row gets the number `first`.
 pub(in crate::import) fn copy_frames(
     staged: &StagedFolder,
     planned: &[PlannedFrames],

@@ -13,7 +13,7 @@ pub(crate) struct SignalsMap {
     pub(crate) from: SignalsFrom,
     /// Unit of the source.
     pub(crate) unit: SourceUnit,
-    /// Taxels in the unit they are kept in. Its rows without contact are not yet set.
+    /// Taxels in the stored unit. The rows without contact are not set yet.
     pub(crate) spec: SignalsSpec,
     /// Numbers that mean "nothing measured", before conversion. A row with one of them is left out.
     pub(crate) placeholders: Vec<f64>,
@@ -204,7 +204,7 @@ impl Check<'_> {
     }
 }
 
-/// Columns that `text` means: for `1..15` those with these numbers behind any prefix, inclusive; otherwise one column.
+/// Columns that `text` names: for `1..15` the columns with these numbers after any prefix, inclusive; otherwise one column.
 fn columns_of(text: &str) -> Result<Vec<String>, String> {
     let Some((before, last)) = text.split_once("..") else {
         return Ok(vec![text.to_owned()]);

@@ -22,7 +22,7 @@ pub(crate) struct ZeroMap {
 /// Rows of a block that read zero force.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ZeroRows {
-    /// The first so many rows.
+    /// The first rows of the block: this many.
     First(usize),
     /// Rows with a number below or above a limit.
     Beside {

@@ -43,7 +43,7 @@ impl Reading<'_> {
         )
     }
 
-    /// Plan from all that was read.
+    /// Completes the plan after all tables are read.
     pub(super) fn into_plan(mut self) -> Result<ImportPlan, ImportError> {
         if let Some(unequal) = self.unequal.take() {
             return Err(unequal);

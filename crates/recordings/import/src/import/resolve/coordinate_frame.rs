@@ -14,7 +14,7 @@ use crate::foreign::ForeignTable;
 use crate::import::map::{FrameNames, ImportMap};
 use taceva_dataset::internal::shown;
 
-/// Ends of the name of a column that names a coordinate frame: `header.frame_id`, `/header/frame_id`, `wrench_reference_frame`.
+/// Suffixes of columns that name a coordinate frame: `header.frame_id`, `/header/frame_id`, `wrench_reference_frame`.
 const ENDINGS: [&str; 6] = [
     "frame_id",
     "child_frame",
@@ -23,7 +23,7 @@ const ENDINGS: [&str; 6] = [
     "reference_frame",
     "_frame",
 ];
-/// Quantities whose columns may begin with another word than the column of their frame: `wrench_frame` beside `Fx`.
+/// Quantities whose frame column may have another prefix than their own columns: `wrench_frame` beside `Fx`.
 const QUANTITIES: [&str; 6] = ["force", "ft", "pose", "position", "torque", "wrench"];
 /// Minimum rows for the rule that a column with a different text in each row names pictures.
 const NAMES_OF_PICTURES: usize = 8;
@@ -144,7 +144,7 @@ fn is_quantity(prefix: &str) -> bool {
         .any(|known| word.eq_ignore_ascii_case(known))
 }
 
-/// A name as frames are compared: ROS 1 writes `/tool0` for `tool0`.
+/// Frame name without a leading slash: ROS 1 writes `/tool0` for `tool0`.
 fn comparable(cell: &str) -> &str {
     let cell = cell.trim();
     cell.strip_prefix('/').unwrap_or(cell)

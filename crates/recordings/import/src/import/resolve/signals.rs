@@ -5,8 +5,7 @@ use crate::csv_table::number;
 use crate::error::{ImportError, table_error};
 use crate::import::map::SignalsMap;
 
-/// Values of every row, grouped by taxel, in the unit they are kept in. A cell without a number gives NaN, which is an error if the row is
-/// kept.
+/// Values of every row, grouped by taxel, in the stored unit. A cell without a number gives NaN, which is an error if the row is kept.
 pub(super) fn numbers(
     sources: &Sources<'_>,
     map: &SignalsMap,
@@ -122,7 +121,7 @@ fn packed(cell: &str) -> impl Iterator<Item = &str> {
     parts.filter(|part| !part.is_empty())
 }
 
-/// Number in a cell, in the unit it is kept in; NaN if there is none.
+/// Number in a cell, in the stored unit; NaN if there is none.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "signals are kept in single precision; this is the one rounding"

@@ -175,7 +175,7 @@ mod tests {
         assert!(of(Some("mN"), None, "N").is_some_and(|said| said.contains("`mN`")));
         assert_eq!(of(Some("N"), None, "N"), None);
         assert_eq!(of(Some("µT"), None, "uT"), None);
-        // A wrench, and an unknown unit.
+        // A unit of another quantity, and an unknown unit.
         assert_eq!(of(Some("N"), None, "Nm"), None);
         assert_eq!(of(Some("newton"), None, "mN"), None);
         assert_eq!(of(None, None, "mN"), None);

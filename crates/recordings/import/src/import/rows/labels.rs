@@ -1,4 +1,4 @@
-//! Labels of a row: numbers in the units they are kept in, and texts from closed lists.
+//! Labels of a row: numbers in the stored units, and texts from closed lists.
 
 use taceva_core::{GratingKind, Limit, Nanometre, Phase, is_scorable};
 
@@ -23,7 +23,7 @@ impl MappedTable<'_> {
         Ok(labels)
     }
 
-    /// Numbers of a row in the units they are kept in, with the table's signs.
+    /// Numbers of a row in the stored units, with the table's signs.
     fn converted(&self, row: usize) -> Result<Vec<Option<f64>>, ImportError> {
         self.truth
             .iter()

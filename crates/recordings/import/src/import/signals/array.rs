@@ -202,7 +202,7 @@ impl ArraySignals {
     }
 }
 
-/// Converts a number to the unit it is kept in.
+/// Converts a number to the stored unit.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "signals are kept in single precision; this is the one rounding"

@@ -205,7 +205,7 @@ mod tests {
             (350.0, 10.0, 0.75, 5.0),
             (10.0, 350.0, 0.75, 355.0),
             (30.0, 50.0, 0.5, 40.0),
-            // Counted through: it leaves no range.
+            // A continuous angle is not reduced to a range.
             (530.0, 550.0, 0.5, 540.0),
         ] {
             let found = wrapped(before, after, share, 360.0);

@@ -91,7 +91,7 @@ mod tests {
         let of = |pick, instant| about(&times, instant, &join(pick, 1.0)).map(|(at, _)| at);
         assert_eq!(of(Pick::Nearest, 1.4), Some(At::Row(10)));
         assert_eq!(of(Pick::Nearest, 1.6), Some(At::Row(11)));
-        // As near to both: the earlier.
+        // Equally near to both: the earlier row.
         assert_eq!(of(Pick::Nearest, 1.5), Some(At::Row(10)));
         assert_eq!(of(Pick::Nearest, 0.5), Some(At::Row(10)));
         assert_eq!(of(Pick::Nearest, 5.5), None);
