@@ -41,7 +41,7 @@ pub const FRAME_DROPPED: u32 = 1;
 /// let mut pixels = [0_u8; 64 * 48];
 /// let frame = Frame {
 ///     size: size_of::<Frame>() as u32,
-///     format: PixelFormat(0), // the plugin fills in what it gives
+///     format: PixelFormat(0), // the plugin fills this in
 ///     width: 0,
 ///     height: 0,
 ///     flags: 0,

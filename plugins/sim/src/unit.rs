@@ -1,6 +1,6 @@
 //! One unit of a sensor: its differences from other units, and between places.
 //!
-//! A unit depends on the name of the sensor and the number of the unit, not on the seed of a run, so it is the same gel in every run. Unit 0 has the
+//! A unit depends on the name of the sensor and the number of the unit, not on the seed of a run. It is the same gel in every run. Unit 0 has the
 //! nominal modulus and sag.
 
 use std::f64::consts::TAU;

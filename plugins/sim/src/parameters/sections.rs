@@ -199,9 +199,9 @@ section! {
     Transducer, "transducer", {
         /// Standard deviation of a reading, after averaging.
         noise_n: "N", 0.0 ..= 10.0;
-        /// Standard deviation of the zero between points.
+        /// Standard deviation of the zero offset between points.
         point_drift_n: "N", 0.0 ..= 10.0;
-        /// Standard deviation of the zero between presses.
+        /// Standard deviation of the zero offset between presses.
         press_drift_n: "N", 0.0 ..= 10.0;
         /// Greatest fraction of one component that appears in another.
         cross_talk: "1", 0.0 ..= 0.2;

@@ -45,7 +45,7 @@ pub(super) struct Class {
 }
 
 impl Forward {
-    /// Pass of `convolution` from pictures of layout `input` to those of layout `output`.
+    /// Pass of `convolution` from pictures of layout `input` to pictures of layout `output`.
     pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> Forward {
         let layouts = (input, output);
         let (height, width) = (output.picture.height, output.picture.width);
