@@ -40,7 +40,7 @@ enum Label {
     },
 }
 
-variants!(Label, "what is to be served" {
+variants!(Label, "the plugin to serve" {
     0 => Library { path, digest, manifest },
     1 => Module { folder, name, preload, manifest },
 });
