@@ -19,7 +19,7 @@ use crate::picture::Picture;
 /// use taceva_network::{Architecture, Depth, Picture};
 /// let input = Picture { height: 64, width: 64, channels: 3 };
 /// let architecture = Architecture::residual(Depth::Eighteen, input, 6);
-/// The same number as torchvision's resnet18 with six outputs.
+/// // The same number as torchvision's resnet18 with six outputs.
 /// assert_eq!(architecture.parameters()?, 11_179_590);
 /// # Ok::<(), taceva_network::NetworkError>(())
 /// ```
