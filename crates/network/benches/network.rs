@@ -171,7 +171,7 @@ fn report(measured: &str, (form, side, threads): What, images: usize, [busy, wal
     );
 }
 
-/// Least processor time and wall time of `work`, in seconds, after one warm-up.
+/// Minimum processor time and wall time of `work`, in seconds, after one warm-up.
 fn best(repeats: usize, work: impl FnMut()) -> [f64; 2] {
     times(repeats, work).map(|times| times[0])
 }

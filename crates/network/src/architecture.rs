@@ -85,7 +85,7 @@ impl Depth {
     }
 }
 
-/// Most values of any picture in a network, so offsets fit into 32 bits.
+/// Maximum number of values of any picture in a network, so offsets fit into 32 bits.
 const PICTURE_MAX: usize = 1 << 28;
 
 impl Architecture {

@@ -105,7 +105,7 @@ pub struct Frame {
 pub struct SensorCalls {
     /// Calls that every device has. The table begins with them.
     pub device: DeviceCalls,
-    /// Most frames lent at once; 0 for a sensor that never lends.
+    /// Maximum number of frames lent at once; 0 for a sensor that never lends.
     pub max_lent: u32,
     /// Reserved, 0.
     pub reserved: u32,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Convolution, winograd};
 use crate::picture::Picture;
 
-/// Most transformed weights per tile of a picture in [`ConvolutionForm::Mixed`]: 128 channels at 4 tiles, 256 at 13.
+/// Maximum number of transformed weights per tile of a picture in [`ConvolutionForm::Mixed`]: 128 channels at 4 tiles, 256 at 13.
 const WEIGHTS_A_TILE: usize = 3 << 16;
 
 /// Algorithm for convolutions with a 3 × 3 kernel and stride 1. The forms round differently, so results differ in the last digits.

@@ -4,7 +4,7 @@
 //! kernel for ν = 1/2 (200 rings, converged to 3·10⁻⁶). They are valid up to χ = 1.2. The published polynomials of Dimitriadis et al. (Biophysical
 //! Journal 82, 2002) are 3.4 % lower at χ = 1/3 and 16 % lower at χ = 1.
 
-/// Greatest χ of the fits.
+/// Maximum χ of the fits.
 pub const CHI_MAX: f64 = 1.2;
 
 /// χ = √(R d)/h.

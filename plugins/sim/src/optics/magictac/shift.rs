@@ -29,7 +29,7 @@ pub(super) struct Moved {
     pub(super) wetting: f32,
 }
 
-/// Least visible shift, mm: a fiftieth of a pixel of the smallest useful frame (0.2 mm).
+/// Minimum visible shift, mm: a fiftieth of a pixel of the smallest useful frame (0.2 mm).
 const LEAST_MM: f64 = 0.004;
 /// Outer part of the reach over which the effect fades.
 const FADE: f64 = 0.2;
