@@ -12,7 +12,7 @@ use crate::temporary_folder::{FORMER, TemporaryFolder, clear, folders, is_living
 
 /// Name prefix of every staging folder.
 pub const STAGED: &str = ".taceva-staged-";
-/// Most waits for a process between its two renames, and the length of each wait.
+/// Maximum number of waits for a process between its two renames, and the length of each wait.
 const WAITS: u32 = 2_000;
 const PAUSE: Duration = Duration::from_millis(1);
 /// Age of a folder's modification time from which any later change gives a different time.

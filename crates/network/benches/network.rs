@@ -4,7 +4,7 @@
 //! pictures of 64² and 112² on one and two threads, in every form. `single` measures only predictions of single pictures, `training` only training
 //! steps, for a profiler. It prints the best of REPEATS, by processor time of all threads and by the wall clock. For single pictures it also prints
 //! the median of 4 · REPEATS, because they are so short that other programs disturb few of them. On Linux it also prints the peak memory of the
-//! training beyond that of the process before. It prints this for the first size and form only, because the peak belongs to the whole process.
+//! training beyond the memory of the process before. It prints this for the first size and form only, because the peak belongs to the whole process.
 //! `benches/peers/torch_network.py` measures PyTorch alike.
 
 #![expect(
@@ -171,7 +171,7 @@ fn report(measured: &str, (form, side, threads): What, images: usize, [busy, wal
     );
 }
 
-/// Least processor time and wall time of `work`, in seconds, after one warm-up.
+/// Minimum processor time and wall time of `work`, in seconds, after one warm-up.
 fn best(repeats: usize, work: impl FnMut()) -> [f64; 2] {
     times(repeats, work).map(|times| times[0])
 }

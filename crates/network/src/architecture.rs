@@ -19,7 +19,7 @@ use crate::picture::Picture;
 /// use taceva_network::{Architecture, Depth, Picture};
 /// let input = Picture { height: 64, width: 64, channels: 3 };
 /// let architecture = Architecture::residual(Depth::Eighteen, input, 6);
-/// The same number as torchvision's resnet18 with six outputs.
+/// // The same number as torchvision's resnet18 with six outputs.
 /// assert_eq!(architecture.parameters()?, 11_179_590);
 /// # Ok::<(), taceva_network::NetworkError>(())
 /// ```
@@ -85,7 +85,7 @@ impl Depth {
     }
 }
 
-/// Most values of any picture in a network, so offsets fit into 32 bits.
+/// Maximum number of values of any picture in a network, so offsets fit into 32 bits.
 const PICTURE_MAX: usize = 1 << 28;
 
 impl Architecture {
@@ -155,7 +155,7 @@ impl Architecture {
         }
         if let Body::Plain { layers, .. } = &self.body {
             if layers.is_empty() {
-                return refuse("a plain network without layers".into());
+                return refuse("a plain network has no layers".into());
             }
             for (position, layer) in layers.iter().enumerate() {
                 let is_odd = layer.kernel % 2 == 1 && layer.kernel <= 15;

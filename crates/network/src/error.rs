@@ -19,7 +19,7 @@ pub enum NetworkError {
         name: String,
     },
     /// A tensor is not part of the architecture.
-    #[error("unexpected tensor `{name}`: the architecture has none of that name", name = taceva_core::shown(name))]
+    #[error("unexpected tensor `{name}`: the architecture has no such tensor", name = taceva_core::shown(name))]
     UnexpectedTensor {
         /// Name of the tensor.
         name: String,

@@ -1,6 +1,6 @@
 //! Instruction sets. All sets with fused multiply-add give the same bits. The portable set rounds each product too, so its last digits differ.
 //!
-//! The selection equals that of `taceva-metrics`. Each crate has its own `simd/`, which proves that the CPU has the instructions.
+//! `taceva-metrics` selects in the same way. Each crate has its own `simd/`, which proves that the CPU has the instructions.
 
 use taceva_core::Isa;
 

@@ -35,7 +35,7 @@ pub struct Predictor {
 /// Pictures per batch.
 const BATCH: usize = 32;
 
-/// Fewest products of a picture for which threads are woken: several hundred microseconds of work.
+/// Minimum number of products of a picture for which threads are woken: several hundred microseconds of work.
 const PRODUCTS_WORTH_WAKING: usize = 1 << 24;
 
 /// Bytes of pictures between two stages that fit into a thread's second-level cache beside their inputs.

@@ -42,7 +42,7 @@ impl Scratch {
     /// Takes or allocates a buffer for `count` pictures. The border is zero; the pixels are unspecified.
     pub(crate) fn take(&mut self, layout: Layout, count: usize) -> Planes {
         let length = layout.len() * count;
-        // The buffer returned last is likeliest to be in a cache.
+        // The last returned buffer is most likely in a cache.
         match self.spare.iter().rposition(|room| length <= room.len()) {
             Some(position) => Planes::within(self.spare.remove(position), layout, count),
             None => {

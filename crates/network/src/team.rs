@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::Yield;
 
-/// Most threads for one picture. A layer has too little work for more.
+/// Maximum number of threads for one picture. A layer has too little work for more.
 const MOST: usize = 8;
 
 /// Failed searches for work after which a thread may sleep: several times the duration of a layer.

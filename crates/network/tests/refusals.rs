@@ -208,7 +208,7 @@ fn tensors_of_another_network_are_refused_by_name() {
             name: "conv9.weight".into(),
             ..tensors[0].clone()
         })),
-        "unexpected tensor `conv9.weight`: the architecture has none of that name"
+        "unexpected tensor `conv9.weight`: the architecture has no such tensor"
     );
     assert_eq!(
         refused(|tensors| tensors[0].shape = vec![1, 2]),

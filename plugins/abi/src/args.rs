@@ -1,4 +1,4 @@
-//! Arguments, checked by the host against what the manifest declares.
+//! Arguments. The host checks them against the manifest.
 
 use crate::text::Text;
 

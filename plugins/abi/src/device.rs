@@ -32,7 +32,7 @@ pub struct Stamp {
 ///
 /// ```
 /// use taceva_abi::Rig;
-/// let rig: *mut Rig = std::ptr::null_mut(); // a device that is opened alone has none
+/// let rig: *mut Rig = std::ptr::null_mut(); // NULL: the device has no rig
 /// assert!(rig.is_null());
 /// ```
 #[repr(C)]
@@ -71,7 +71,7 @@ pub struct DeviceCalls {
 ///
 /// ```
 /// use taceva_abi::Device;
-/// let place = Device { handle: std::ptr::null_mut(), calls: std::ptr::null() }; // what a host hands to `open`
+/// let place = Device { handle: std::ptr::null_mut(), calls: std::ptr::null() }; // empty struct that `open` fills
 /// assert!(place.calls.is_null());
 /// ```
 #[derive(Clone, Copy, Debug)]

@@ -112,7 +112,7 @@ pub struct RegressorCalls {
 ///
 /// ```
 /// use taceva_abi::Regressor;
-/// let place = Regressor { handle: std::ptr::null_mut(), calls: std::ptr::null() }; // what a host hands to `fit`
+/// let place = Regressor { handle: std::ptr::null_mut(), calls: std::ptr::null() }; // empty struct that `fit` fills
 /// assert!(place.handle.is_null());
 /// ```
 #[derive(Clone, Copy, Debug)]

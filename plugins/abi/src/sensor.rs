@@ -41,7 +41,7 @@ pub const FRAME_DROPPED: u32 = 1;
 /// let mut pixels = [0_u8; 64 * 48];
 /// let frame = Frame {
 ///     size: size_of::<Frame>() as u32,
-///     format: PixelFormat(0), // the plugin fills in what it gives
+///     format: PixelFormat(0), // the plugin fills this in
 ///     width: 0,
 ///     height: 0,
 ///     flags: 0,
@@ -105,7 +105,7 @@ pub struct Frame {
 pub struct SensorCalls {
     /// Calls that every device has. The table begins with them.
     pub device: DeviceCalls,
-    /// Most frames lent at once; 0 for a sensor that never lends.
+    /// Maximum number of frames lent at once; 0 for a sensor that never lends.
     pub max_lent: u32,
     /// Reserved, 0.
     pub reserved: u32,

@@ -106,7 +106,9 @@ pub(crate) fn in_order(stamps: &[Stamp]) -> Result<(), Unmet> {
     for pair in stamps.windows(2) {
         let (before, after) = (pair[0].valid_s, pair[1].valid_s);
         expect(before < after, || {
-            format!("a stamp of {after} s after one of {before} s, expected increasing stamps")
+            format!(
+                "a stamp of {after} s follows a stamp of {before} s, expected increasing stamps"
+            )
         })?;
     }
     Ok(())

@@ -44,7 +44,7 @@ fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
         let (pose, stamp) = robot.pose(tried.trial.deadline)?;
         in_order(&[stamp])?;
         expect(last.valid_s <= stamp.valid_s, || {
-            "a pose is older than the one before".to_owned()
+            "a pose is older than the previous pose".to_owned()
         })?;
         near(tried, &pose, &first)?;
         last = stamp;

@@ -199,7 +199,7 @@ pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
         let waited = device.next(long);
         let ended = Instant::now();
         match waited {
-            // The item came before the interrupt. The next call must work, whether or not the interrupt reached this one.
+            // The item came before the interrupt. The next call must work even if the interrupt reached this one.
             Ok(_) if alarm.rang().is_none() => begun = ended,
             Ok(_) => break,
             Err(error) if error.kind() == ErrorKind::Interrupted => {

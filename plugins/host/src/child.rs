@@ -7,7 +7,7 @@
 //! | data | transport |
 //! |---|---|
 //! | orders: open, describe, discover, end | one socket pair per child |
-//! | calls of a device | one socket pair per device, served by its own thread: a call blocks its device alone |
+//! | calls of a device | one socket pair per device, served by its own thread: a call blocks only its device |
 //! | interrupt, halt | a second socket pair per device, served by another thread: bypasses the call queue |
 //! | log lines | one socket per child, read by its own thread |
 //! | printed output | one pipe per child, read by its keeper; lines go to the log by their own thread |

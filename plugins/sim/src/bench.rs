@@ -25,7 +25,7 @@ use crate::unit::Unit;
 /// let press = Press { id: 1, depth_mm: 0.5, ..Press::default() };
 /// let contact = bench.press(&press)?;
 /// let label = bench.label(&press, &contact);
-/// First touch is detected late: the ball is deeper than the rig reports.
+/// // First touch is detected late: the ball is deeper than the rig reports.
 /// assert!(contact.depth_mm > label.position_mm[2]);
 /// assert_eq!(bench.provenance().to_string().split(',').next(), Some("source = simulated"));
 /// # Ok::<(), taceva_sim::PressError>(())

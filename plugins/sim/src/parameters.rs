@@ -1,6 +1,6 @@
 //! Parameters of a sensor and its rig: values with a unit and an origin, read from TOML and checked.
 //!
-//! Every value has the form `key = { value = 4.25, unit = "mm", origin = "geometric" }`. The origin tells how reliable the value is. For another
+//! Every value has the form `key = { value = 4.25, unit = "mm", origin = "geometric" }`. The origin shows the reliability of the value. For another
 //! sensor, copy one of the built-in tables, change its values, and read it with [`Parameters::parse`].
 
 mod digest;

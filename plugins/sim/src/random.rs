@@ -3,7 +3,7 @@
 //! The key of a number is the seed, a [`Purpose`], an identity (a press, a point, a frame) and an index. A press is therefore independent
 //! of earlier presses, of threads and of interruptions.
 //!
-//! The mixing is that of `taceva_core::random`, applied once per coordinate. A normal number is the quantile of one uniform number.
+//! The mixing is the function in `taceva_core::random`, applied once per coordinate. A normal number is the quantile of one uniform number.
 
 mod normal;
 

@@ -1,6 +1,6 @@
 //! One unit of a sensor: its differences from other units, and between places.
 //!
-//! A unit depends on the name of the sensor and the number of the unit, not on the seed of a run, so it is the same gel in every run. Unit 0 has the
+//! A unit depends on the name of the sensor and the number of the unit, not on the seed of a run. It is the same gel in every run. Unit 0 has the
 //! nominal modulus and sag.
 
 use std::f64::consts::TAU;
@@ -170,12 +170,12 @@ struct Waves {
 }
 
 const WAVES: usize = 8;
-/// Greatest wave numbers along x and y, radians per millimetre.
+/// Maximum wave numbers along x and y, radians per millimetre.
 const STIFFNESS_WAVES: f64 = 0.5;
 const GAP_WAVES: f64 = 1.0;
 
 impl Waves {
-    /// Greatest possible value: the sum of eight cosines of 1, halved.
+    /// Maximum possible value: the sum of eight cosines of 1, halved.
     const GREATEST: f64 = 0.5 * WAVES as f64;
 
     fn new(stream: Stream, first: u64, wave_number_max: f64) -> Waves {

@@ -54,7 +54,7 @@ fn key_of(entry: &str) -> Result<String, SealError> {
         problem: error.to_string(),
     })?;
     key.ok_or_else(|| SealError::Content {
-        problem: "an entry without a key".to_owned(),
+        problem: "an entry has no key".to_owned(),
     })
 }
 

@@ -106,7 +106,7 @@ pub enum Problem {
         rows: u64,
     },
     /// A pickle that needs a class or function beyond plain values and arrays. No code in it was run.
-    #[error("byte {at}: wants `{global}`, which is not run here; {mend}")]
+    #[error("byte {at}: needs `{global}`, which is not run here; {mend}")]
     Global {
         /// Offset, bytes.
         at: u64,

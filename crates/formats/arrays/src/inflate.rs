@@ -79,7 +79,7 @@ fn broken(at: u64, status: TINFLStatus) -> Problem {
     Problem::damaged(at, found, expected)
 }
 
-/// Incremental inflater: from the first byte forward, as far as requested.
+/// Incremental inflater: from the first byte up to the requested byte.
 pub(crate) struct Inflater {
     state: Box<DecompressorOxide>,
     wrapping: Wrapping,

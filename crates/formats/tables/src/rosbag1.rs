@@ -281,7 +281,7 @@ impl<'a> Records<'a> {
         let head = Head::new(fields, data_at, data_at + data);
         head.map(Ok).ok_or_else(|| {
             self.source
-                .damaged(Place::byte(at), "a header whose fields exceed it")
+                .damaged(Place::byte(at), "a header is shorter than its fields")
         })
     }
 

@@ -28,7 +28,7 @@ fn check_memory() {
     }
 }
 
-/// Reads all rows of two columns of bytes one at a time, in the way of pictures.
+/// Reads all rows of two columns of bytes one at a time, like pictures.
 fn every_picture(path: &Path) -> Result<usize, TableError> {
     let table = ParquetTable::open(path)?;
     let rows: Vec<u64> = (0..table.rows()).collect();

@@ -67,7 +67,7 @@ impl Known {
         VideoError::NoDecoder {
             path: path.to_owned(),
             codec: self.codec(),
-            remedy: "install ffmpeg 5.1 or later (`pip install imageio-ffmpeg` brings one), or name it by `--ffmpeg PROGRAM` or TACEVA_FFMPEG".to_owned(),
+            remedy: "install ffmpeg 5.1 or later (`pip install imageio-ffmpeg` includes one), or name it by `--ffmpeg PROGRAM` or TACEVA_FFMPEG".to_owned(),
         }
     }
 }

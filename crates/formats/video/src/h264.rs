@@ -74,7 +74,7 @@ impl H264Clip {
         if sequence.is_too_large() {
             return Err(VideoError::TooLarge {
                 path: source.path().to_owned(),
-                what: "pixels of a frame of H.264",
+                what: "pixels of an H.264 frame",
                 found: u64::from(sequence.width) * u64::from(sequence.height),
                 limit: 139_264 * 256,
             });

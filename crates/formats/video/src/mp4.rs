@@ -146,7 +146,7 @@ fn time_scale(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
     fields.skip(source, times)?;
     let at = fields.offset();
     match fields.u32(source)? {
-        0 => Err(source.damaged(at, "0 ticks a second")),
+        0 => Err(source.damaged(at, "the time scale is 0 ticks per second")),
         ticks => Ok(ticks),
     }
 }

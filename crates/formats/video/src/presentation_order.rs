@@ -52,7 +52,7 @@ impl<'a> Reorder<'a> {
         if self.held_bytes > limits::HELD_BYTES {
             return Err(VideoError::TooLarge {
                 path: self.source.path().to_owned(),
-                what: "bytes of frames that are presented long after they are decoded",
+                what: "bytes of decoded frames that wait for presentation",
                 found: self.held_bytes,
                 limit: limits::HELD_BYTES,
             });

@@ -29,7 +29,7 @@ impl ChannelSums {
         self.values[self.values.len() / 2 + channel]
     }
 
-    /// Overwrites the sums with those of `pixels`.
+    /// Overwrites the sums with the sums of `pixels`.
     ///
     /// # Shapes
     /// `pixels`: `[pixels, channels]`.

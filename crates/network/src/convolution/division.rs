@@ -3,7 +3,7 @@
 
 use crate::panel::PANEL;
 
-/// Fewest products in a part: about ten microseconds of work.
+/// Minimum number of products in a part: about ten microseconds of work.
 const PRODUCTS_WORTH_A_PART: usize = 1 << 18;
 
 /// Cost of reading a row of weights from the second- or third-level cache, as the number of pixels multiplied in that time.

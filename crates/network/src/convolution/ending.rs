@@ -11,7 +11,7 @@ pub(crate) enum Epilogue<'a> {
     BiasRelu(&'a [f32]),
     /// A bias and pictures with the layout of the output, then ReLU.
     BiasAddRelu(&'a [f32], &'a [f32]),
-    /// A bias alone.
+    /// Only a bias.
     Bias(&'a [f32]),
 }
 

@@ -5,13 +5,13 @@ use serde::{Deserialize, Serialize};
 use super::{Convolution, winograd};
 use crate::picture::Picture;
 
-/// Most transformed weights per tile of a picture in [`ConvolutionForm::Mixed`]: 128 channels at 4 tiles, 256 at 13.
+/// Maximum number of transformed weights per tile of a picture in [`ConvolutionForm::Mixed`]: 128 channels at 4 tiles, 256 at 13.
 const WEIGHTS_A_TILE: usize = 3 << 16;
 
 /// Algorithm for convolutions with a 3 × 3 kernel and stride 1. The forms round differently, so results differ in the last digits.
 ///
 /// Every form computes other convolutions directly. It does so too for pictures where Winograd's form saves no products: 2 × 2
-/// pixels, one row or one column. The choice depends on shapes alone, never on machine, clock or number of threads.
+/// pixels, one row or one column. The choice depends only on shapes, never on machine, clock or number of threads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -25,7 +25,7 @@ pub enum ConvolutionForm {
     ///
     /// # Reference
     /// A. Lavin, S. Gray, "Fast algorithms for convolutional neural networks", CVPR 2016; here with the points 0, ±√½, ±√2 and ∞, whose
-    /// errors are smaller than those of the points of that paper, 0, ±1, ±2 and ∞.
+    /// errors are smaller than with the points of that paper, 0, ±1, ±2 and ∞.
     #[serde(rename = "winograd-4x4")]
     Winograd,
 }

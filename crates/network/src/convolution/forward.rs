@@ -18,7 +18,7 @@ pub(crate) enum Forward {
 }
 
 impl Forward {
-    /// Pass of `convolution` from pictures of layout `input` to those of layout `output`.
+    /// Pass of `convolution` from pictures of layout `input` to pictures of layout `output`.
     /// Uses Winograd's form if `form` selects it for these shapes.
     pub(crate) fn new(
         convolution: Convolution,

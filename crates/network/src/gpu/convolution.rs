@@ -18,11 +18,11 @@ pub(crate) struct Convolution<B: Backend> {
     inputs: usize,
     outputs: usize,
     kernel: usize,
-    /// Most values of a tensor of windows.
+    /// Maximum number of values of a tensor of windows.
     most: usize,
 }
 
-/// Most values of a tensor of windows: 128 MiB, the least size of a storage buffer that WebGPU guarantees.
+/// Maximum number of values of a tensor of windows: 128 MiB, the least size of a storage buffer that WebGPU guarantees.
 const MOST: usize = 1 << 25;
 
 impl<B: Backend> Convolution<B> {

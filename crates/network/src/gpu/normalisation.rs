@@ -99,7 +99,7 @@ pub(crate) fn normalised<B: Backend>(
     }
 }
 
-/// Most pixels summed by one GPU thread.
+/// Maximum number of pixels summed by one GPU thread.
 const ALONE: usize = 128;
 
 /// Sums of each channel: along rows, then columns, then pictures. This order keeps many GPU threads busy and rounding errors small.

@@ -9,7 +9,7 @@ const BUSY: usize = 512;
 /// Values of a window that stay in one part.
 pub(crate) const LINE: usize = 32;
 
-/// Fewest products in a part of a sum.
+/// Minimum number of products in a part of a sum.
 const LEAST: usize = 128;
 
 /// Number of equal parts for sums of `length` products in a matrix of `size`, to fill the GPU. Parts are multiples of `line`.

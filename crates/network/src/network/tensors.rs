@@ -134,7 +134,7 @@ impl Network {
             .collect()
     }
 
-    /// Sets all tensors. Names and shapes must equal those of [`tensors`](Network::tensors).
+    /// Sets all tensors. Names and shapes must equal [`tensors`](Network::tensors).
     fn set_tensors(&mut self, tensors: &[NamedTensor]) {
         let by_name: BTreeMap<&str, &[f32]> = tensors
             .iter()

@@ -12,7 +12,7 @@ use crate::scratch::Scratch;
 /// Bytes of weights that fit into a thread's second-level cache beside pictures.
 const WEIGHTS_IN_CACHE: usize = 256 << 10;
 
-/// Fewest pixels of a picture that amortise reading the weights.
+/// Minimum number of pixels of a picture that amortise reading the weights.
 const PIXELS_WORTH_WEIGHTS: usize = 128;
 
 /// One convolution with a bias.

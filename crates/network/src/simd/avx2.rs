@@ -25,7 +25,7 @@ impl Avx2 {
         fn with_instructions<J: Job>(proof: Avx2, job: J) -> J::Output {
             job.run::<Eight>(proof)
         }
-        // SAFETY: `self` is made by `detect` alone, which found the instructions.
+        // SAFETY: only `detect` makes `self`, after it found the instructions.
         unsafe { with_instructions(self, job) }
     }
 }

@@ -26,7 +26,7 @@ impl Avx512 {
         fn with_instructions<J: Job>(proof: Avx512, job: J) -> J::Output {
             job.run::<Sixteen>(proof)
         }
-        // SAFETY: `self` is made by `detect` alone, which found the instructions.
+        // SAFETY: only `detect` makes `self`, after it found the instructions.
         unsafe { with_instructions(self, job) }
     }
 }

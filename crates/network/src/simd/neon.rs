@@ -24,7 +24,7 @@ impl Neon {
         fn with_instructions<J: Job>(proof: Neon, job: J) -> J::Output {
             job.run::<Four>(proof)
         }
-        // SAFETY: `self` is made by `detect` alone, which found the instructions.
+        // SAFETY: only `detect` makes `self`, after it found the instructions.
         unsafe { with_instructions(self, job) }
     }
 }

@@ -12,7 +12,7 @@ pub(crate) trait Vector: Copy {
     const LANES: usize;
     /// Pixels in a tile of sums. The sums, a row of weights and one value must fit into registers.
     const ROWS: usize;
-    /// Most panels of channels in a tile of sums.
+    /// Maximum number of panels of channels in a tile of sums.
     const PANELS: usize;
 
     /// Zero in every lane.

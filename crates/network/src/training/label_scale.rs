@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::NetworkError;
 
-/// Method of scaling labels, computed on the training part alone.
+/// Method of scaling labels, computed only on the training part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LabelScaling {

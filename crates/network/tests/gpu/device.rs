@@ -103,7 +103,7 @@ fn assert_below(error: f64, bound: f64, what: &str) {
     assert!(error < bound, "{what}: {error:e}, not below {bound:e}");
 }
 
-/// Greatest of `errors`; NaN if one is NaN.
+/// Maximum of `errors`; NaN if one is NaN.
 fn worst(errors: impl Iterator<Item = f64>) -> f64 {
     errors.fold(0.0, |most, error| {
         if error > most || error.is_nan() {

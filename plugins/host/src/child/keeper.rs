@@ -51,7 +51,7 @@ pub(super) fn keep(
             let Some((process, handle)) = start_process(command, &started) else {
                 return;
             };
-            // The caller must learn the process number before the child can end.
+            // The caller must receive the process number before the child can end.
             drop(started);
             let begun = Instant::now();
             let mut lines = lines;

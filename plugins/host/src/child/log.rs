@@ -93,7 +93,7 @@ pub(super) fn end() {
 /// Delay between retries of a child that ends.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Most lines that a child may log within [`Flood::WITHIN`].
+/// Maximum number of lines that a child may log within [`Flood::WITHIN`].
 const LINES_MAX: u64 = 1_000_000;
 
 /// Kills a child that exceeds the limit of log lines.

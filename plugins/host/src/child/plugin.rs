@@ -25,7 +25,7 @@ use crate::session::Session;
 /// Description of the plugin that a child serves.
 #[derive(Debug, PartialEq)]
 enum Label {
-    /// A library, passed as the next file. Without a manifest, the child only reports what the library offers.
+    /// A library, passed as the next file. Without a manifest, the child only reports the drivers and estimators of the library.
     Library {
         path: PathBuf,
         digest: String,
@@ -40,7 +40,7 @@ enum Label {
     },
 }
 
-variants!(Label, "what is to be served" {
+variants!(Label, "the plugin to serve" {
     0 => Library { path, digest, manifest },
     1 => Module { folder, name, preload, manifest },
 });

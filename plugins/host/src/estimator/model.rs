@@ -176,7 +176,7 @@ impl SavedRegressor for Model {
                 Ok(bytes)
             }
             None => {
-                let why = format!("it reports {length} bytes written into {room}");
+                let why = format!("it reports {length} bytes written into a buffer of {room}");
                 Err(refused(ErrorKind::Abi, why))
             }
         }

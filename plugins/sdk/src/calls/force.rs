@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::handles::Handle;
 use crate::memory;
 
-/// A transducer, and whether it declares numbered readings.
+/// A transducer. The flag is true if it declares numbered readings.
 pub(crate) struct Opened {
     force: Box<dyn ForceTransducer>,
     is_numbered: bool,

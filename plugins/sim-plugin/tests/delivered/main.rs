@@ -1,6 +1,6 @@
 //! Plugins as delivered: built libraries with their manifests, in this process and in child processes.
 //!
-//! This program is its own host child, so its `main` begins like that of every host.
+//! This program is its own host child, so its `main` begins like the `main` of every host.
 
 #[cfg(target_os = "linux")]
 mod built;

@@ -12,7 +12,7 @@ use super::press::{Press, Presses};
 
 /// Law of shading.
 pub(crate) enum Law {
-    /// The bench's own camera with one lamp lit at a time. The strength of each lamp in each colour is fitted; its place is that of the bench.
+    /// The bench's own camera with one lamp lit at a time. The strength of each lamp in each colour is fitted; its place is the place in the bench.
     Lamps(Vec<Camera>),
     /// Powers of the surface normal, up to the second, times 1, x and y.
     Polynomial(Tables),

@@ -29,7 +29,7 @@ pub enum PressError {
     Depth {
         /// Depth, in mm.
         depth_mm: f64,
-        /// Greatest depth, in mm.
+        /// Maximum depth, in mm.
         depth_max_mm: f64,
     },
     /// The shear is out of range.
@@ -37,7 +37,7 @@ pub enum PressError {
     Shear {
         /// Shear along one axis, in mm.
         shear_mm: f64,
-        /// Greatest shear, in mm.
+        /// Maximum shear, in mm.
         shear_most_mm: f64,
     },
 }

@@ -24,7 +24,7 @@ pub struct Press {
 }
 
 impl Press {
-    /// Greatest travel of this press so far.
+    /// Maximum travel of this press so far.
     pub(super) fn deepest_mm(&self) -> f64 {
         self.turned_mm
             .map_or(self.depth_mm, |turned| turned.max(self.depth_mm))
@@ -75,5 +75,5 @@ impl Press {
     }
 }
 
-/// Greatest shear along one axis, in mm. Beyond it, a ball would miss a dome.
+/// Maximum shear along one axis, in mm. Beyond it, a ball would miss a dome.
 const SHEAR_MOST: f64 = 5.0;

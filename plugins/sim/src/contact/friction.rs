@@ -34,7 +34,7 @@ impl Friction {
         libm::cbrt((1.0 - force_n.abs() / self.limit_n).max(0.0))
     }
 
-    /// Force at `share`, the displacement divided by that of full sliding.
+    /// Force at `share`, the displacement divided by the displacement of full sliding.
     fn resist(&self, share: f64) -> f64 {
         let rest = (1.0 - share).max(0.0);
         self.limit_n * (1.0 - rest * rest.sqrt())

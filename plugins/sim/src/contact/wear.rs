@@ -19,7 +19,7 @@ pub struct Conditioning {
 pub struct Wear {
     /// Number of presses.
     pub presses: u32,
-    /// Greatest depth, mm.
+    /// Maximum depth, mm.
     pub deepest_mm: f64,
 }
 

@@ -30,7 +30,7 @@ const SHEAR_COMPLIANCE: f64 = 3.0;
 const ZETA_MAX: f64 = 14.0;
 /// Upper end of the integral below the surface, where the response has decayed.
 const ATTENUATION_MAX: f64 = 30.0;
-/// Least number of panels. It resolves the decay of an integrand that does not oscillate.
+/// Minimum number of panels. It resolves the decay of an integrand that does not oscillate.
 const LEAST_PANELS: f64 = 10.0;
 /// Relative blur far from the contact, where the field varies over lengths like r. A blur of 3 % of r changes the field by 5·10⁻⁴ and ends the
 /// integral at k r = 150.

@@ -28,7 +28,7 @@ impl Touch {
         }
     }
 
-    /// Greatest depth of the tip.
+    /// Maximum depth of the tip.
     pub(super) fn deepest_mm(&self) -> f64 {
         self.deepest_mm
     }

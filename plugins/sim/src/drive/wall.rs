@@ -29,8 +29,8 @@ impl SimulatedRig {
     /// target.position.z = Millimetre(-18.0);
     /// bench.set_out(target, Speed::try_new(2.0)?);
     /// bench.advance(Duration::from_millis(500));
-    /// // Nearly: the robot stands beside its targets by some 0.01 mm.
-    /// Approximate, because the robot has a position error of some 0.01 mm.
+    /// // Approximate, because the robot has a position error of about 0.01 mm.
+    /// assert!(bench.is_moving() && (bench.pose_now().position.z.0 + 19.0).abs() < 0.05);
     /// bench.advance(Duration::from_secs(2));
     /// assert_eq!((bench.is_moving(), bench.pose_now()), (false, target));
     /// # Ok::<(), taceva_core::SpeedError>(())

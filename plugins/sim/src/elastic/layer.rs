@@ -4,7 +4,7 @@
 //! kernel for ν = 1/2 (200 rings, converged to 3·10⁻⁶). They are valid up to χ = 1.2. The published polynomials of Dimitriadis et al. (Biophysical
 //! Journal 82, 2002) are 3.4 % lower at χ = 1/3 and 16 % lower at χ = 1.
 
-/// Greatest χ of the fits.
+/// Maximum χ of the fits.
 pub const CHI_MAX: f64 = 1.2;
 
 /// χ = √(R d)/h.
@@ -12,7 +12,7 @@ pub fn chi(radius_mm: f64, depth_mm: f64, thickness_mm: f64) -> f64 {
     (radius_mm * depth_mm).sqrt() / thickness_mm
 }
 
-/// ψ: force relative to that of a half-space, (16/9) E √R d^(3/2); within 0.2 %.
+/// ψ: force relative to a half-space, (16/9) E √R d^(3/2); within 0.2 %.
 pub fn force_ratio(chi: f64) -> f64 {
     1.0 + chi * (1.114_94 + chi * (1.438_65 + chi * (2.261_61 - chi * 0.693_33)))
 }
@@ -22,7 +22,7 @@ pub fn radius_ratio(chi: f64) -> f64 {
     1.0 + chi * (0.462_41 + chi * (0.081_44 - chi * 0.128_73))
 }
 
-/// ψ_t: tangential stiffness relative to that of a half-space, (16/9) a E; within 10⁻⁴ up to χ = 1.
+/// ψ_t: tangential stiffness relative to a half-space, (16/9) a E; within 10⁻⁴ up to χ = 1.
 pub fn shear_ratio(chi: f64) -> f64 {
     1.0 + chi * (0.438_59 + chi * (0.215_72 - chi * 0.055_95))
 }

@@ -250,7 +250,7 @@ mod tests {
             };
             for (fine, coarse) in fine.iter().zip(&coarse) {
                 let fine = f64::from(u16::from_le_bytes(*fine)) / 256.0;
-                // Rounding error of one half, plus that of the finer quantisation.
+                // Rounding error of one half, plus the rounding error of the finer quantisation.
                 let off = (fine.min(255.0) - f64::from(*coarse)).abs();
                 assert!(off <= 0.5 + 1.0 / 256.0, "{model}: {fine} {coarse}");
             }

@@ -218,7 +218,7 @@ impl Scene {
         }
     }
 
-    /// Shades the pixels of a row of the frame. `press` adds its slopes to those of the untouched gel.
+    /// Shades the pixels of a row of the frame. `press` adds its slopes to the slopes of the untouched gel.
     #[inline(always)]
     fn shade(
         &self,

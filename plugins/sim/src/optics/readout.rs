@@ -19,7 +19,7 @@ pub(super) struct Readout {
     pub(super) read_variance: f32,
     /// Counts per DN: 1 for 8 bits, 256 for 16 bits.
     pub(super) counts_per_dn: f32,
-    /// Greatest count.
+    /// Maximum count.
     pub(super) full_counts: f32,
 }
 

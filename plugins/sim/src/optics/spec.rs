@@ -90,7 +90,7 @@ impl OpticsSpec {
     /// Optics of the sensor with `parameters`. A dome is a ViTacTip, and a layer with a lattice is a MagicTac. Any other layer is a GelSight, with
     /// markers if it has them.
     ///
-    /// The longer side of the frame is that of the gel. The frame of a dome is cropped to a square.
+    /// The longer side of the frame equals the longer side of the gel. The frame of a dome is cropped to a square.
     pub fn new(parameters: &Parameters) -> OpticsSpec {
         let camera = &parameters.camera;
         let [longer, shorter] = {

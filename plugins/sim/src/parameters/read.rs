@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::{ParameterError, ParameterErrorKind};
 use super::section::{Entry, Origin, Row, Section};
 
-/// Greatest length of a table, bytes. Typical tables have some thousand.
+/// Maximum length of a table, bytes. Typical tables have some thousand.
 const LENGTH_MAX: usize = 1 << 20;
 
 /// A table being parsed.

@@ -18,7 +18,7 @@ section! {
 }
 
 impl Layer {
-    /// Greatest depth for which the force law is valid with a ball of `radius_mm`, mm.
+    /// Maximum depth for which the force law is valid with a ball of `radius_mm`, mm.
     pub(super) fn greatest_depth_mm(thickness_mm: f64, radius_mm: f64) -> f64 {
         (layer::CHI_MAX * thickness_mm).powi(2) / radius_mm
     }
@@ -81,11 +81,11 @@ section! {
         half_width_mm: "mm", 0.5 ..= 250.0;
         /// Half the height of the probed surface; its radius on a dome.
         half_height_mm: "mm", 0.5 ..= 250.0;
-        /// Least travel after contact.
+        /// Minimum travel after contact.
         depth_min_mm: "mm", 0.0 ..= 50.0;
-        /// Greatest travel after contact.
+        /// Maximum travel after contact.
         depth_max_mm: "mm", 0.01 ..= 50.0;
-        /// Greatest shear along x and along y.
+        /// Maximum shear along x and along y.
         shear_max_mm: "mm", 0.0 ..= 50.0;
         /// Normal force that ends a press.
         force_max_n: "N", 0.01 ..= 1000.0;
@@ -199,13 +199,13 @@ section! {
     Transducer, "transducer", {
         /// Standard deviation of a reading, after averaging.
         noise_n: "N", 0.0 ..= 10.0;
-        /// Standard deviation of the zero between points.
+        /// Standard deviation of the zero offset between points.
         point_drift_n: "N", 0.0 ..= 10.0;
-        /// Standard deviation of the zero between presses.
+        /// Standard deviation of the zero offset between presses.
         press_drift_n: "N", 0.0 ..= 10.0;
-        /// Greatest fraction of one component that appears in another.
+        /// Maximum fraction of one component that appears in another.
         cross_talk: "1", 0.0 ..= 0.2;
-        /// Greatest measurable force.
+        /// Maximum measurable force.
         range_n: "N", 0.1 ..= 100000.0;
     }
 }

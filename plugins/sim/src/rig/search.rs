@@ -15,7 +15,7 @@ pub struct Touch {
     pub steps: u32,
 }
 
-/// Greatest number of steps of a search.
+/// Maximum number of steps of a search.
 const STEPS_MAX: u32 = 200;
 
 /// Searches from a random phase above the surface. `force_n` gives the true force at a depth, and `error_n` the error of the transducer at a step.

@@ -1,4 +1,4 @@
-//! A rig on wall-clock time: the gel is in the same state whether the robot moves in one call or in slices of a millisecond.
+//! A rig on wall-clock time: the gel is in the same state after one call and after calls of a millisecond each.
 
 use std::time::Duration;
 

@@ -65,7 +65,7 @@ pub(crate) fn tag(source: &dyn ByteSource, place: Place) -> Result<Tag, Problem>
         return Err(Problem::damaged(
             place.at,
             format!("an element of {length} bytes"),
-            format!("an end before byte {}", source.length()),
+            format!("an element that ends by byte {}", source.length()),
         ));
     }
     Ok(Tag {

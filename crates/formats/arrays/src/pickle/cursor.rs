@@ -5,7 +5,7 @@ use crate::source::{ByteSource, bytes_of};
 
 const WINDOW_BYTES: u64 = 64 << 10;
 
-/// Position of the reader.
+/// Reader with its position.
 #[derive(Debug)]
 pub(crate) struct Cursor<'a> {
     source: &'a dyn ByteSource,

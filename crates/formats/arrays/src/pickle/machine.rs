@@ -135,7 +135,7 @@ impl Machine<'_> {
     fn again(&mut self, id: Id) -> Result<(), Problem> {
         if self.stack.len() as u64 >= limits::PICKLED_VALUES {
             return Err(Problem::too_large(
-                "values of one step of the pickle",
+                "values on the stack of the pickle",
                 self.stack.len() as u64 + 1,
                 limits::PICKLED_VALUES,
             ));

@@ -31,15 +31,15 @@ fn open(
 fn globals_beyond_numpy_are_refused_by_name_with_what_to_do() {
     let evil = refused("evil.pkl");
     assert!(
-        evil.contains("wants `posix.system`, which is not run here"),
+        evil.contains("needs `posix.system`, which is not run here"),
         "{evil}"
     );
     assert!(!PathBuf::from("/tmp/pickle-was-executed").exists());
     let exec = refused("exec.pkl");
-    assert!(exec.contains("wants `builtins.exec`"), "{exec}");
+    assert!(exec.contains("needs `builtins.exec`"), "{exec}");
     let table = refused("dataframe.pkl");
     assert!(
-        table.contains("wants `pandas.") && table.contains("to_csv('table.csv', index=False)"),
+        table.contains("needs `pandas.") && table.contains("to_csv('table.csv', index=False)"),
         "{table}"
     );
     for protocol in [0, 1] {
@@ -171,13 +171,13 @@ fn an_object_array_goes_through_the_same_machine() {
     assert!(
         tables
             .to_string()
-            .contains("wants `copyreg._reconstructor`"),
+            .contains("needs `copyreg._reconstructor`"),
         "{tables}"
     );
     let tables = open(b"\x80\x02]q\0cpandas.core.frame\nDataFrame\n.").expect_err("a table");
     let message = tables.to_string();
     assert!(
-        message.contains("wants `pandas.core.frame.DataFrame`"),
+        message.contains("needs `pandas.core.frame.DataFrame`"),
         "{message}"
     );
     assert!(
@@ -185,7 +185,7 @@ fn an_object_array_goes_through_the_same_machine() {
         "{message}"
     );
     let evil = open(b"\x80\x02cposix\nsystem\nX\x04\0\0\0true\x85R.").expect_err("a program");
-    assert!(evil.to_string().contains("wants `posix.system`"), "{evil}");
+    assert!(evil.to_string().contains("needs `posix.system`"), "{evil}");
     // A dictionary in it: {"a": [1, 2]}.
     let read = open(b"\x80\x02}X\x01\0\0\0a]K\x01aK\x02as.").expect("a dictionary");
     assert_eq!(read.names(), ["a"]);

@@ -28,7 +28,7 @@ pub struct Feature {
     pub shape: Vec<u64>,
     /// Names of the numbers, in order; empty if not stated.
     pub names: Vec<String>,
-    /// Frame rate of a video, 1/s: its own if stated, else that of the dataset. For other features without a dataset rate: 0.
+    /// Frame rate of a video, 1/s: its own if stated, else the rate of the dataset. For other features without a dataset rate: 0.
     pub fps: f64,
     /// True for a depth map. Its 12-bit codes are distances, not brightness.
     pub is_depth: bool,

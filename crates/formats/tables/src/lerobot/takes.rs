@@ -28,7 +28,7 @@ pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
         false => Vec::new(),
     };
     let mut takes: BTreeMap<u64, Take> = BTreeMap::new();
-    // First row whose time is not after that of the previous row of its episode.
+    // First row with a time not after the previous row of its episode.
     let mut again: Option<(u64, u64)> = None;
     for (row, episode) in episodes.iter().enumerate() {
         let Cell::Integer(episode) = episode else {

@@ -86,7 +86,7 @@ impl LeRobotWriter {
     /// Creates a dataset in the empty folder `folder`, for the robot `robot`, with `rate_hz` frames per second.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if a feature has the name of one of LeRobot's own columns or a name with `/`, or if the rate is not above 0.
+    /// [`TableError::Mismatch`] if a feature has the name of a LeRobot column or a name with `/`, or if the rate is not above 0.
     /// [`TableError::Write`].
     pub fn create(
         folder: &Path,

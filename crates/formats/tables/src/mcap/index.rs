@@ -38,7 +38,7 @@ pub(super) fn index(
             return Err(source.damaged(Place::of("summary"), problem));
         }
     }
-    // Locations are unique, so this order equals that of a stable sort, without its memory.
+    // Locations are unique, so this order equals a stable sort, without its memory.
     entries
         .sort_unstable_by_key(|entry| (entry.log_time, entry.chunk.unwrap_or(entry.at), entry.at));
     Ok(entries)
@@ -105,7 +105,7 @@ fn gather(
     Ok(entries)
 }
 
-/// Indexes the messages of the chunk at `chunk`, which has no index of its own.
+/// Indexes the messages of the chunk at `chunk`, which has no index.
 fn scan(
     source: &Source,
     chunks: &mut Chunks<'_>,

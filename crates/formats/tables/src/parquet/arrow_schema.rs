@@ -69,7 +69,7 @@ fn name_units(field: Table<'_>, node: &mut Node) {
     }
 }
 
-/// Unit of a duration field. The default is that of the format.
+/// Unit of a duration field. Default: the unit of the format.
 fn duration(field: Table<'_>) -> Option<&'static str> {
     let unit = field.table(3)?.short(0).unwrap_or(1);
     ["s", "ms", "us", "ns"].get(usize::from(unit)).copied()

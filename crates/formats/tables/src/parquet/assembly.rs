@@ -1,4 +1,4 @@
-//! Assembly of rows from leaves. The levels of each entry tell whether a list begins, continues, is empty or is null.
+//! Assembly of rows from leaves. The levels of each entry mark the beginning, continuation, emptiness or absence of a list.
 
 use parquet::file::metadata::RowGroupMetaData;
 

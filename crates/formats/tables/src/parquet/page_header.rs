@@ -1,6 +1,6 @@
 //! Header of a page: a structure in the compact protocol of Thrift. Only the fields that a reader needs are kept.
 //!
-//! Field and type numbers are those of `parquet.thrift`, version 2.12. Statistics, which may contain two whole pictures, are skipped.
+//! Field and type numbers are from `parquet.thrift`, version 2.12. Statistics, which may contain two whole pictures, are skipped.
 
 use std::io::{BufRead, Read};
 

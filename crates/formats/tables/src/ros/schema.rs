@@ -1,6 +1,5 @@
-//! Message definitions in the language of `.msg` files, as ROS 2 writes them into recordings.
-//!
-//! The message itself comes first, then the messages that it uses. Each follows a line of `=` and a line `MSG: package/Name`.
+//! Message definitions in the language of `.msg` files, as ROS 2 writes them into recordings. The message itself comes first, then the
+//! messages that it uses. Each follows a line of `=` and a line `MSG: package/Name`.
 
 use std::collections::BTreeMap;
 

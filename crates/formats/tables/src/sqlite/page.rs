@@ -44,7 +44,7 @@ impl<'a> Pages<'a> {
     pub(super) fn read(&mut self, number: u32) -> Result<Vec<u8>, TableError> {
         let database = self.database;
         if number == 0 || number > database.pages {
-            let problem = format!("page {number}, of {}", database.pages);
+            let problem = format!("no page {number}, there are {}", database.pages);
             return Err(database.source.damaged(Place::default(), problem));
         }
         let bytes = u64::from(database.page_bytes);

@@ -97,7 +97,7 @@ pub(super) fn walk(
             other => {
                 return Err(pages.damaged(
                     number,
-                    format!("of kind {other}, expected a page of a table"),
+                    format!("the page has kind {other}, expected a table page"),
                 ));
             }
         }

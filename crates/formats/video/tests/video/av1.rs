@@ -1,4 +1,4 @@
-//! Tests of AV1 in a confined child. Luma equals that of libdav1d. A child that dies gives an error with the name of the clip.
+//! Tests of AV1 in a confined child. Luma equals the luma of libdav1d. A child that dies gives an error with the name of the clip.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

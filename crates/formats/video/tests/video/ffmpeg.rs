@@ -1,4 +1,4 @@
-//! Tests of an external ffmpeg. Luma from raw frames equals that of the peer. Damage is an error.
+//! Tests of an external ffmpeg. Luma from raw frames equals the luma of the peer. Damage is an error.
 
 mod odd_clips;
 use std::path::{Path, PathBuf};

@@ -60,7 +60,7 @@ struct Round<'a> {
 
 /// True if the weights of `rows` rows exceed the cache share of a machine with wide tiles.
 ///
-/// Always computed for at most four panels, so that the division of work depends on shapes alone.
+/// Always computed for at most four panels, so that the division of work depends only on shapes.
 pub(crate) fn are_weights_many(rows: usize, panels: usize) -> bool {
     rows * panels.min(4) * PANEL * size_of::<f32>() > WEIGHTS_AT_ONCE
 }

@@ -20,10 +20,10 @@ use crate::team;
 /// Pixels per task of a thread: enough to amortise reading the weights.
 const PIXELS_AT_ONCE: usize = 384;
 
-/// Fewest pictures for which the border is skipped: the rows of a tile of sums.
+/// Minimum number of pictures for which the border is skipped: the rows of a tile of sums.
 const IMAGES_WORTH_CLASSES: usize = 6;
 
-/// Most pixels of a tile of sums.
+/// Maximum number of pixels of a tile of sums.
 pub(super) const ROWS: usize = 6;
 
 /// Forward pass, prepared for pictures of one layout.
@@ -45,7 +45,7 @@ pub(super) struct Class {
 }
 
 impl Forward {
-    /// Pass of `convolution` from pictures of layout `input` to those of layout `output`.
+    /// Pass of `convolution` from pictures of layout `input` to pictures of layout `output`.
     pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> Forward {
         let layouts = (input, output);
         let (height, width) = (output.picture.height, output.picture.width);

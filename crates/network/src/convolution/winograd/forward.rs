@@ -22,7 +22,7 @@ pub(crate) struct Forward {
 }
 
 impl Forward {
-    /// Pass from pictures of layout `input` to those of layout `output`.
+    /// Pass from pictures of layout `input` to pictures of layout `output`.
     pub(crate) fn new(input: Layout, output: Layout) -> Forward {
         Forward {
             products: Products::new(input, output),

@@ -60,7 +60,7 @@ pub(super) struct Products {
 }
 
 impl Products {
-    /// Products from pictures of layout `input` to those of layout `output`.
+    /// Products from pictures of layout `input` to pictures of layout `output`.
     pub(super) fn new(input: Layout, output: Layout) -> Products {
         Products {
             input,

@@ -106,7 +106,7 @@ impl<'a> Divided<'a> {
         team::divide(stretches, |part| self.part(machine, part, rooms));
     }
 
-    /// Divides by panels: each part writes its own buffer, and the buffers are gathered.
+    /// Divides the work by panels. Each part writes its own buffer, and the buffers are gathered.
     fn by_panels(
         self,
         machine: Machine,

@@ -29,7 +29,7 @@ fn case(channels: (usize, usize), (height, width): (usize, usize), batch: usize)
     }
 }
 
-/// Root mean square error relative to that of the expected values.
+/// Root mean square error relative to the root mean square of the expected values.
 fn error(found: &[f32], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let squares: f64 = expected.iter().map(|value| value * value).sum();

@@ -16,7 +16,7 @@ use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// Fewest pieces in memory at once.
+/// Minimum number of pieces in memory at once.
 const PIECES_AT_ONCE: usize = 4;
 
 /// Bytes of pieces in memory at once, if this allows more than [`PIECES_AT_ONCE`].

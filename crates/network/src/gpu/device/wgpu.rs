@@ -46,8 +46,8 @@ pub(crate) fn find() -> Result<Device, GpuError> {
 const fn looked_for(backend: Backend) -> &'static str {
     match backend {
         Backend::Vulkan => "a Vulkan driver (libvulkan and a file in vulkan/icd.d)",
-        Backend::Metal => "a device of Metal",
-        Backend::Dx12 => "a device of DirectX 12",
+        Backend::Metal => "a Metal device",
+        Backend::Dx12 => "a DirectX 12 device",
         _ => "a graphics adapter",
     }
 }

@@ -45,7 +45,7 @@ messages! {
 
     /// Message of the host while a model is made.
     #[derive(Clone, Debug, PartialEq)]
-    enum ModelWord: "a word about a fit" {
+    enum ModelWord: "a message about a fit" {
         0 => Cancel {},
     }
 

@@ -83,9 +83,9 @@ pub(super) fn describe(
     ])
 }
 
-/// Greatest number of a unit.
+/// Maximum unit number.
 const UNITS: i64 = 1_000_000;
-/// Greatest reduction.
+/// Maximum reduction.
 const REDUCTIONS: i64 = 64;
 /// Approximate default length of the longer side of a frame, pixels.
 const LONGER_SIDE: u32 = 160;

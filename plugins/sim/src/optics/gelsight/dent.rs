@@ -17,7 +17,7 @@ pub(super) struct Dent {
     pub(super) reach: f32,
 }
 
-/// Least visible slope. It changes the light by about 0.1 DN, less than the noise of the smallest frames.
+/// Minimum visible slope. It changes the light by about 0.1 DN, less than the noise of the smallest frames.
 const LEAST_SLOPE: f64 = 1e-3;
 
 impl Default for Dent {

@@ -57,7 +57,7 @@ impl GelsightSpec {
             colour_dn: colour.map(|dn| dn * brightness),
         };
         let surface = &parameters.surface;
-        // Beside the picture, for any picture size.
+        // Lamp positions beside the picture, for any picture size.
         let [side, end] = [0.5 * surface.width_mm + 4.85, 0.5 * surface.height_mm + 4.7];
         GelsightSpec {
             thickness_mm: layer.thickness_mm,

@@ -29,7 +29,7 @@ pub(super) struct Moved {
     pub(super) wetting: f32,
 }
 
-/// Least visible shift, mm: a fiftieth of a pixel of the smallest useful frame (0.2 mm).
+/// Minimum visible shift, mm: a fiftieth of a pixel of the smallest useful frame (0.2 mm).
 const LEAST_MM: f64 = 0.004;
 /// Outer part of the reach over which the effect fades.
 const FADE: f64 = 0.2;
@@ -56,7 +56,7 @@ impl Default for Shift {
 }
 
 impl Shift {
-    /// Computes the displacements of the three layers under `load`. The slope of the surface is that of the first layer.
+    /// Computes the displacements of the three layers under `load`. The slope of the surface is the slope of the first layer.
     pub(super) fn take(&mut self, load: &Load, profiles: &[Profile; 3], wetting: f64) {
         [self.x, self.y] = load.centre_mm.map(narrow);
         self.shear = load.shear_direction().map(narrow);

@@ -75,7 +75,7 @@ pub(super) fn displaced(
     })
 }
 
-/// Least apparent contact radius, mm. The thickness of the skin hides smaller contacts.
+/// Minimum apparent contact radius, mm. The thickness of the skin hides smaller contacts.
 const LEAST_RADIUS_MM: f64 = 0.3;
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

@@ -56,7 +56,7 @@ pub(super) const ALWAYS: &[i64] = &[
     libc::SYS_sched_yield,
     libc::SYS_set_robust_list,
     libc::SYS_set_tid_address,
-    // Time.
+    // Clocks.
     libc::SYS_clock_getres,
     libc::SYS_clock_gettime,
     libc::SYS_clock_nanosleep,
@@ -141,6 +141,6 @@ pub(super) const PROCESS_CONTROLS: &[i32] = &[
     libc::PR_GET_DUMPABLE,
     libc::PR_GET_PDEATHSIG,
     libc::PR_GET_NO_NEW_PRIVS,
-    // Already set; adding a filter sets it again.
+    // Already set. Adding a filter sets it again.
     libc::PR_SET_NO_NEW_PRIVS,
 ];
