@@ -115,6 +115,7 @@ fn is_read(python: &Path, dataset: &Dataset, (form, reader): (ExportForm, &str))
         "repeat",
         "phase",
         "limited_by",
+        "zero_u_mm",
         "part",
         "kind",
         "spacing_mm",
