@@ -36,16 +36,18 @@ impl Tip<'_> {
     }
 
     /// After a halt at a limit: moves straight up by segments until the tip may rest, at most to the height of the first contact. Then
-    /// resumes the supervision of the press.
+    /// resumes the supervision of the press, whose depths count from `height_mm`.
     pub(super) fn draw_back(&mut self, height_mm: f64) -> Step<()> {
+        let contact_mm = self.contact_mm.unwrap_or(height_mm);
         self.turn_back()?;
         loop {
             let Point { x, y, z } = self.here().position;
-            let up = (z.0 - self.pace.segment_mm).max(height_mm);
+            // A waypoint may lie above the first contact.
+            let up = (z.0 - self.pace.segment_mm).max(contact_mm).min(z.0);
             self.approach([x.0, y.0, up])?;
             let wrench = self.look()?.wrench;
             let depth_mm = self.at.position.z.0 - height_mm;
-            if up <= height_mm || self.supervisor.lock().lets_rest(depth_mm, &wrench) {
+            if up <= contact_mm || self.supervisor.lock().lets_rest(depth_mm, &wrench) {
                 break;
             }
         }
