@@ -31,3 +31,28 @@ fn a_column_of_unit_one_is_named_with_the_channel_that_it_may_be() {
          grip: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1; to state its unit, give --units grip=UNIT"
     );
 }
+
+#[test]
+fn depths_state_the_uncertainty_of_their_zero_and_how_many_have_none() {
+    let note = |without| {
+        let note = Note::DepthZeros {
+            recording: Some("lab".to_owned()),
+            median_mm: 0.004_4,
+            most_mm: 0.012,
+            without,
+            of: 480,
+        };
+        note.to_string()
+    };
+    assert_eq!(
+        note(0),
+        "lab: Pz counts from the surface of the gel, fitted for each press: standard uncertainty 0.004 mm (median), at most 0.012 mm"
+    );
+    let some = note(3);
+    assert!(
+        some.ends_with(
+            "; 3 of 480 samples count from the first reading in contact, with unknown uncertainty"
+        ),
+        "{some}"
+    );
+}
