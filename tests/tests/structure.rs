@@ -7,7 +7,7 @@ use taceva_tests::structure::{
 };
 
 /// Most lines of product code, and of all `.rs` files: readers of SQLite, bags, Arrow and protobuf, and angles, cost 6,000 and 11,000 of them.
-const MOST_LINES: (usize, usize) = (203_700, 386_900);
+const MOST_LINES: (usize, usize) = (204_153, 387_944);
 
 /// Most lines of one file, with its comments and tests.
 const MOST_LINES_OF_A_FILE: usize = 400;
